@@ -1,0 +1,1 @@
+"""The judge: what an answer is worth, decided without the solver that gave it."""

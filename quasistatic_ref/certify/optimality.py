@@ -1,0 +1,69 @@
+"""The optimality conditions (9)-(12) as residuals: an independent judge of any answer.
+
+Nothing here knows which solver, or which road to it, gave the answer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.standard_form import standard_form
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Largest violation of each optimality condition, in the units of the step judged.
+
+    Parameters
+    ----------
+    stationarity : float
+        Eq. (9), as mended: H delta_q - g - sum_j A_j' lam_j = 0.
+    primal : float
+        Eq. (10): A delta_q >= b.
+    dual : float
+        Eq. (11): lam >= 0.
+    complementarity : float
+        Eq. (12): (A delta_q - b) o lam = 0.
+    """
+
+    stationarity: float
+    primal: float
+    dual: float
+    complementarity: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the four; NaN if any of them is."""
+        return float(np.max(list(asdict(self).values())))
+
+
+def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
+    """Residuals of Eqs. (9)-(12) at an answer.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+    lam : ndarray, shape (m,)
+        Multipliers, contact-major, the user's own rows last.
+
+    Returns
+    -------
+    Residuals
+    """
+    h, n_a = step.h, step.n_a
+    A, b = (form := standard_form(step)).A, form.b
+    delta_q_a, delta_q_u = delta_q[:n_a], delta_q[n_a:]
+    actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
+    unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
+    balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
+    slack = A @ delta_q - b
+    return Residuals(
+        stationarity=float(np.abs(balance).max(initial=0.0)),
+        primal=float(np.maximum(-slack, 0.0).max(initial=0.0)),  # Eq. (10)
+        dual=float(np.maximum(-lam, 0.0).max(initial=0.0)),  # Eq. (11)
+        complementarity=float(np.abs(slack * lam).max(initial=0.0)),  # Eq. (12)
+    )

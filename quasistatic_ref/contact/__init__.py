@@ -1,0 +1,1 @@
+"""Where bodies touch: signed distances, closest points and contact Jacobians."""

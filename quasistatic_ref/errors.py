@@ -1,0 +1,146 @@
+"""Everything that can go wrong, under one root.
+
+Two families matter to a caller: :class:`InputError` (something given is not usable; exit
+status 2) and :class:`StepNotSolved` (a well-formed step got no trustworthy answer; exit
+status 3). Each message is one plain sentence; each object carries the data behind it.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from quasistatic_ref.certify.optimality import Residuals
+    from quasistatic_ref.step.data import StepData
+
+
+class QuasistaticError(Exception):
+    """Root of every error that this package raises on purpose."""
+
+
+class InputError(QuasistaticError):
+    """Something given by the user cannot be used.
+
+    Parameters
+    ----------
+    problem : str
+        What is wrong and what would be right, as the end of a sentence.
+    field : str, optional
+        Name of the offending field, e.g. ``contacts.grip.mu_v``.
+    value : object, optional
+        The offending value.
+    file : str or Path, optional
+        The file that it stands in.
+    """
+
+    def __init__(
+        self,
+        problem: str,
+        *,
+        field: str | None = None,
+        value: Any = None,
+        file: str | Path | None = None,
+    ) -> None:
+        self.problem, self.field, self.value, self.file = problem, field, value, file
+        super().__init__(problem)
+
+    def __str__(self) -> str:
+        where = f"{self.file}: " if self.file is not None else ""
+        what = f"{self.field}: " if self.field is not None else ""
+        got = f" (got {_short(self.value)})" if self.value is not None else ""
+        return f"{where}{what}{self.problem}{got}"
+
+    def in_file(self, file: str | Path) -> InputError:
+        """Return the same error, saying which file it is about (unless it says so already)."""
+        if self.file is None:
+            self.file = file
+        return self
+
+
+class StepDataError(InputError):
+    """The numbers of a step are not usable: wrong shape, not finite, H not positive definite."""
+
+
+class ModelError(InputError):
+    """A URDF, or a coordinate of it, is not usable."""
+
+
+class ContactError(InputError):
+    """A contact pair is not usable, or its distance has no trustworthy normal."""
+
+
+class ScenarioError(InputError):
+    """A scenario contradicts itself or names something that does not exist."""
+
+
+class BackendError(InputError):
+    """The solver asked for is unknown or not installed."""
+
+
+class StepNotSolved(QuasistaticError):
+    """A solver gave no answer that can be trusted.
+
+    Carries everything that is needed to replay the step.
+
+    Parameters
+    ----------
+    backend : str
+        Name in the table of backends.
+    status : str
+        What the solver said, or why its answer was not taken.
+    step : StepData
+        The step in SI units, as given.
+    accuracy : float
+        The accuracy that was asked for, in natural units [-].
+    residuals : Residuals, optional
+        Residuals of the refused answer, where there was one.
+    """
+
+    def __init__(
+        self,
+        backend: str,
+        status: str,
+        step: StepData,
+        accuracy: float,
+        residuals: Residuals | None = None,
+    ) -> None:
+        self.backend, self.status, self.step = backend, status, step
+        self.accuracy, self.residuals = accuracy, residuals
+        super().__init__(
+            f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
+            "try another backend, or look at the step itself"
+        )
+
+
+class RunFailed(QuasistaticError):
+    """A simulation ended early; the steps before the failure are kept.
+
+    Parameters
+    ----------
+    reason : str
+        One sentence.
+    trajectory : Trajectory
+        The steps that were completed, marked with the reason.
+    step : StepData, optional
+        The step that failed.
+    """
+
+    def __init__(self, reason: str, trajectory: Any, step: StepData | None = None) -> None:
+        self.reason, self.trajectory, self.step = reason, trajectory, step
+        super().__init__(reason)
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'? Known: ..."`` for an unknown name."""
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    return f"{hint or ';'} known: {', '.join(names) or 'none'}"
+
+
+def _short(value: Any, limit: int = 80) -> str:
+    text = " ".join(repr(value).split())
+    return text if len(text) <= limit else text[: limit - 3] + "..."

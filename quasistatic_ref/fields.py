@@ -1,0 +1,157 @@
+"""Reading the named fields of a JSON object or a TOML table, with plain errors.
+
+A reader takes each field once, checks it, and refuses in :meth:`Fields.close` whatever was
+not asked for: a misspelt name is an error, never a default.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final, TypeVar
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, suggestion
+
+REQUIRED: Final[Any] = object()
+E = TypeVar("E", bound=InputError)
+
+
+class Fields:
+    """The fields of one table.
+
+    Parameters
+    ----------
+    table : object
+        What the parser returned; anything but a mapping is refused.
+    where : str
+        Dotted name of the table itself, ``""`` at the top.
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
+    """
+
+    def __init__(self, table: Any, where: str = "", error: type[InputError] = InputError) -> None:
+        self.where, self.error = where, error
+        if not isinstance(table, dict):
+            raise error("must be a table of named fields", field=where or None, value=table)
+        self._left: dict[str, Any] = dict(table)
+        self._known: set[str] = set()
+
+    def name(self, field: str) -> str:
+        """Return the full dotted name of a field."""
+        return f"{self.where}.{field}" if self.where else field
+
+    def fail(self, field: str, problem: str, value: Any = None) -> InputError:
+        """Return (not raise) the error about one field."""
+        return self.error(problem, field=self.name(field), value=value)
+
+    def take(self, field: str, default: Any = REQUIRED) -> Any:
+        """Return a field as parsed; a missing one is the default, or an error."""
+        self._known.add(field)
+        if field in self._left:
+            return self._left.pop(field)
+        if default is REQUIRED:
+            raise self.fail(field, "is missing")
+        return default
+
+    def __contains__(self, field: str) -> bool:
+        return field in self._left
+
+    def names(self) -> list[str]:
+        """Return the names of the fields not yet taken, in file order."""
+        return list(self._left)
+
+    def number(
+        self,
+        field: str,
+        default: Any = REQUIRED,
+        *,
+        above: float | None = None,
+        least: float | None = None,
+    ) -> float:
+        """Return a finite number, greater than `above` and at least `least`."""
+        value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.fail(field, "must be a number", value)
+        try:
+            number = float(value)
+        except OverflowError:
+            number = float("inf")
+        if not np.isfinite(number):
+            raise self.fail(field, "must be a finite number", value)
+        if above is not None and not number > above:
+            raise self.fail(field, f"must be greater than {above:g}", value)
+        if least is not None and not number >= least:
+            raise self.fail(field, f"must be at least {least:g}", value)
+        return number
+
+    def integer(self, field: str, default: Any = REQUIRED, *, least: int | None = None) -> int:
+        """Return a whole number, at least `least`."""
+        value = self.take(field, default)
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise self.fail(field, "must be a whole number", value)
+        if least is not None and value < least:
+            raise self.fail(field, f"must be at least {least}", value)
+        return value
+
+    def boolean(self, field: str, default: Any = REQUIRED) -> bool:
+        """Return true or false."""
+        value = self.take(field, default)
+        if not isinstance(value, bool):
+            raise self.fail(field, "must be true or false", value)
+        return value
+
+    def text(
+        self, field: str, default: Any = REQUIRED, choices: tuple[str, ...] | None = None
+    ) -> str:
+        """Return a string, one of `choices` where they are given."""
+        value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
+        if not isinstance(value, str):
+            raise self.fail(field, "must be a string", value)
+        if choices is not None and value not in choices:
+            raise self.fail(field, f"is not a choice{suggestion(value, choices)}", value)
+        return value
+
+    def array(
+        self, field: str, shape: tuple[int | None, ...], default: Any = REQUIRED
+    ) -> np.ndarray:
+        """Return finite numbers of the given shape (None: any length) as float64."""
+        value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
+        wanted = " x ".join("any" if s is None else str(s) for s in shape)
+        try:
+            array = np.array(value, dtype=object)
+            if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
+                raise self.fail(field, f"must hold numbers only ({wanted})", value)
+            numbers = array.astype(np.float64)
+        except (ValueError, OverflowError, TypeError):
+            raise self.fail(field, f"must be {wanted} finite numbers", value) from None
+        if numbers.size == 0 and 0 in shape:
+            numbers = numbers.reshape([s or 0 for s in shape])
+        if numbers.ndim != len(shape) or any(
+            s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
+        ):
+            raise self.fail(field, f"must be {wanted} numbers", value)
+        if not np.isfinite(numbers).all():
+            raise self.fail(field, "must hold finite numbers only", value)
+        return numbers
+
+    def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
+        """Return a list."""
+        value = self.take(field, default)
+        if not isinstance(value, list):
+            raise self.fail(field, "must be a list", value)
+        return value
+
+    def table(self, field: str, default: Any = REQUIRED) -> Fields:
+        """Return a nested table."""
+        return Fields(self.take(field, default), self.name(field), self.error)
+
+    def close(self) -> None:
+        """Refuse every field that was never asked for."""
+        for field, value in self._left.items():
+            raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)

@@ -1,0 +1,1 @@
+"""Figures with matplotlib, which is imported in this room only."""

@@ -1,0 +1,1 @@
+"""Steps in sequence: scenarios, targets, the simulator and its trajectories."""

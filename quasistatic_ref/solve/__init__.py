@@ -1,0 +1,1 @@
+"""Asking a solver for the answer of a step."""

@@ -1,0 +1,1 @@
+"""One step of the model: plain arrays in, plain arrays out. No robotics stack."""

@@ -1,0 +1,264 @@
+"""One step of the model as data: what every implementation must agree on before solving.
+
+Conventions: coordinates are in the paper's order, q = [q_a; q_u]; positions, normals and
+tangents are in the world frame; SI units. The JSON form is version 1 of ``quasistatic-ref/step``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
+
+Array = NDArray[np.float64]
+CONES = ("pyramid",)
+ROWS = (4, 6)
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """The contact points of one step.
+
+    Parameters
+    ----------
+    name : tuple of str, length n_c
+        A name for each contact, for messages.
+    phi : ndarray, shape (n_c,)
+        Signed distance [m], negative in penetration.
+    n, d1, d2 : ndarray, shape (n_c, 3)
+        Unit normal from alpha's body to beta's, and the tangents: {d1, d2, n} is dextral; world.
+    J : ndarray, shape (n_c, 4, n_v)
+        Contact Jacobian, Eq. (3): rows 0-2 the velocity of beta relative to alpha in the world
+        frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.
+    mu_v : ndarray, shape (n_c,)
+        Tangential friction coefficient [-], >= 0.
+    mu_omega : ndarray, shape (n_c,)
+        Torsional friction coefficient, a length [m], >= 0.
+    rows : ndarray of int, shape (n_c,)
+        6, or 4 for a contact without torsional rows.
+
+    Raises
+    ------
+    StepDataError
+        If a shape, a sign or a frame is wrong, or a number is not finite.
+    """
+
+    name: tuple[str, ...]
+    phi: Array
+    n: Array
+    d1: Array
+    d2: Array
+    J: Array
+    mu_v: Array
+    mu_omega: Array
+    rows: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        n_c = len(self.name)
+        n_v = np.shape(self.J)[-1] if np.ndim(self.J) == 3 else -1
+        shapes = {"phi": (n_c,), "n": (n_c, 3), "d1": (n_c, 3), "d2": (n_c, 3)}
+        shapes |= {"J": (n_c, 4, n_v), "mu_v": (n_c,), "mu_omega": (n_c,)}
+        for key, shape in shapes.items():
+            _freeze(self, key, shape, "contacts")
+        rows = np.array(self.rows)
+        if rows.shape != (n_c,) or not np.isin(rows, ROWS).all():
+            raise StepDataError(
+                "must be 4 or 6 for each contact", field="contacts.rows", value=rows
+            )
+        object.__setattr__(self, "rows", _read_only(rows.astype(np.int64)))
+        for key in ("mu_v", "mu_omega"):
+            bad = np.flatnonzero(getattr(self, key) < 0)
+            if bad.size:
+                at, value = self.name[bad[0]], float(getattr(self, key)[bad[0]])
+                raise StepDataError("must be >= 0", field=f"contacts[{at}].{key}", value=value)
+        frame = np.stack([self.d1, self.d2, self.n], axis=2)
+        defect = np.abs(np.swapaxes(frame, 1, 2) @ frame - np.eye(3)).max(axis=(1, 2), initial=0)
+        dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
+        bad = np.flatnonzero((defect > ORTHONORMAL) | ~dextral)
+        if bad.size:
+            raise StepDataError(
+                "d1, d2, n must be a right-handed orthonormal frame",
+                field=f"contacts[{self.name[bad[0]]}]",
+                value=frame[bad[0]].T.tolist(),
+            )
+
+    @property
+    def n_c(self) -> int:
+        """Number of contacts."""
+        return len(self.name)
+
+    @cached_property
+    def mask(self) -> NDArray[np.bool_]:
+        """Which of the six rows of each contact exist, shape (n_c, 6)."""
+        return np.arange(6) < self.rows[:, None]
+
+    @cached_property
+    def offsets(self) -> NDArray[np.int64]:
+        """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
+        return np.concatenate([[0], np.cumsum(self.rows)])
+
+
+@dataclass(frozen=True, eq=False)
+class Extra:
+    """Polyhedral rows of the user's own, A delta_q >= b.
+
+    Parameters
+    ----------
+    names : tuple of str, length m
+    A : ndarray, shape (m, n_v)
+    b : ndarray, shape (m,)
+    """
+
+    names: tuple[str, ...]
+    A: Array
+    b: Array
+
+    def __post_init__(self) -> None:
+        n_v = np.shape(self.A)[-1] if np.ndim(self.A) == 2 else -1
+        _freeze(self, "A", (len(self.names), n_v), "extra")
+        _freeze(self, "b", (len(self.names),), "extra")
+
+
+@dataclass(frozen=True, eq=False)
+class StepData:
+    """Everything that Eq. (13) needs.
+
+    Parameters
+    ----------
+    h : float
+        Time step [s], > 0.
+    K_q : ndarray, shape (n_a, n_a)
+        Joint stiffness [N/m, N m/rad], symmetric positive definite.
+    M_u : ndarray, shape (n_u, n_u)
+        Un-actuated block of the mass matrix [kg, kg m^2], symmetric positive definite.
+    tau_a : ndarray, shape (n_a,)
+        Generalised force on the actuated coordinates besides the stiffness [N, N m].
+    tau_u : ndarray, shape (n_u,)
+        Generalised force on the un-actuated coordinates [N, N m].
+    delta_q_bar_a : ndarray, shape (n_a,)
+        Desired change of the actuated coordinates [m, rad].
+    contacts : Contacts
+        The contact points considered.
+    cone : str
+        Friction cone; ``"pyramid"`` is the paper's.
+    extra : Extra
+        Further rows; none by default.
+
+    Raises
+    ------
+    StepDataError
+        If a shape is wrong, a number is not finite, or H is not positive definite.
+    """
+
+    h: float
+    K_q: Array
+    M_u: Array
+    tau_a: Array
+    tau_u: Array
+    delta_q_bar_a: Array
+    contacts: Contacts
+    cone: str = "pyramid"
+    extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.h) and self.h > 0):
+            raise StepDataError("must be a positive number of seconds", field="h", value=self.h)
+        object.__setattr__(self, "h", float(self.h))
+        if self.cone not in CONES:
+            raise StepDataError(f"must be one of {CONES}", field="cone", value=self.cone)
+        n_a, n_u = np.size(self.tau_a), np.size(self.tau_u)
+        if self.extra is None:
+            object.__setattr__(self, "extra", Extra((), np.zeros((0, n_a + n_u)), np.zeros(0)))
+        _freeze(self, "K_q", (n_a, n_a))
+        _freeze(self, "M_u", (n_u, n_u))
+        _freeze(self, "tau_a", (n_a,))
+        _freeze(self, "tau_u", (n_u,))
+        _freeze(self, "delta_q_bar_a", (n_a,))
+        for key in ("K_q", "M_u"):
+            object.__setattr__(self, key, _positive_definite(key, getattr(self, key)))
+        for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
+            if wide.shape[-1] != self.n_v:
+                raise StepDataError(
+                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=wide.shape
+                )
+
+    @property
+    def n_a(self) -> int:
+        """Number of actuated coordinates."""
+        return int(self.tau_a.size)
+
+    @property
+    def n_u(self) -> int:
+        """Number of un-actuated coordinates."""
+        return int(self.tau_u.size)
+
+    @property
+    def n_v(self) -> int:
+        """Number of coordinates of delta_q."""
+        return self.n_a + self.n_u
+
+    def replace(self, **changes: Any) -> StepData:
+        """Return a copy with some fields changed, validated anew."""
+        return replace(self, **changes)
+
+    def same_as(self, other: StepData) -> bool:
+        """Tell whether two steps hold the same numbers, bit for bit."""
+        return _same(self, other)
+
+
+def _read_only(array: NDArray[Any]) -> NDArray[Any]:
+    array.setflags(write=False)
+    return array
+
+
+def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
+    """Replace a field by a read-only float64 copy of the given shape, -0.0 becoming 0.0."""
+    name = f"{prefix}.{key}" if prefix else key
+    try:
+        array = np.array(getattr(owner, key), dtype=np.float64) + 0.0
+    except (TypeError, ValueError):
+        raise StepDataError("must be numbers", field=name, value=getattr(owner, key)) from None
+    if array.size == 0 and 0 in shape:
+        array = array.reshape(shape)
+    if array.shape != shape:
+        raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
+    if not np.isfinite(array).all():
+        raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
+    object.__setattr__(owner, key, _read_only(array))
+
+
+def _positive_definite(key: str, S: Array) -> Array:
+    """Return S made exactly symmetric from its lower triangle, or refuse it."""
+    scale = np.abs(S).max(initial=0.0)
+    if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
+        raise StepDataError("must be symmetric", field=key, value=S.tolist())
+    S = np.tril(S) + np.tril(S, -1).T
+    try:
+        np.linalg.cholesky(S)
+    except np.linalg.LinAlgError:
+        raise StepDataError(
+            "must be positive definite (no zero stiffness, no massless link)",
+            field=key,
+            value=S.tolist(),
+        ) from None
+    return _read_only(S)
+
+
+def _same(one: Any, two: Any) -> bool:
+    for f in fields(one):
+        a, b = getattr(one, f.name), getattr(two, f.name)
+        if isinstance(a, Contacts | Extra):
+            if not _same(a, b):
+                return False
+        elif isinstance(a, np.ndarray):
+            if a.shape != b.shape or not np.array_equal(a, b):
+                return False
+        elif a != b:
+            return False
+    return True

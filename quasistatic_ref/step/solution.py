@@ -1,0 +1,82 @@
+"""The answer of one step, and what is claimed about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What is known about an answer, and how.
+
+    Parameters
+    ----------
+    kind : str
+        ``"residual"`` (optimality residuals were computed and are small) or ``"none"``.
+    residuals : mapping of str to float
+        Residuals of Eqs. (9)-(12) in natural units [-].
+    """
+
+    kind: str
+    residuals: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SolverStatistics:
+    """What the solver said and what it cost; never evidence, never written to a solution file.
+
+    Parameters
+    ----------
+    backend : str
+    status : str
+        The solver's own word.
+    iterations : int or None
+    solve_time : float or None
+        Time inside the solver [s], where it reports one.
+    accuracy : float
+        What was asked for, in natural units [-].
+    """
+
+    backend: str
+    status: str
+    iterations: int | None
+    solve_time: float | None
+    accuracy: float
+
+
+@dataclass(frozen=True, eq=False)
+class StepSolution:
+    """The optimum of Eq. (13).
+
+    Parameters
+    ----------
+    delta_q : ndarray, shape (n_v,)
+        Displacement [m, rad] in the paper's order.
+    lam : ndarray, shape (m,)
+        Multipliers of the contact rows, contact-major: impulses [N s].
+    lam_extra : ndarray
+        Multipliers of the user's own rows.
+    wrench : ndarray, shape (n_c, 4)
+        Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    backend : str
+    certificate : Certificate
+    statistics : SolverStatistics
+    cone : str
+    """
+
+    delta_q: Array
+    lam: Array
+    lam_extra: Array
+    wrench: Array
+    backend: str
+    certificate: Certificate
+    statistics: SolverStatistics
+    cone: str = "pyramid"
+
+    @property
+    def status(self) -> str:
+        """``"optimal"``: anything else is raised, not returned."""
+        return "optimal"

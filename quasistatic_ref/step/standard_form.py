@@ -1,0 +1,56 @@
+r"""Eq. (13) as the matrices H, g, A, b that solvers see.
+
+.. math:: \min_{\delta q} \tfrac12 \delta q^T H \delta q - g^T \delta q
+          \quad\text{s.t.}\quad A\,\delta q \ge b
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import friction_rows
+
+
+@dataclass(frozen=True, eq=False)
+class StandardForm:
+    """The quadratic program of one step, in float64.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n_v, n_v)
+        Block diagonal, positive definite.
+    g : ndarray, shape (n_v,)
+    A : ndarray, shape (m, n_v)
+        Contact-major; the user's extra rows come last.
+    b : ndarray, shape (m,)
+    """
+
+    H: Array
+    g: Array
+    A: Array
+    b: Array
+
+
+def standard_form(step: StepData) -> StandardForm:
+    """H, g of Eq. (13) and A, b of Eq. (8), stacked over the contacts.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Returns
+    -------
+    StandardForm
+    """
+    h, n_a, contacts = step.h, step.n_a, step.contacts
+    H = np.zeros((step.n_v, step.n_v))
+    H[:n_a, :n_a] = h * step.K_q  # Eq. (13)
+    H[n_a:, n_a:] = step.M_u / h
+    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    g = h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
+    A = friction_rows(contacts)[contacts.mask]  # Eq. (8)
+    b = -np.repeat(contacts.phi, contacts.rows)  # Eq. (8)
+    return StandardForm(H, g, np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b]))
