@@ -23,3 +23,8 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+WITNESS: Final = 1e-6
+"""Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
+
+coal's own solvers stop at 1e-6; a wrong normal disagrees by the size of the shapes."""
