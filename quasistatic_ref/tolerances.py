@@ -23,3 +23,19 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+INERTIA_TRIANGLE: Final = 1e-6
+"""How far the largest principal moment of inertia may exceed the sum of the other two, relative.
+
+A flat plate has equality; six printed digits break it by up to 1e-6."""
+
+LOADED: Final = 1e-9
+"""Largest difference between what a URDF says and what was loaded, relative to its size.
+
+Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
+misread differs by far more."""
+
+UNIT_QUATERNION: Final = 1e-6
+"""Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
+
+Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, not rounding."""
