@@ -39,3 +39,7 @@ UNIT_QUATERNION: Final = 1e-6
 """Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
 
 Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, not rounding."""
+
+UNIT_ROUNDING: Final = 1e-15
+"""Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
+in the length as computed, so that what was normalised once is not touched again."""
