@@ -120,6 +120,8 @@ def _loaded(file: UrdfFile, floating: bool, package_dirs: Sequence[str | Path]) 
                 "a mimic joint is met before the joint that it mimics; joints of one link are "
                 "visited in alphabetical order, so rename one of the two"
             )
+        elif "valid URDF" in reason:
+            reason = "its URDF parser refuses it, for the reason printed on standard error"
         raise ModelError(f"pinocchio cannot load it: {reason}") from None
     return model, geometry
 

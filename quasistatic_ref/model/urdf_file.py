@@ -27,6 +27,7 @@ from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
 Array = NDArray[np.float64]
 _MOVING = ("revolute", "continuous", "prismatic")
+_VERSIONS = ("1.0", "1.1", "1.2")
 _GEOMETRIES = ("box", "sphere", "cylinder", "capsule", "mesh")
 
 
@@ -101,6 +102,10 @@ def _content(path: Path, text: str) -> UrdfFile:
     robot = xml_root(text)
     if robot.tag != "robot":
         raise ModelError("must be <robot>", field="root element", value=robot.tag)
+    version = robot.get("version", "1.0")
+    if version not in _VERSIONS:
+        problem = f"must be one of {', '.join(_VERSIONS)}"
+        raise ModelError(problem, field="robot.version", value=version)
     ignored = ignored_children(robot, "robot", ("link", "joint"))
     links: dict[str, FileLink] = {}
     for element in robot.findall("link"):
@@ -217,7 +222,23 @@ def _joint(element: Element, ignored: list[str]) -> FileJoint:
         if not length > 0:
             raise ModelError("must not be zero", field=f"{where}.axis.xyz", value=axis.tolist())
         axis = axis / length
+    _check_limit(element, where, needed=kind in ("revolute", "prismatic"))
     return FileJoint(name, kind, ends[0], ends[1], R, t, axis, _mimic(element, where))
+
+
+def _check_limit(joint: Element, where: str, *, needed: bool) -> None:
+    """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
+    limit = at_most_one(joint, where, "limit")
+    if limit is None:
+        if needed:
+            problem = (
+                "is missing: URDF asks for effort and velocity, though the model has no limits"
+            )
+            raise ModelError(problem, field=f"{where}.limit")
+        return
+    for name in ("effort", "velocity", "lower", "upper"):
+        default = 0.0 if name in ("lower", "upper") else None
+        numbers(limit, f"{where}.limit", name, 1, default)
 
 
 def _mimic(joint: Element, where: str) -> Mimic | None:
