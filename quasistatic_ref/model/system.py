@@ -210,9 +210,10 @@ class System:
         R, t, J = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3)), np.zeros((L, 6, self.n_v))
         for link, frame in enumerate(self._frames, start=1):
             R[link], t[link] = data.oMf[frame].rotation, data.oMf[frame].translation
-            # Columns of pin.Model.nv, also with mimics, where data.J is wider.
-            world = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-            J[link] = self._order.paper_v(world)
+            if self.n_v:  # without columns, getFrameJacobian ends the process
+                # n_v columns also with mimics, where data.J is wider.
+                jacobian = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
+                J[link] = self._order.paper_v(jacobian)
         return Kinematics(R, t, J)
 
     def body_jacobians(self, q: Array) -> Array:

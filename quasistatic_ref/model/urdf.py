@@ -177,7 +177,7 @@ def _check_inertias(file: UrdfFile, model: Any) -> None:
         loaded = model.inertias[joint].matrix()
         if np.abs(written - loaded).max() > LOADED * np.abs(written).max():
             problem = f"mass, centre or inertia was not loaded as written ({loaded[0, 0]:g} kg)"
-            raise ModelError(problem, field=f"link[{first}].inertial", value=written[0, 0])
+            raise ModelError(problem, field=f"link[{first}].inertial", value=float(written[0, 0]))
 
 
 def _spatial_inertia(link: FileLink) -> Any:
