@@ -183,8 +183,8 @@ class System:
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
         M = pin.crba(self._model, self._data, self._order.model_q(q))
-        M = np.triu(M) + np.triu(M, 1).T  # crba fills the upper triangle
         u = self._order.v[self.n_a :]
         return np.array(M[np.ix_(u, u)])
 

@@ -196,7 +196,10 @@ def _checked_shapes(
         if len(loaded) != len(said):
             capsules = any(shape.coal.__class__.__name__ == "Capsule" for shape, _, _ in said)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
-            problem = f"only {len(loaded)} of the shapes written were loaded{hint}"
+            problem = (
+                f"only {len(loaded)} of the shapes written were loaded, "
+                f"for the reason printed on standard error{hint}"
+            )
             raise ModelError(problem, field=where, value=len(said))
         for count, ((shape, R, t), given) in enumerate(zip(said, loaded, strict=True)):
             placement = model.frames[frame].placement.actInv(given.placement)

@@ -38,7 +38,6 @@ def xml_root(text: str) -> Element:
         raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
 
     parser.StartDoctypeDeclHandler = refusal
-    parser.EntityDeclHandler = refusal
     parser.StartElementHandler = lambda name, attributes: builder.start(name, attributes)
     parser.EndElementHandler = lambda name: builder.end(name)
     try:

@@ -1,6 +1,7 @@
 """URDF files: what is loaded is what was written, and anything else is refused in words."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model import urdf as urdf_module
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Sphere
 from quasistatic_ref.model.urdf import loaded_urdf
+from quasistatic_ref.model.urdf_file import UrdfFile
 from tests.tolerances import ROUNDING
 from tests.unit.urdf_texts import (
     BOX,
@@ -103,6 +105,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
     "malformed": (TWO, "</robot>", "", "line 1: is not well-formed XML: no element found"),
     "another root": (TWO, "robot", "model", r"root element: must be <robot> \(got 'model'\)"),
     "doctype": (TWO, "<robot", EXPANSION + "<robot", "line 1: a DOCTYPE is not allowed"),
+    "bare doctype": (TWO, "<robot", "<!DOCTYPE robot><robot", "line 1: a DOCTYPE is not allowed"),
     "entity": (TWO, "0.5", "&half;", "is not well-formed XML: undefined entity"),
     "xacro": (TWO, "</robot>", "<xacro:arm/></robot>", r"robot.xacro:arm: is a macro: expand"),
     "version": (TWO, '"1.1"', '"3.0"', r"robot.version: must be one of 1.0, 1.1, 1.2.*'3.0'"),
@@ -333,3 +336,28 @@ def test_a_loader_that_misreads_is_noticed(
     monkeypatch.setattr(urdf_module, "_loaded", dishonest)
     with pytest.raises(ModelError, match=TAMPERED[tamper]):
         loaded_urdf(written(tmp_path, CHAIN))
+
+
+OTHER_TEXT = {
+    "axis": ('xyz="1 2 -1"', 'xyz="1 2 1"', r"link\[upper\]: its joint's origin, axis or mimic"),
+    "multiplier": ('"-0.7"', '"-0.8"', r"link\[follower\]: its joint's origin, axis or mimic"),
+    "offset": ('offset="0.2"', 'offset="0.1"', r"link\[follower\]: its joint's origin, axis or"),
+    "kind": ('"slide" type="prismatic"', '"slide" type="revolute"', r"link\[slider\]: its joint's"),
+    "placement": ("0.1 0.2 0.3", "0.1 0.2 0.4", r"link\[upper\]: its joint's origin"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "words"), OTHER_TEXT.values(), ids=OTHER_TEXT)
+def test_a_loader_of_another_text_is_noticed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str, words: str
+) -> None:
+    honest = urdf_module._loaded
+    text = CHAIN if old != "0.1 0.2 0.3" else CHAIN.replace('size="0.1 0.2 0.3"', 'size="1 2 3"')
+    assert old in text
+
+    def dishonest(file: UrdfFile, *others: object) -> tuple[pin.Model, pin.GeometryModel]:
+        return honest(replace(file, text=file.text.replace(old, new)), *others)
+
+    monkeypatch.setattr(urdf_module, "_loaded", dishonest)
+    with pytest.raises(ModelError, match=words):
+        loaded_urdf(written(tmp_path, text))
