@@ -64,8 +64,14 @@ def _write_text(file: IO[bytes], text: str) -> None:
     file.write(text.encode("utf-8"))
 
 
-def bytes_read(path: str | Path) -> bytes:
+def bytes_read(path: str | Path, error: type[InputError] = InputError) -> bytes:
     """The content of a file.
+
+    Parameters
+    ----------
+    path : str or Path
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
 
     Raises
     ------
@@ -74,29 +80,29 @@ def bytes_read(path: str | Path) -> bytes:
     """
     path = Path(path)
     try:
-        if path.is_dir():
-            raise InputError("is a folder, not a file", file=path)
         if path.stat().st_size > LARGEST:
-            raise InputError(f"is larger than {LARGEST // 2**20} MiB", file=path)
+            raise error(f"is larger than {LARGEST // 2**20} MiB", file=path)
         return path.read_bytes()
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", file=path) from None
-    except ValueError:  # a NUL character in the name
-        raise InputError("is not a usable file name", file=repr(path)) from None
+    except FileNotFoundError:
+        raise error("no such file", file=path) from None
+    except (OSError, ValueError) as failure:  # ValueError: a NUL character in the name
+        reason = getattr(failure, "strerror", None) or str(failure)
+        raise error(f"cannot be read: {reason}", file=path) from None
 
 
-def text_read(path: str | Path) -> str:
-    """The content of a UTF-8 text file; InputError if it is anything else."""
+def text_of(content: bytes, path: str | Path, error: type[InputError] = InputError) -> str:
+    """Content as text; a byte-order mark is dropped. InputError if it is not UTF-8."""
     try:
-        return bytes_read(path).decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise InputError(f"is not UTF-8 text (byte {error.start})", file=path) from None
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as failure:
+        line = content[: failure.start].count(b"\n") + 1
+        raise error("is not UTF-8 text", file=path, field=f"line {line}") from None
 
 
 def json_read(path: str | Path) -> Any:
     """The value in a JSON file; InputError if it does not parse."""
     try:
-        return json.loads(text_read(path))
+        return json.loads(text_of(bytes_read(path), path))
     except json.JSONDecodeError as error:
         raise InputError(f"is not JSON: {error}", file=path) from None
     except (RecursionError, ValueError):  # nested too deeply, or an integer of too many digits

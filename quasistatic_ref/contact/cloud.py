@@ -121,11 +121,13 @@ def _distance_to_cylinder(points: Array, radius: float, half_length: float) -> D
 
 def _dot(points: Array, vector: Array) -> Array:
     # Not `@`: BLAS may sum in another order for another number of points.
-    return points[:, 0] * vector[0] + points[:, 1] * vector[1] + points[:, 2] * vector[2]
+    x, y, z = points.T
+    return np.asarray(x * vector[0] + y * vector[1] + z * vector[2])
 
 
 def _norm(vectors: Array) -> Array:
-    return np.asarray(np.sqrt(_dot(vectors * vectors, np.ones(3))))
+    x, y, z = vectors.T
+    return np.asarray(np.sqrt(x * x + y * y + z * z))
 
 
 def _unit(vectors: Array, norms: Array) -> Array:

@@ -92,11 +92,10 @@ def _draw_shape(
     seen = camera.seen(world)
     if cloud:
         order = seen[:, 2].argsort()
-        near = (seen[:, 2] - seen[:, 2].min()) / max(np.ptp(seen[:, 2]), 1e-12)
-        axes.scatter(
-            seen[order, 0], seen[order, 1], s=1.2 + 1.6 * near[order], c=CLOUD, alpha=0.25 + 0.6 * near[order],
-            linewidths=0, zorder=zorder,
-        )  # fmt: skip
+        x, y, depth = seen[order].T
+        near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
+        size, opacity = 1.2 + 1.6 * near, 0.25 + 0.6 * near
+        axes.scatter(x, y, s=size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder)
         return
     outline = seen[ConvexHull(seen[:, :2]).vertices, :2]
     axes.add_patch(

@@ -8,18 +8,15 @@ from quasistatic_ref.step.data import Array
 
 
 def rotation(rpy: Array) -> Array:
-    """R = Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3).
-
-    Parameters
-    ----------
-    rpy : ndarray, shape (3,)
-        [rad].
-    """
+    """Rotation Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3), of roll, pitch, yaw (3,) [rad]."""
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
-    roll = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    pitch = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    yaw = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    return np.asarray(yaw @ pitch @ roll)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
 
 
 def quaternion(rpy: Array) -> Array:

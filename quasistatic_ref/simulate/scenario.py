@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import text_read
+from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
@@ -125,7 +125,7 @@ def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
     path = scenario_path(name)
     try:
         try:
-            tables = tomllib.loads(text_read(path))
+            tables = tomllib.loads(text_of(bytes_read(path), path))
         except tomllib.TOMLDecodeError as error:
             raise ScenarioError(f"is not TOML: {error}") from None
         except (RecursionError, ValueError):
