@@ -14,9 +14,9 @@ from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, worst_residual
 
 CASES = {"with torsion": [], "without torsion": ["contacts.grip.mu_omega=0"]}
-CLOSED, TOP = 1.0, 2.5
+CLOSED, TOP = 0.7, 2.9
 """When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
-INSTANTS = (0.5, 1.0, 1.5, 2.0, 2.5)
+INSTANTS = (0.3, 0.7, 1.4, 2.1, 2.9)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -37,7 +37,7 @@ def grasp_strip(
     """
     with paper_style():
         figure, grid = plt.subplots(
-            len(runs), len(instants), figsize=(7.2, 1.75 * len(runs)), squeeze=False,
+            len(runs), len(instants), figsize=(7.2, 1.62 * len(runs)), squeeze=False,
             gridspec_kw={"wspace": 0.03, "hspace": 0.05},
         )  # fmt: skip
         for row, (title, run) in zip(grid, runs.items(), strict=True):
@@ -85,7 +85,7 @@ def _draw_instant(axes: Axes, scenario: Scenario, run: Trajectory, instant: floa
     draw_contacts(axes, CAMERA, run["beta"][k], force > BEARING)
     axes.set_aspect("equal")
     axes.set_xlim(-0.17, 0.17)
-    axes.set_ylim(-0.06, 0.30)
+    axes.set_ylim(-0.055, 0.305)
     axes.grid(visible=False)
     axes.set_xticks([])
     axes.set_yticks([])
