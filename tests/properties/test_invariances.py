@@ -154,7 +154,9 @@ def test_standing_still_is_allowed_without_penetration_so_the_optimum_is_not_abo
 def test_contacts_only_push_and_only_where_they_touch(step):
     answer, form = solved(step), standard_form(step)
     gap = form.A @ answer.delta_q - form.b
-    far, hard = np.abs(gap).max(), max(answer.lam.max(), 0.0)
+    # Scales of the sums that must cancel: in a row of (10), and of the impulses of (9).
+    far = (np.abs(form.A) @ np.abs(answer.delta_q) + np.abs(form.b)).max()
+    hard = max(answer.lam.max(), np.abs(form.g).max())
     assert answer.lam.min() >= -MULTIPLIERS * hard
     assert gap.min() >= -ACTIVE_SET * far
     assert np.abs(gap * answer.lam).max() <= MULTIPLIERS * far * hard

@@ -232,6 +232,19 @@ def test_solutions_carry_statistics_and_name_the_cone(rng):
     }
 
 
-def test_the_accuracy_reaches_the_options_of_every_required_backend():
-    for name in REQUIRED:
-        assert BACKENDS[name].options(1e-9) != BACKENDS[name].options(1e-12)
+TIGHTENED = {
+    "clarabel": ("tol_gap_abs", "tol_gap_rel", "tol_feas"),
+    "osqp": ("eps_abs", "eps_rel"),
+    "piqp": ("eps_abs", "eps_rel", "eps_duality_gap_abs", "eps_duality_gap_rel"),
+    "daqp": ("primal_tol", "dual_tol"),
+}
+
+
+@pytest.mark.parametrize("name", TIGHTENED)
+@pytest.mark.parametrize("accuracy", [1e-12, 1e-5])
+def test_the_accuracy_reaches_every_tolerance_that_stops_the_solver(name, accuracy):
+    # DESIGN section 3: eps_abs alone leaves PIQP's gap, and DAQP's default is 1e-6.
+    options = BACKENDS[name].options(accuracy)
+    assert {option: options.get(option) for option in TIGHTENED[name]} == dict.fromkeys(
+        TIGHTENED[name], accuracy
+    )

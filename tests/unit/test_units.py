@@ -134,3 +134,17 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
     )
     assert natural_units(still).size == 1.0
     np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1.0])
+def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
+    # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.
+    natural = sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))
+    natural = to_natural(natural, natural_units(natural))
+    assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
+
+
+def test_a_gap_sets_the_size_where_nothing_else_does():
+    step = sphere_on_floor(phi=0.02)
+    natural = to_natural(step, natural_units(step))
+    assert NATURAL_LOW <= natural.contacts.phi[0] <= NATURAL_HIGH
