@@ -23,3 +23,28 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+WITNESS: Final = 1e-6
+"""Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
+
+coal's own solvers stop at 1e-6; a wrong normal disagrees by the size of the shapes."""
+
+INERTIA_TRIANGLE: Final = 1e-6
+"""How far the largest principal moment of inertia may exceed the sum of the other two, relative.
+
+A flat plate has equality; six printed digits break it by up to 1e-6."""
+
+LOADED: Final = 1e-9
+"""Largest difference between what a URDF says and what was loaded, relative to its size.
+
+Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
+misread differs by far more."""
+
+UNIT_QUATERNION: Final = 1e-6
+"""Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
+
+Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, not rounding."""
+
+UNIT_ROUNDING: Final = 1e-15
+"""Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
+in the length as computed, so that what was normalised once is not touched again."""

@@ -32,3 +32,14 @@ NATURAL_LOW: Final = 0.5
 
 NATURAL_HIGH: Final = 2.0
 """Greatest diagonal of H in natural units, for the same reason."""
+
+DIFFERENCE_STEP: Final = 1e-5
+"""Step of central differences [m or rad]: near the cube root of 2.2e-16, where truncation
+(step^2 = 1e-10) and cancellation (2.2e-16 / step = 2e-11) are both small."""
+
+DIFFERENCE: Final = 1e-8
+"""Jacobians against central differences with that step: truncation is at most step^2 / 6 times a
+third derivative, below 100 for chains of a metre, so 2e-9; a wrong column is off by 0.1 or more."""
+
+FILE_FLOAT32: Final = 1e-7
+"""A coordinate of size one that travelled through float32: half its unit of 1.2e-7."""

@@ -102,30 +102,33 @@ def backend_answer(
     StepNotSolved
         If it says anything but a full solution, or the numbers are not finite.
     """
-    entry = backend(name)
-    options = entry.options(accuracy)
-    if name.startswith(QPSOLVERS):
-        answer = _through_qpsolvers(step, name, options, accuracy)
-    else:
-        if problem is None:
-            problem = StepProblem(step)
-        answer = _through_cvxpy(step, name, options, accuracy, problem)
-    if not (np.isfinite(answer.delta_q).all() and np.isfinite(answer.lam).all()):
-        raise StepNotSolved(name, "an answer that is not finite", step, accuracy)
-    return answer
+    road = _through_qpsolvers if name.startswith(QPSOLVERS) else _through_cvxpy
+    failure: StepNotSolved | None = None
+    for options in backend(name).attempts(accuracy):
+        try:
+            answer = road(step, name, options, accuracy, problem)
+        except StepNotSolved as failed:
+            failure = failed
+            continue
+        if np.isfinite(answer.delta_q).all() and np.isfinite(answer.lam).all():
+            return answer
+        failure = StepNotSolved(name, "an answer that is not finite", step, accuracy)
+    assert failure is not None  # a backend has at least one set of options
+    raise failure
 
 
 def _through_cvxpy(
-    step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem
+    step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem | None
 ) -> Answer:
+    problem = StepProblem(step) if problem is None else problem
     problem.fill(step)
-    # PROXQP's CVXPY interface raises TypeError on a second, warm-started solve.
-    warm = {"warm_start": name != "proxqp"}
     with warnings.catch_warnings():
         # "Solution may be inaccurate" is dealt with below, by the status.
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
         try:
-            problem.problem.solve(solver=name.upper(), **warm, **options)
+            # Cold, so that a step replayed by itself takes the same path. (PROXQP's interface
+            # in CVXPY raises TypeError on a second warm start anyway.)
+            problem.problem.solve(solver=name.upper(), warm_start=False, **options)
         except (cp.error.SolverError, ValueError) as error:
             raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
     status = str(problem.problem.status)
@@ -136,13 +139,20 @@ def _through_cvxpy(
     return Answer(problem.primal(), problem.dual(), statistics)
 
 
-def _through_qpsolvers(step: StepData, name: str, options: Options, accuracy: float) -> Answer:
+def _through_qpsolvers(
+    step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem | None
+) -> Answer:
+    del problem  # this road needs no CVXPY
     form = standard_form(step)
     program = qpsolvers.Problem(P=form.H, q=-form.g, G=-form.A, h=-form.b)
-    try:
-        solution = qpsolvers.solve_problem(program, name.removeprefix(QPSOLVERS), **options)
-    except qpsolvers.exceptions.QPError as error:
-        raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
+    with warnings.catch_warnings():
+        # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
+        # and of statuses, which are dealt with below.
+        warnings.simplefilter("ignore")
+        try:
+            solution = qpsolvers.solve_problem(program, name.removeprefix(QPSOLVERS), **options)
+        except qpsolvers.exceptions.QPError as error:
+            raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
     if not solution.found or solution.x is None or solution.z is None:
         raise StepNotSolved(name, "no solution found", step, accuracy)
     return Answer(

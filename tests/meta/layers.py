@@ -8,6 +8,8 @@ ROOMS = (
     "errors",
     "tolerances",
     "fields",
+    "files",
+    "resources",
     "step",
     "certify",
     "solve",

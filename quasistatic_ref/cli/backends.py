@@ -1,0 +1,28 @@
+"""``backends``: the solvers that can be chosen here."""
+
+from __future__ import annotations
+
+import argparse
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.solve.backends import BACKENDS, DEFAULT, QPSOLVERS, installed_backends
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    shared.add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the table of backends."""
+    installed = installed_backends()
+    if options.json:
+        shared.print_json({"default": DEFAULT, "installed": installed})
+        return 0
+    rows: list[tuple[str, ...]] = [("backend", "through cvxpy", "through qpsolvers", "method")]
+    for entry in BACKENDS.values():
+        name = f"{entry.name} (default)" if entry.name == DEFAULT else entry.name
+        roads = [key if key in installed else "-" for key in (entry.name, QPSOLVERS + entry.name)]
+        rows.append((name, *roads, entry.method))
+    shared.print_rows(rows)
+    return 0

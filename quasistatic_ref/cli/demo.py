@@ -1,0 +1,108 @@
+"""``demo``: the bunny grasped and lifted, with and without torsional friction."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+import numpy as np
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.trajectory import Trajectory, worst_residual
+
+CASES = {"with torsion": [], "without torsion": ["contacts.grip.mu_omega=0"]}
+CLOSED, TOP = 1.0, 2.5
+"""When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
+INSTANTS = (0.5, 1.0, 1.5, 2.0, 2.5)
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    shared.add_out(parser, "demo")
+    shared.add_solver(parser)
+    shared.add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run both cases, print a table, write the figures and both trajectories."""
+    settings = shared.scenario_settings(options)
+    scenarios = {
+        case: load_scenario("bunny_grasp", [*settings, *own]) for case, own in CASES.items()
+    }
+    runs: dict[str, Trajectory] = {}
+    report: dict[str, dict[str, object]] = {}
+    for case, scenario in scenarios.items():
+        print(f"bunny_grasp {case}: {scenario.steps} steps", file=sys.stderr)
+        stem = f"bunny_grasp_{case.replace(' ', '_')}"
+        try:
+            runs[case] = scenario.run()
+        except RunFailed as failure:
+            return shared.failed_run_saved(failure, options.out, stem)
+        runs[case].save(options.out / f"{stem}.npz")
+        report[case] = grasp_report(scenario, runs[case])
+    written = _figures(scenarios["with torsion"], runs, options)
+    if options.json:
+        shared.print_json({"cases": report, "figures": written})
+        return 0
+    shared.print_rows(_table(report))
+    print(f"wrote {', '.join(written)} and both trajectories to {options.out}")
+    return 0
+
+
+def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:
+    """What one run of the grasp came to, during the lift.
+
+    Returns
+    -------
+    dict
+        rotation_deg (largest since the grip closed), lift_mm, variables, rows, worst_residual
+        (natural units), and the milliseconds of each part of a step.
+    """
+    motion = link_motion(scenario.system, trajectory, "bunny")
+    a, b = motion.index(CLOSED), motion.index(TOP)
+    rotation = np.degrees(motion.rotation_since(CLOSED)[a : b + 1].max())
+    parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
+    return {
+        "steps": trajectory.steps,
+        "variables": trajectory["A"].shape[2],
+        "rows": trajectory["A"].shape[1],
+        "rotation_deg": float(rotation),
+        "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
+        "worst_residual": worst_residual(trajectory),
+        **parts,
+    }
+
+
+def _figures(
+    scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
+) -> list[str]:
+    from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
+    from quasistatic_ref.figures.style import figure_written
+
+    titled = {case.replace(" ", "\n"): trajectory for case, trajectory in runs.items()}
+    strip = grasp_strip(scenario, titled, INSTANTS)
+    rotation = rotation_plot(scenario, titled, "bunny", CLOSED)
+    paths = figure_written(strip, options.out, "bunny_grasp")
+    paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
+    return [path.name for path in paths]
+
+
+def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
+    labels = {
+        "rotation_deg": ("rotation of the bunny during the lift [deg]", "{:.3f}"),
+        "lift_mm": ("lift height [mm]", "{:.2f}"),
+        "worst_residual": ("worst residual [natural units]", "{:.1e}"),
+        "variables": ("variables", "{}"),
+        "rows": ("rows", "{}"),
+        "distances_ms": ("time per step: distances [ms]", "{:.2f}"),
+        "rows_ms": ("time per step: rows [ms]", "{:.2f}"),
+        "solve_ms": ("time per step: solve [ms]", "{:.2f}"),
+        "integrate_ms": ("time per step: integrate [ms]", "{:.2f}"),
+    }
+    rows: list[tuple[str, ...]] = [("", *report)]
+    for key, (label, style) in labels.items():
+        rows.append((label, *(style.format(case[key]) for case in report.values())))
+    return rows

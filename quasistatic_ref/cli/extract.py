@@ -1,0 +1,34 @@
+"""``extract TRAJECTORY.npz --step K -o STEP.json``: one step of a trajectory as a step file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.step.files import step_text, step_written
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument("trajectory", type=Path, help="a trajectory file (.npz)")
+    parser.add_argument("--step", type=int, required=True, metavar="K", help="counted from 0")
+    parser.add_argument(
+        "-o", type=Path, metavar="STEP.json", dest="output", help="standard output otherwise"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the step, bit for bit as it was solved."""
+    trajectory = trajectory_read(options.trajectory)
+    try:
+        step = trajectory.step_data(options.step)
+    except InputError as error:
+        raise error.in_file(options.trajectory) from None
+    if options.output is None:
+        sys.stdout.write(step_text(step))
+    else:
+        step_written(options.output, step)
+    return 0

@@ -1,0 +1,71 @@
+"""``quasistatic-ref``: one sub-command a file; nothing heavy is imported before it is needed.
+
+Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from quasistatic_ref import __version__
+from quasistatic_ref.errors import InputError, QuasistaticError
+
+COMMANDS = {
+    "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
+    "run": "simulate a scenario and write its trajectory",
+    "solve": "solve one step file",
+    "inspect": "show what a URDF or a scenario holds, and what the model ignores",
+    "extract": "write one step of a trajectory as a step file",
+    "backends": "list the solvers that can be chosen here",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; never a traceback for bad input.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        ``sys.argv[1:]`` by default.
+
+    Returns
+    -------
+    int
+        Exit status.
+    """
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    parser = argparse.ArgumentParser(
+        prog="quasistatic-ref",
+        description="Convex quasi-dynamic simulation with torsional friction: the reference.",
+    )
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+        # Only the command that is used declares its options: their modules may be heavy.
+        if name in given:
+            import_module(f"quasistatic_ref.cli.{name}").add_options(command)
+    options = parser.parse_args(given)
+    try:
+        return int(import_module(f"quasistatic_ref.cli.{options.command}").run(options))
+    except InputError as error:
+        return _failed(error, 2)
+    except QuasistaticError as error:
+        return _failed(error, 3)
+    except KeyboardInterrupt:
+        return _failed("interrupted", 130)
+    except BrokenPipeError:  # the reader of our output, such as `head`, went away
+        sys.stderr.close()
+        return 0
+
+
+def _failed(error: object, status: int) -> int:
+    print(f"quasistatic-ref: {error}", file=sys.stderr)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,81 @@
+"""Options and habits that several commands share."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.files import json_text
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.files import step_written
+
+
+def add_out(parser: argparse.ArgumentParser, default: str) -> None:
+    """``--out FOLDER``."""
+    parser.add_argument(
+        "--out", type=Path, default=Path(default), metavar="FOLDER", help="folder for the results"
+    )
+
+
+def add_solver(parser: argparse.ArgumentParser) -> None:
+    """``--backend`` and ``--certify``."""
+    parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
+    parser.add_argument("--certify", metavar="KIND", help="residual (default) or off")
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """``--json``."""
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+
+
+def add_set(parser: argparse.ArgumentParser) -> None:
+    """``--set key=value``."""
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        dest="settings",
+        help="change a field of the scenario, e.g. contacts.grip.mu_omega=0",
+    )
+
+
+def scenario_settings(options: argparse.Namespace) -> list[str]:
+    """``--set``, ``--backend`` and ``--certify`` as changes of a scenario."""
+    settings: list[str] = list(getattr(options, "settings", []))
+    for key in ("backend", "certify"):
+        value = getattr(options, key, None)
+        if value is not None:
+            settings.append(f'solver.{key}="{value}"')
+    return settings
+
+
+def print_json(value: Any) -> None:
+    """Print one JSON object on standard output."""
+    print(json_text(value))
+
+
+def print_rows(rows: list[tuple[str, ...]]) -> None:
+    """Print a table, the first column to the left, the others to the right."""
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    for row in rows:
+        first, *rest = (cell.ljust(w) if i == 0 else cell.rjust(w)
+                        for i, (cell, w) in enumerate(zip(row, widths, strict=True)))  # fmt: skip
+        print("  ".join([first, *rest]).rstrip())
+
+
+def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:
+    """Write what a failed run left: its steps so far, and the failing step; return the status."""
+    trajectory: Trajectory = failure.trajectory
+    path = trajectory.save(folder / f"{stem}.npz")
+    kept = f"the first {trajectory.steps} steps are in {path}"
+    if failure.step is not None:
+        step = step_written(folder / f"{stem}_failed_step.json", failure.step)
+        kept += f", the failing step in {step}"
+    print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
+    if isinstance(failure.__cause__, KeyboardInterrupt):
+        return 130
+    return 3 if failure.step is not None else 2

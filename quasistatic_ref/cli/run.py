@@ -1,0 +1,56 @@
+"""``run SCENARIO``: simulate a scenario and write its trajectory."""
+
+from __future__ import annotations
+
+import argparse
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import worst_residual
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument(
+        "scenario",
+        help="a TOML file, or the name of a scenario that comes along (bunny_grasp, ...)",
+    )
+    shared.add_out(parser, "results")
+    shared.add_solver(parser)
+    shared.add_set(parser)
+    shared.add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; exit status 3 where a step has no solution, its steps so far being kept."""
+    scenario = load_scenario(options.scenario, shared.scenario_settings(options))
+    stem = scenario.path.stem
+    try:
+        trajectory = scenario.run()
+    except RunFailed as failure:
+        return shared.failed_run_saved(failure, options.out, stem)
+    path = trajectory.save(options.out / f"{stem}.npz")
+    milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
+    summary = {
+        "trajectory": str(path),
+        "steps": trajectory.steps,
+        "backend": scenario.backend,
+        "variables": scenario.system.n_v,
+        "rows": int(trajectory["rows"].sum()),
+        "worst_residual": worst_residual(trajectory),
+        "milliseconds_per_step": milliseconds,
+    }
+    if options.json:
+        shared.print_json(summary)
+        return 0
+    print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
+    print(f"backend {summary['backend']}, worst residual {_worst(summary['worst_residual'])}")
+    parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
+    print(f"ms per step: {parts}")
+    print(f"wrote {path}")
+    return 0
+
+
+def _worst(x: object) -> str:
+    return "not computed" if x is None else f"{x:.1e} (natural units)"

@@ -1,0 +1,138 @@
+"""Signed distances of points to primitive shapes, vectorised, and the k closest of them.
+
+Each ``distance_to_*`` takes points in the shape's own frame, shape (N, 3), and returns phi (N,)
+[m] and the unit outward normal (N, 3): the gradient of phi. The closest point on the shape is
+then p - phi n. Where the gradient is not unique (the centre of a sphere, a tie of two faces) the
+least index wins, so that results are deterministic.
+
+Closed forms throughout. (Coal is right for sphere, box, capsule and half-space, and these agree
+with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, ours is not.)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, HalfSpace, Shape, Sphere
+from quasistatic_ref.step.data import Array
+
+Distance = tuple[Array, Array]
+
+
+def signed_distance(shape: Shape, points: Array) -> Distance:
+    """Signed distance and outward normal of points against one shape.
+
+    Parameters
+    ----------
+    shape : Sphere, Box, Cylinder, Capsule or HalfSpace
+    points : ndarray, shape (N, 3)
+        In the shape's own frame [m].
+
+    Returns
+    -------
+    phi : ndarray, shape (N,)
+        Signed distance [m], negative inside.
+    normal : ndarray, shape (N, 3)
+        Unit normals, out of the shape.
+
+    Raises
+    ------
+    ContactError
+        If the shape is of another kind.
+    """
+    match shape:
+        case Sphere():
+            return _distance_to_segment(points, 0.0, shape.radius)
+        case Capsule():
+            return _distance_to_segment(points, shape.half_length, shape.radius)
+        case Box():
+            return _distance_to_box(points, shape.half_extents)
+        case Cylinder():
+            return _distance_to_cylinder(points, shape.radius, shape.half_length)
+        case HalfSpace():
+            phi = _dot(points, shape.normal) - shape.offset
+            return phi, np.broadcast_to(shape.normal, points.shape)
+        case _:
+            kind = type(shape).__name__
+            raise ContactError("a cloud touches primitive shapes only", field="shape", value=kind)
+
+
+def closest(phi: Array, k: int) -> NDArray[np.int64]:
+    """Indices of the k smallest signed distances in ascending order, ties broken by index.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N,)
+    k : int
+        All of them if k >= N.
+
+    Returns
+    -------
+    ndarray of int, shape (min(k, N),)
+    """
+    if k < len(phi):
+        # Only what can be among the k smallest is sorted; <= keeps every tie in the running.
+        candidates = np.flatnonzero(phi <= np.partition(phi, k - 1)[k - 1])
+    else:
+        candidates = np.arange(len(phi))
+    return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
+
+
+def _distance_to_segment(points: Array, half_length: float, radius: float) -> Distance:
+    """Sphere (half_length = 0) and capsule: distance to the axis segment minus the radius."""
+    offset = points.copy()
+    offset[:, 2] -= np.clip(points[:, 2], -half_length, half_length)
+    distance = _norm(offset)
+    return distance - radius, _unit(offset, distance)
+
+
+def _distance_to_box(points: Array, half_extents: Array) -> Distance:
+    sign = np.where(points < 0, -1.0, 1.0)
+    excess = np.abs(points) - half_extents  # > 0 beyond a face
+    beyond = np.maximum(excess, 0.0)
+    outside = _norm(beyond)
+    inside = excess.max(axis=1)
+    nearest_face = np.eye(3)[excess.argmax(axis=1)]
+    is_outside = outside > 0
+    normal = np.where(is_outside[:, None], _unit(beyond, outside), nearest_face)
+    return np.where(is_outside, outside, inside), sign * normal
+
+
+def _distance_to_cylinder(points: Array, radius: float, half_length: float) -> Distance:
+    """In the half-plane (r, |z|) a cylinder is a rectangle."""
+    radial = points.copy()
+    radial[:, 2] = 0.0
+    r = _norm(radial)
+    outward = _unit(radial, r)
+    excess = np.stack([r - radius, np.abs(points[:, 2]) - half_length], axis=1)
+    beyond = np.maximum(excess, 0.0)
+    outside = np.hypot(beyond[:, 0], beyond[:, 1])
+    is_outside = outside > 0
+    side = excess[:, 0] >= excess[:, 1]
+    face = np.stack([side, ~side], axis=1).astype(np.float64)
+    flat = beyond / np.where(is_outside, outside, 1.0)[:, None]
+    weight = np.where(is_outside[:, None], flat, face)
+    normal = weight[:, :1] * outward
+    normal[:, 2] = weight[:, 1] * np.where(points[:, 2] < 0, -1.0, 1.0)
+    return np.where(is_outside, outside, excess.max(axis=1)), normal
+
+
+def _dot(points: Array, vector: Array) -> Array:
+    # Not `@`: BLAS may sum in another order for another number of points.
+    x, y, z = points.T
+    return np.asarray(x * vector[0] + y * vector[1] + z * vector[2])
+
+
+def _norm(vectors: Array) -> Array:
+    x, y, z = vectors.T
+    return np.asarray(np.sqrt(x * x + y * y + z * z))
+
+
+def _unit(vectors: Array, norms: Array) -> Array:
+    """Unit vectors; the first axis where there is no direction."""
+    degenerate = norms == 0
+    unit = vectors / np.where(degenerate, 1.0, norms)[:, None]
+    unit[degenerate] = (1.0, 0.0, 0.0)
+    return unit

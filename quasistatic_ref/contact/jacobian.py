@@ -1,0 +1,104 @@
+"""Contact Jacobians, Eqs. (2)-(3), and the contacts of a step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.step.data import Array, Contacts
+
+
+def contact_jacobian(
+    kinematics: Kinematics,
+    link_alpha: NDArray[np.int64],
+    link_beta: NDArray[np.int64],
+    alpha: Array,
+    beta: Array,
+    n: Array,
+) -> Array:
+    """J of Eq. (3): relative velocity and spin, Eq. (2), per unit of delta_q.
+
+    Parameters
+    ----------
+    kinematics : Kinematics
+        Poses and Jacobians of the links.
+    link_alpha, link_beta : ndarray of int, shape (n_c,)
+        Which links the points belong to; 0 is the world.
+    alpha, beta : ndarray, shape (n_c, 3)
+        Material points of the two bodies [m], world frame.
+    n : ndarray, shape (n_c, 3)
+        Unit normals, world frame.
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4, n_v)
+        Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha) [rad].
+    """
+    nu_alpha, omega_alpha = _point_jacobian(kinematics, link_alpha, alpha)
+    nu_beta, omega_beta = _point_jacobian(kinematics, link_beta, beta)
+    spin = n[:, None, :] @ (omega_beta - omega_alpha)
+    return np.concatenate([nu_beta - nu_alpha, spin], axis=1)  # Eqs. (2)-(3)
+
+
+def _point_jacobian(
+    kinematics: Kinematics, link: NDArray[np.int64], point: Array
+) -> tuple[Array, Array]:
+    """Jacobians of a point's velocity, nu = nu_origin + omega x r, and of its link's omega."""
+    r = point - kinematics.t[link]
+    nu_origin, omega = kinematics.J[link, :3], kinematics.J[link, 3:]
+    return nu_origin - _cross_matrix(r) @ omega, omega
+
+
+def _cross_matrix(r: Array) -> Array:
+    """[r x], so that [r x] w = r x w; shape (n_c, 3, 3)."""
+    zero = np.zeros(len(r))
+    x, y, z = r.T
+    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+
+
+def tangents(n: Array) -> tuple[Array, Array]:
+    """Tangents d1, d2 such that {d1, d2, n} is dextral: a fixed function of n.
+
+    d1 is the projection of the world axis that is farthest from n (the least index on a tie),
+    normalised; d2 = n x d1. For n along z: d1 along x, d2 along y.
+
+    Parameters
+    ----------
+    n : ndarray, shape (n_c, 3)
+        Unit normals.
+
+    Returns
+    -------
+    d1, d2 : ndarray, shape (n_c, 3)
+    """
+    axis = np.eye(3)[np.abs(n).argmin(axis=1)]
+    d1 = axis - np.sum(axis * n, axis=1, keepdims=True) * n
+    d1 /= np.linalg.norm(d1, axis=1, keepdims=True)
+    return d1, np.cross(n, d1)
+
+
+def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+    """The contacts of one step, from the closest points of all pairs.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+        Of the pairs that the points belong to.
+    points : ClosestPoints
+    kinematics : Kinematics
+        At the same configuration.
+
+    Returns
+    -------
+    Contacts
+    """
+    d1, d2 = tangents(points.n)
+    J = contact_jacobian(
+        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, points.n
+    )
+    names = tuple(f"{name}/{i}" for name, i in zip(layout.names, points.point, strict=True))
+    mu_v, mu_omega, rows = layout.mu_v, layout.mu_omega, layout.rows
+    return Contacts(names, points.phi, points.n, d1, d2, J, mu_v, mu_omega, rows)

@@ -1,0 +1,93 @@
+"""Figure 1 of the paper: the bunny grasped and lifted, with and without torsional friction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from quasistatic_ref.figures.scene import Camera, draw_contacts, draw_floor, draw_shapes
+from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+
+CAMERA = Camera(azimuth=-62, elevation=12)
+BEARING = 1e-3
+"""A contact is drawn as bearing load above this normal force [N]."""
+
+
+def grasp_strip(
+    scenario: Scenario, runs: Mapping[str, Trajectory], instants: Sequence[float]
+) -> Figure:
+    """Runs in rows, instants in columns.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Its bodies and shapes; the runs may differ from it in contact numbers only.
+    runs : mapping of str to Trajectory
+        Row title -> run.
+    instants : sequence of float
+        Times of the columns [s].
+    """
+    with paper_style():
+        figure, grid = plt.subplots(
+            len(runs), len(instants), figsize=(7.2, 1.75 * len(runs)), squeeze=False,
+            gridspec_kw={"wspace": 0.03, "hspace": 0.05},
+        )  # fmt: skip
+        for row, (title, run) in zip(grid, runs.items(), strict=True):
+            for axes, instant in zip(row, instants, strict=True):
+                _draw_instant(axes, scenario, run, instant)
+            row[0].set_ylabel(title)
+        for axes, instant in zip(grid[0], instants, strict=True):
+            axes.set_title(f"t = {instant:g} s")
+        figure.text(
+            0.5, 0.03,
+            f"h = {1e3 * scenario.h:g} ms, friction pyramid; open dots: contacts considered, "
+            "filled dots: contacts that bear load",
+            ha="center", fontsize=8,
+        )  # fmt: skip
+    return figure
+
+
+def rotation_plot(
+    scenario: Scenario, runs: Mapping[str, Trajectory], link: str, since: float
+) -> Figure:
+    """Angle that a body has turned since the grip closed, against time."""
+    with paper_style():
+        figure, axes = plt.subplots(figsize=(4.6, 2.8))
+        for title, run in runs.items():
+            motion = link_motion(scenario.system, run, link)
+            after = motion.index(since)
+            angle = np.degrees(motion.rotation_since(since))
+            axes.plot(motion.times[after:], angle[after:], label=title.replace("\n", " "))
+        axes.set_xlabel("time t [s]")
+        axes.set_ylabel("rotation since the grip closed [deg]")
+        axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction pyramid", loc="right")
+        axes.set_ylim(bottom=-1)
+        axes.legend()
+    return figure
+
+
+def _draw_instant(axes: Axes, scenario: Scenario, run: Trajectory, instant: float) -> None:
+    k = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
+    kinematics: Kinematics = scenario.system.kinematics(run["q"][k + 1])
+    shapes = [pair.beta for pair in scenario.pairs] + list(scenario.system.shapes)
+    unique = {id(shape): shape for shape in shapes}.values()
+    draw_floor(axes, CAMERA, 0.14)
+    draw_shapes(axes, CAMERA, unique, kinematics)
+    force = run["wrench"][k][:, 2]
+    draw_contacts(axes, CAMERA, run["beta"][k], force > BEARING)
+    axes.set_aspect("equal")
+    axes.set_xlim(-0.17, 0.17)
+    axes.set_ylim(-0.06, 0.30)
+    axes.grid(visible=False)
+    axes.set_xticks([])
+    axes.set_yticks([])
+    for spine in axes.spines.values():
+        spine.set_visible(False)

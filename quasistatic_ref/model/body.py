@@ -1,0 +1,98 @@
+"""What a user says about one URDF: where it stands and what of it is actuated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.errors import ModelError, suggestion
+
+BASES = ("fixed", "floating")
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """One URDF in the world.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of its links and joints, e.g. ``gripper`` for ``gripper/left_finger``.
+    urdf : str or Path
+    base : str
+        ``"fixed"`` or ``"floating"``.
+    actuated : tuple of str, or "all"
+        Names of joints in this URDF, without the prefix; ``"base"`` is the floating base.
+    xyz : array_like, shape (3,)
+        Where the root link is (fixed) or starts (floating), in the world [m].
+    rpy : array_like, shape (3,)
+        Its orientation, R = Rz(yaw) Ry(pitch) Rx(roll) [rad].
+    positions : mapping of str to float
+        Where joints start [m or rad]; 0 for those not named.
+    package_dirs : tuple of Path
+        Where ``package://`` addresses are looked for.
+
+    Raises
+    ------
+    ModelError
+        If a name cannot serve, or a number is not finite. What concerns the URDF itself is
+        checked by :class:`~quasistatic_ref.model.system.System`.
+    """
+
+    name: str
+    urdf: str | Path
+    base: str = "fixed"
+    actuated: Sequence[str] = ()
+    xyz: ArrayLike = (0.0, 0.0, 0.0)
+    rpy: ArrayLike = (0.0, 0.0, 0.0)
+    positions: Mapping[str, float] = field(default_factory=dict)
+    package_dirs: Sequence[str | Path] = ()
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name or self.name == "world":
+            problem = "must be a name other than 'world'"
+            raise ModelError(problem, field="body.name", value=self.name)
+        if any(c in "/#*" or c.isspace() for c in self.name):
+            problem = "must not contain '/', '#', '*' or white space"
+            raise ModelError(problem, field="body.name", value=self.name)
+        if self.base not in BASES:
+            problem = f"is not a base{suggestion(str(self.base), BASES)}"
+            raise ModelError(problem, field=f"{self.name}.base", value=self.base)
+        if isinstance(self.actuated, str) and self.actuated != "all":
+            problem = 'must be "all" or a sequence of joint names'
+            raise ModelError(problem, field=f"{self.name}.actuated", value=self.actuated)
+        if not isinstance(self.actuated, str):
+            object.__setattr__(self, "actuated", tuple(self.actuated))
+        for key in ("xyz", "rpy"):
+            object.__setattr__(self, key, self._vector(key))
+        positions = {name: self._position(name) for name in self.positions}
+        object.__setattr__(self, "positions", MappingProxyType(positions))
+        object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
+
+    def _vector(self, key: str) -> ArrayLike:
+        value = getattr(self, key)
+        try:
+            vector = np.array(value, dtype=np.float64) + 0.0
+        except (TypeError, ValueError):
+            vector = np.array([np.nan])
+        if vector.shape != (3,) or not np.isfinite(vector).all():
+            problem = "must be three finite numbers"
+            raise ModelError(problem, field=f"{self.name}.{key}", value=value)
+        vector.setflags(write=False)
+        return vector
+
+    def _position(self, name: str) -> float:
+        value = self.positions[name]
+        try:
+            position = float(value)
+        except (TypeError, ValueError):
+            position = np.nan
+        if not np.isfinite(position):
+            problem = "must be a finite number"
+            raise ModelError(problem, field=f"{self.name}.positions.{name}", value=value)
+        return position

@@ -1,0 +1,153 @@
+"""The paper's order of coordinates, q = [q_a; q_u], against pinocchio's.
+
+Within each block the order is pinocchio's. Nothing outside :class:`System` sees the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+_TWIST = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One entry of delta_q.
+
+    Parameters
+    ----------
+    name : str
+        ``gripper/width``, or ``gripper/base.x`` .. ``gripper/base.rz``.
+    joint : str
+        Its joint, e.g. ``gripper/base``.
+    unit : str
+        ``"m"`` or ``"rad"``.
+    actuated : bool
+    """
+
+    name: str
+    joint: str
+    unit: str
+    actuated: bool
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One joint with coordinates of its own.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        ``"floating"``, ``"revolute"``, ``"continuous"`` or ``"prismatic"``.
+    actuated : bool
+    q : slice
+        Its entries of q: 7 (x y z, then a quaternion x y z w), 1, 2 (cos, sin) or 1.
+    v : slice
+        Its entries of delta_q: 6 (body-frame twist, linear then angular) or 1.
+    """
+
+    name: str
+    kind: str
+    actuated: bool
+    q: slice
+    v: slice
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Its entries of delta_q."""
+        if self.kind == "floating":
+            units = ("m",) * 3 + ("rad",) * 3
+            return tuple(
+                Coordinate(f"{self.name}.{axis}", self.name, unit, self.actuated)
+                for axis, unit in zip(_TWIST, units, strict=True)
+            )
+        unit = "m" if self.kind == "prismatic" else "rad"
+        return (Coordinate(self.name, self.name, unit, self.actuated),)
+
+
+@dataclass(frozen=True)
+class MimicJoint:
+    """A joint without coordinates: its position is multiplier * that of `of` + offset."""
+
+    name: str
+    of: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class ModelJoint:
+    """A joint as pinocchio numbers it: kind, and (first entry, number of entries) of q and v."""
+
+    name: str
+    kind: str
+    actuated: bool
+    q: tuple[int, int]
+    v: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """The permutation between the two orders.
+
+    Parameters
+    ----------
+    joints : tuple of Joint
+        In the paper's order.
+    q : ndarray of int, shape (n_q,)
+        Which entry of pinocchio's q each entry of ours is.
+    v : ndarray of int, shape (n_v,)
+        The same of delta_q.
+    """
+
+    joints: tuple[Joint, ...]
+    q: Indices
+    v: Indices
+
+    def paper_q(self, q: Array) -> Array:
+        """Configuration in the paper's order, from pinocchio's."""
+        return q[self.q]
+
+    def model_q(self, q: Array) -> Array:
+        """Configuration in pinocchio's order, from the paper's."""
+        return _scattered(np.asarray(q, dtype=np.float64), self.q)
+
+    def paper_v(self, v: Array) -> Array:
+        """Last axis from pinocchio's order to the paper's: delta_q, forces, Jacobians."""
+        return v[..., self.v]
+
+    def model_v(self, v: Array) -> Array:
+        """Vector of delta_q in pinocchio's order, from the paper's."""
+        return _scattered(np.asarray(v, dtype=np.float64), self.v)
+
+
+def paper_order(joints: Sequence[ModelJoint]) -> Order:
+    """Actuated joints first, then the others, each block in pinocchio's order."""
+    ordered: list[Joint] = []
+    entries_q: list[int] = []
+    entries_v: list[int] = []
+    for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v[0])):
+        q = slice(len(entries_q), len(entries_q) + joint.q[1])
+        v = slice(len(entries_v), len(entries_v) + joint.v[1])
+        ordered.append(Joint(joint.name, joint.kind, joint.actuated, q, v))
+        entries_q += range(joint.q[0], sum(joint.q))
+        entries_v += range(joint.v[0], sum(joint.v))
+    return Order(
+        tuple(ordered), np.array(entries_q, dtype=np.int64), np.array(entries_v, dtype=np.int64)
+    )
+
+
+def _scattered(values: Any, at: Indices) -> Array:
+    if values.shape != at.shape:
+        raise ValueError(f"expected shape {at.shape}, not {values.shape}")
+    out = np.empty(at.size)
+    out[at] = values
+    return out

@@ -1,0 +1,51 @@
+"""Roll, pitch and yaw, as URDF and scenarios give them, and the angle of a rotation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+
+
+def rotation(rpy: Array) -> Array:
+    """Rotation Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3), of roll, pitch, yaw (3,) [rad]."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def quaternion(rpy: Array) -> Array:
+    """The same rotation as a quaternion [x y z w], shape (4,)."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy / 2), np.sin(rpy / 2)
+    return np.array(
+        [
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+            cr * cp * cy + sr * sp * sy,
+        ]
+    )
+
+
+def rotation_angle(R: Array) -> Array:
+    """Angle of rotation matrices [rad], shape (...,), accurate near 0 and near pi.
+
+    Parameters
+    ----------
+    R : ndarray, shape (..., 3, 3)
+    """
+    axial = np.stack(
+        [
+            R[..., 2, 1] - R[..., 1, 2],
+            R[..., 0, 2] - R[..., 2, 0],
+            R[..., 1, 0] - R[..., 0, 1],
+        ],
+        axis=-1,
+    )
+    trace = np.trace(R, axis1=-2, axis2=-1)
+    return np.asarray(np.arctan2(np.linalg.norm(axial, axis=-1), trace - 1))

@@ -1,0 +1,275 @@
+"""The bodies as the paper sees them: q, (+), (-), M_u, gravity and the Jacobians of links.
+
+Every configuration and every generalised vector given or returned here is in the paper's
+order, q = [q_a; q_u]; quaternions are [x y z w]. A floating base's entries of delta_q are its
+twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(delta_q).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike, NDArray
+
+from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
+from quasistatic_ref.model.world import world_of
+from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
+
+__all__ = ["Body", "Kinematics", "System"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Kinematics:
+    """Where every link is, and how it moves with delta_q; link 0 is the world.
+
+    Parameters
+    ----------
+    R : ndarray, shape (L, 3, 3)
+        Rotation from each link's frame to the world's [-].
+    t : ndarray, shape (L, 3)
+        Origin of each link's frame in the world [m].
+    J : ndarray, shape (L, 6, n_v)
+        Rows 0-2: velocity of that origin, rows 3-5: angular velocity, both in the world
+        frame, per unit of delta_q.
+    """
+
+    R: Array
+    t: Array
+    J: Array
+
+
+class System:
+    """Bodies in one world.
+
+    Methods that take q trust it; :meth:`checked` is for what comes from outside. They share a
+    workspace: one System must not be used from two threads at once.
+
+    Parameters
+    ----------
+    bodies : sequence of Body
+
+    Attributes
+    ----------
+    n_a, n_u, n_v : int
+        Actuated, un-actuated and all coordinates of delta_q.
+    n_q, n_q_a : int
+        Entries of q, and those of them that are actuated.
+    joints : tuple of Joint
+        In the paper's order, with their slices of q and delta_q; mimics have none.
+    coordinates : tuple of Coordinate, length n_v
+    mimics : tuple of MimicJoint
+    links : tuple of str
+        ``"world"``, then ``"gripper/left_finger"``, ...
+    masses : ndarray, shape (L,)
+        Mass of each link as its file says [kg].
+    shapes : tuple of PlacedShape
+        Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
+    q_start : ndarray, shape (n_q,)
+    ignored : tuple of str
+        What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
+
+    Raises
+    ------
+    ModelError
+        If a URDF is not usable, a name is unknown or taken, or M_u is singular.
+    """
+
+    def __init__(self, bodies: Sequence[Body]) -> None:
+        self.bodies = tuple(bodies)
+        world = world_of(self.bodies)
+        self._model, self._data = world.model, world.model.createData()
+        self._order, self._frames = paper_order(world.joints), world.frames
+        self._roots = world.roots
+        self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
+        self.masses, self.ignored = world.masses, world.ignored
+        self.masses.setflags(write=False)
+        self.joints: tuple[Joint, ...] = self._order.joints
+        self.coordinates: tuple[Coordinate, ...] = tuple(
+            coordinate for joint in self.joints for coordinate in joint.coordinates
+        )
+        self.n_q, self.n_v = int(world.model.nq), len(self.coordinates)
+        self.n_a = sum(coordinate.actuated for coordinate in self.coordinates)
+        self.n_u = self.n_v - self.n_a
+        self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
+        self.q_start = self._order.paper_q(world.start)
+        self.q_start.setflags(write=False)
+        self._check_inertia()
+
+    def joint(self, name: str) -> Joint:
+        """Joint of that name, e.g. ``gripper/width``."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        known = [joint.name for joint in self.joints]
+        raise ModelError(f"is no joint{suggestion(name, known)}", field="joint", value=name)
+
+    def link(self, name: str) -> int:
+        """Number of a link; the name of a body stands for its root link."""
+        if name in self._roots:
+            return self._roots[name]
+        if name not in self.links:
+            known = (*self.links, *self._roots)
+            raise ModelError(f"is no link{suggestion(name, known)}", field="link", value=name)
+        return self.links.index(name)
+
+    def mass(self, body: str) -> float:
+        """Mass of all links of a body [kg]."""
+        self._root(body)
+        own = [link.startswith(f"{body}/") for link in self.links]
+        return float(self.masses[own].sum())
+
+    def neutral(self) -> Array:
+        """Configuration with every position zero and bases at the origin, shape (n_q,)."""
+        return self._order.paper_q(pin.neutral(self._model))
+
+    def integrate(self, q: Array, delta_q: Array) -> Array:
+        """Configuration q (+) delta_q, shape (n_q,)."""
+        order = self._order
+        return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
+
+    def difference(self, q: Array, q_next: Array) -> Array:
+        """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
+        order = self._order
+        return order.paper_v(pin.difference(self._model, order.model_q(q), order.model_q(q_next)))
+
+    def with_actuated(self, q: Array, q_a: Array) -> Array:
+        """Copy of q with its actuated entries replaced by q_a, shape (n_q_a,)."""
+        if np.shape(q_a) != (self.n_q_a,):
+            raise ModelError(f"must have shape ({self.n_q_a},)", field="q_a", value=np.shape(q_a))
+        return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
+
+    def checked(self, q: ArrayLike) -> Array:
+        """Copy of q, finite, of shape (n_q,), its quaternions of length one.
+
+        Quaternions off by more than rounding are normalised; the others keep their bits, so
+        that a recorded q replays as it was.
+
+        pinocchio and coal compute on with NaN and with a zero quaternion, and say nothing.
+
+        Raises
+        ------
+        ModelError
+            If it is not a configuration; the message names the joint.
+        """
+        try:
+            checked = np.array(q, dtype=np.float64) + 0.0
+        except (TypeError, ValueError):
+            raise ModelError("must be numbers", field="q", value=q) from None
+        if checked.shape != (self.n_q,):
+            raise ModelError(f"must have shape ({self.n_q},)", field="q", value=checked.shape)
+        for joint in self.joints:
+            part = checked[joint.q]
+            field = f"q[{joint.name}]"
+            if not np.isfinite(part).all():
+                raise ModelError("must be finite", field=field, value=part.tolist())
+            if joint.kind not in ("floating", "continuous"):
+                continue
+            unit = part[3:] if joint.kind == "floating" else part
+            length = np.hypot.reduce(unit)
+            if abs(length - 1) > UNIT_QUATERNION:
+                what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
+                problem = f"its {what} must have length one"
+                raise ModelError(problem, field=field, value=unit.tolist())
+            if abs(length - 1) > UNIT_ROUNDING:
+                unit /= length
+        return checked
+
+    def M_u(self, q: Array) -> Array:
+        """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
+        M = pin.crba(self._model, self._data, self._order.model_q(q))
+        u = self._order.v[self.n_a :]
+        return np.array(M[np.ix_(u, u)])
+
+    def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
+        """Generalised force of gravity at q, shape (n_v,) [N, N m].
+
+        Parameters
+        ----------
+        q : ndarray, shape (n_q,)
+        gravity : array_like, shape (3,)
+            Acceleration of free fall in the world frame [m/s^2].
+        """
+        self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+        # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
+        force = -pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
+        return self._order.paper_v(force + 0.0)
+
+    def kinematics(self, q: Array) -> Kinematics:
+        """Pose and Jacobian of every link at q."""
+        model, data, L = self._model, self._data, len(self.links)
+        pin.computeJointJacobians(model, data, self._order.model_q(q))
+        pin.updateFramePlacements(model, data)
+        R, t, J = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3)), np.zeros((L, 6, self.n_v))
+        for link, frame in enumerate(self._frames, start=1):
+            R[link], t[link] = data.oMf[frame].rotation, data.oMf[frame].translation
+            if self.n_v:  # without columns, getFrameJacobian ends the process
+                # n_v columns also with mimics, where data.J is wider.
+                jacobian = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
+                J[link] = self._order.paper_v(jacobian)
+        return Kinematics(R, t, J)
+
+    def body_jacobians(self, q: Array) -> Array:
+        """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""
+        return self.kinematics(q).J
+
+    def centre_of_mass_force(
+        self, q: Array, body_name: str, force: ArrayLike, torque: ArrayLike
+    ) -> Array:
+        """Generalised force of a wrench at a body's centre of mass, shape (n_v,) [N, N m].
+
+        The wrench acts on the root link, at the centre of mass of that link and of whatever
+        fixed joints weld to it: for a body without moving joints, that of the whole body.
+
+        Parameters
+        ----------
+        q : ndarray, shape (n_q,)
+        body_name : str
+        force, torque : array_like, shape (3,)
+            In the world frame [N, N m].
+
+        Raises
+        ------
+        ModelError
+            If there is no such body, or its base is fixed, so that the wrench would be lost.
+        """
+        root = self._root(body_name)
+        joint = self._model.frames[self._frames[root - 1]].parentJoint
+        if joint == 0:
+            problem = "has a fixed base, on which a wrench does nothing"
+            raise ModelError(problem, field="body", value=body_name)
+        kinematics = self.kinematics(q)
+        # The root link's frame is that of the floating joint.
+        arm = kinematics.R[root] @ self._model.inertias[joint].lever
+        moment = np.asarray(torque, dtype=np.float64) + np.cross(arm, np.asarray(force))
+        generalised: Array = kinematics.J[root].T @ np.concatenate([np.asarray(force), moment])
+        return generalised
+
+    def _root(self, body: str) -> int:
+        if body not in self._roots:
+            problem = f"is no body{suggestion(body, self._roots)}"
+            raise ModelError(problem, field="body", value=body)
+        return self._roots[body]
+
+    def _check_inertia(self) -> None:
+        """Refuse a body whose M_u is singular: Eq. (13) needs it positive definite."""
+        M_u = self.M_u(self.q_start)
+        free = [coordinate for coordinate in self.coordinates if not coordinate.actuated]
+        for body in self._roots:
+            own = [k for k, c in enumerate(free) if c.name.startswith(f"{body}/")]
+            try:
+                np.linalg.cholesky(M_u[np.ix_(own, own)])
+            except np.linalg.LinAlgError:
+                problem = (
+                    "its mass matrix M_u is singular in float64 at the start: an un-actuated "
+                    "coordinate moves next to no mass"
+                )
+                names = [free[k].name for k in own]
+                raise ModelError(problem, field=body, value=names) from None

@@ -1,0 +1,252 @@
+"""What a URDF file says, checked on its own, before any library has read it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.files import bytes_read, text_of
+from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Primitive, Sphere
+from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
+from quasistatic_ref.model.urdf_xml import (
+    at_most_one,
+    attribute,
+    exactly_one,
+    frame,
+    ignored_children,
+    numbers,
+    only_attributes,
+    xml_root,
+)
+from quasistatic_ref.tolerances import INERTIA_TRIANGLE
+
+Array = NDArray[np.float64]
+_MOVING = ("revolute", "continuous", "prismatic")
+_VERSIONS = ("1.0", "1.1", "1.2")
+_GEOMETRIES = ("box", "sphere", "cylinder", "capsule", "mesh")
+
+
+@dataclass(frozen=True, eq=False)
+class FileLink:
+    """A link as written.
+
+    Parameters
+    ----------
+    name : str
+    mass : float
+        [kg]; 0 without an ``inertial``.
+    com : ndarray, shape (3,)
+        Centre of mass in the link's frame [m].
+    inertia : ndarray, shape (3, 3)
+        About the centre of mass, along the link's axes [kg m^2].
+    collisions : tuple of (Primitive, R (3, 3), t (3,))
+        Each shape and its frame in the link's.
+    """
+
+    name: str
+    mass: float
+    com: Array
+    inertia: Array
+    collisions: tuple[tuple[Primitive, Array, Array], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class UrdfFile:
+    """A URDF file as written.
+
+    Parameters
+    ----------
+    path : Path
+    text : str
+        The whole file.
+    root : str
+        Name of the root link.
+    links : dict of str to FileLink, in file order
+    joints : tuple of FileJoint
+        Parents before children.
+    ignored : tuple of str
+        Elements that the model does not use, e.g. ``link[base].visual``.
+    """
+
+    path: Path
+    text: str
+    root: str
+    links: dict[str, FileLink]
+    joints: tuple[FileJoint, ...]
+    ignored: tuple[str, ...]
+
+
+def urdf_file(path: str | Path) -> UrdfFile:
+    """Content of a URDF file.
+
+    Raises
+    ------
+    ModelError
+        If it is missing or malformed, contradicts itself, or says something that the model
+        has no place for; the message names the file, the element and the value.
+    """
+    path = Path(path)
+    text = text_of(bytes_read(path, ModelError), path, ModelError)
+    try:
+        return _content(path, text)
+    except ModelError as error:
+        raise error.in_file(path) from None
+
+
+def _content(path: Path, text: str) -> UrdfFile:
+    robot = xml_root(text)
+    if robot.tag != "robot":
+        raise ModelError("must be <robot>", field="root element", value=robot.tag)
+    version = robot.get("version", "1.0")
+    if version not in _VERSIONS:
+        problem = f"must be one of {', '.join(_VERSIONS)}"
+        raise ModelError(problem, field="robot.version", value=version)
+    ignored = ignored_children(robot, "robot", ("link", "joint"))
+    links: dict[str, FileLink] = {}
+    for element in robot.findall("link"):
+        link = _link(element, ignored)
+        if link.name in links:
+            raise ModelError("is the name of two links", field=f"link[{link.name}]")
+        links[link.name] = link
+    joints = [_joint(element, ignored) for element in robot.findall("joint")]
+    root, ordered = checked_tree(links, joints)
+    return UrdfFile(path, text, root, links, ordered, tuple(ignored))
+
+
+def _link(element: Element, ignored: list[str]) -> FileLink:
+    name = attribute(element, "link", "name")
+    where = f"link[{name}]"
+    ignored += ignored_children(element, where, ("inertial", "collision"))
+    mass, com, inertia = _inertial(element, where, ignored)
+    collisions = []
+    for number, collision in enumerate(element.findall("collision")):
+        at = f"{where}.collision[{number}]"
+        ignored += ignored_children(collision, at, ("origin", "geometry"))
+        R, t = frame(collision, at)
+        collisions.append((_geometry(exactly_one(collision, at, "geometry"), at), R, t))
+    return FileLink(name, mass, com, inertia, tuple(collisions))
+
+
+def _inertial(link: Element, where: str, ignored: list[str]) -> tuple[float, Array, Array]:
+    """Mass [kg], centre of mass (3,) [m] and inertia (3, 3) [kg m^2] along the link's axes."""
+    element = at_most_one(link, where, "inertial")
+    if element is None:
+        return 0.0, np.zeros(3), np.zeros((3, 3))
+    where = f"{where}.inertial"
+    ignored += ignored_children(element, where, ("origin", "mass", "inertia"))
+    R, com = frame(element, where)
+    child = exactly_one(element, where, "mass")
+    only_attributes(child, f"{where}.mass", ("value",))
+    mass = float(numbers(child, f"{where}.mass", "value", 1)[0])
+    if not mass > 0:
+        raise ModelError("must be greater than 0", field=f"{where}.mass", value=mass)
+    child = exactly_one(element, where, "inertia")
+    names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    only_attributes(child, f"{where}.inertia", names)
+    xx, yy, zz, xy, xz, yz = (
+        float(numbers(child, f"{where}.inertia", name, 1)[0]) for name in names
+    )
+    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    principal = np.linalg.eigvalsh(inertia)
+    written = [xx, yy, zz, xy, xz, yz]
+    if not principal[0] > 0:
+        problem = "must be positive definite (ixx iyy izz ixy ixz iyz)"
+        raise ModelError(problem, field=f"{where}.inertia", value=written)
+    if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE):
+        problem = (
+            "is that of no body: the largest principal moment exceeds the sum of the others "
+            "(ixx iyy izz ixy ixz iyz)"
+        )
+        raise ModelError(problem, field=f"{where}.inertia", value=written)
+    return mass, com, R @ inertia @ R.T
+
+
+def _geometry(element: Element, where: str) -> Primitive:
+    if len(element) != 1:
+        tags = [child.tag for child in element]
+        raise ModelError("must hold exactly one shape", field=f"{where}.geometry", value=tags)
+    child = element[0]
+    where = f"{where}.{child.tag}"
+    if child.tag == "mesh":
+        problem = "meshes are not supported in this version; use box, sphere, cylinder or capsule"
+        raise ModelError(problem, field=where, value=child.get("filename"))
+    if child.tag not in _GEOMETRIES:
+        raise ModelError(f"is not a shape{suggestion(child.tag, _GEOMETRIES)}", field=where)
+    written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
+    try:
+        if child.tag == "box":
+            only_attributes(child, where, ("size",))
+            return Box(numbers(child, where, "size", 3) / 2)
+        if child.tag == "sphere":
+            only_attributes(child, where, ("radius",))
+            return Sphere(float(numbers(child, where, "radius", 1)[0]))
+        only_attributes(child, where, ("radius", "length"))
+        kind = Capsule if child.tag == "capsule" else Cylinder
+        radius, length = (float(numbers(child, where, n, 1)[0]) for n in ("radius", "length"))
+        return kind(radius, length / 2)
+    except ModelError as error:
+        if error.field in written:  # about a size: name it as the file does
+            name = written[error.field]
+            error.field, error.value = f"{where}.{name}", child.get(name)
+        raise
+
+
+def _joint(element: Element, ignored: list[str]) -> FileJoint:
+    name = attribute(element, "joint", "name")
+    where = f"joint[{name}]"
+    kind = attribute(element, where, "type")
+    if kind != "fixed" and kind not in _MOVING:
+        problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
+        if kind == "floating":
+            problem += ', or base = "floating" where the whole body floats'
+        raise ModelError(problem, field=f"{where}.type", value=kind)
+    read = ("origin", "parent", "child", "axis", "mimic")
+    ignored += ignored_children(element, where, read)
+    R, t = frame(element, where)
+    ends = []
+    for tag in ("parent", "child"):
+        end = exactly_one(element, where, tag)
+        only_attributes(end, f"{where}.{tag}", ("link",))
+        ends.append(attribute(end, f"{where}.{tag}", "link"))
+    axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
+    child = at_most_one(element, where, "axis")
+    if child is not None and kind != "fixed":
+        only_attributes(child, f"{where}.axis", ("xyz",))
+        axis = numbers(child, f"{where}.axis", "xyz", 3)
+        length = float(np.hypot.reduce(axis))
+        if not length > 0:
+            raise ModelError("must not be zero", field=f"{where}.axis.xyz", value=axis.tolist())
+        axis = axis / length
+    _check_limit(element, where, needed=kind in ("revolute", "prismatic"))
+    return FileJoint(name, kind, ends[0], ends[1], R, t, axis, _mimic(element, where))
+
+
+def _check_limit(joint: Element, where: str, *, needed: bool) -> None:
+    """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
+    limit = at_most_one(joint, where, "limit")
+    if limit is None:
+        if needed:
+            problem = (
+                "is missing: URDF asks for effort and velocity, though the model has no limits"
+            )
+            raise ModelError(problem, field=f"{where}.limit")
+        return
+    for name in ("effort", "velocity", "lower", "upper"):
+        default = 0.0 if name in ("lower", "upper") else None
+        numbers(limit, f"{where}.limit", name, 1, default)
+
+
+def _mimic(joint: Element, where: str) -> Mimic | None:
+    child = at_most_one(joint, where, "mimic")
+    if child is None:
+        return None
+    where = f"{where}.mimic"
+    only_attributes(child, where, ("joint", "multiplier", "offset"))
+    multiplier = float(numbers(child, where, "multiplier", 1, default=1.0)[0])
+    offset = float(numbers(child, where, "offset", 1, default=0.0)[0])
+    return Mimic(attribute(child, where, "joint"), multiplier, offset)

@@ -1,0 +1,144 @@
+"""The XML of a URDF file: parsed without declarations, read without silent defaults.
+
+Every reader here refuses what urdfdom would pass over: a repeated element, a misspelt
+attribute, a number with a tail.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.model.text import decimal
+
+Array = NDArray[np.float64]
+
+
+def xml_root(text: str) -> Element:
+    """Root element of a document without a DOCTYPE.
+
+    Raises
+    ------
+    ModelError
+        If the text is not well-formed, or declares a document type: entities of its own are
+        never needed in a URDF, and can expand without bound.
+    """
+    builder = TreeBuilder()
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+
+    def refusal(*_: object) -> None:
+        problem = "a DOCTYPE is not allowed in a URDF: no entity is ever expanded"
+        raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
+
+    parser.StartDoctypeDeclHandler = refusal
+    parser.StartElementHandler = lambda name, attributes: builder.start(name, attributes)
+    parser.EndElementHandler = lambda name: builder.end(name)
+    try:
+        parser.Parse(text, True)
+    except expat.ExpatError as error:
+        problem = f"is not well-formed XML: {expat.ErrorString(error.code)}"
+        raise ModelError(problem, field=f"line {error.lineno}") from None
+    return builder.close()
+
+
+def only_attributes(element: Element, where: str, known: Collection[str]) -> None:
+    """Refuse an attribute that nothing would read."""
+    for name in element.attrib:
+        if name not in known:
+            raise ModelError(f"is unknown{suggestion(name, known)}", field=f"{where}.{name}")
+
+
+def attribute(element: Element, where: str, name: str) -> str:
+    """Text of an attribute that must be there and not be blank."""
+    value = element.get(name)
+    if value is None or not value.strip():
+        raise ModelError("is missing", field=f"{where}.{name}")
+    return value
+
+
+def numbers(
+    element: Element, where: str, name: str, count: int, default: float | None = None
+) -> Array:
+    """Finite numbers in one attribute, shape (count,).
+
+    Parameters
+    ----------
+    element : Element
+    where : str
+        Name of the element in messages.
+    name : str
+        The attribute.
+    count : int
+        How many numbers it must hold.
+    default : float, optional
+        Each number, where the attribute is missing; without it that is an error.
+    """
+    if default is not None and name not in element.attrib:
+        return np.full(count, default)
+    words = attribute(element, where, name).split()
+    field = f"{where}.{name}"
+    if len(words) != count:
+        problem = f"must be {count} number{'s' if count > 1 else ''}"
+        raise ModelError(problem, field=field, value=element.get(name))
+    try:
+        return np.array([decimal(word) for word in words])
+    except ModelError as error:
+        error.field = field
+        raise
+
+
+def at_most_one(element: Element, where: str, tag: str) -> Element | None:
+    """The child of that name, or None; two are refused, since urdfdom reads the first only."""
+    found = element.findall(tag)
+    if len(found) > 1:
+        raise ModelError("is given more than once", field=f"{where}.{tag}", value=len(found))
+    return found[0] if found else None
+
+
+def exactly_one(element: Element, where: str, tag: str) -> Element:
+    """The only child of that name; a missing one is an error."""
+    found = at_most_one(element, where, tag)
+    if found is None:
+        raise ModelError("is missing", field=f"{where}.{tag}")
+    return found
+
+
+def ignored_children(element: Element, where: str, read: Collection[str]) -> list[str]:
+    """Names of the children that are not read; one that looks like a misprint is refused."""
+    ignored = []
+    for child in element:
+        if child.tag in read:
+            continue
+        if child.tag.startswith("xacro:"):
+            problem = "is a macro: expand the file with xacro first"
+            raise ModelError(problem, field=f"{where}.{child.tag}")
+        near = difflib.get_close_matches(child.tag, list(read), n=1, cutoff=0.8)
+        if near:
+            problem = f"is unknown; did you mean {near[0]!r}?"
+            raise ModelError(problem, field=f"{where}.{child.tag}")
+        name = f"{where}.{child.tag}"
+        if name not in ignored:
+            ignored.append(name)
+    return ignored
+
+
+def frame(element: Element, where: str) -> tuple[Array, Array]:
+    """Rotation (3, 3) and origin (3,) [m] of the child ``origin``; the identity without one.
+
+    R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent.
+    """
+    origin = at_most_one(element, where, "origin")
+    if origin is None:
+        return np.eye(3), np.zeros(3)
+    where = f"{where}.origin"
+    only_attributes(origin, where, ("xyz", "rpy"))
+    rpy = numbers(origin, where, "rpy", 3, default=0.0)
+    return rotation(rpy), numbers(origin, where, "xyz", 3, default=0.0)

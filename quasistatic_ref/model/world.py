@@ -1,0 +1,186 @@
+"""All URDFs in one pinocchio model, named, placed and numbered; what `System` is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.model.shapes import PlacedShape
+from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """Several bodies in one pinocchio model.
+
+    Parameters
+    ----------
+    model : pinocchio.Model
+    joints : tuple of ModelJoint
+        Those with coordinates of their own, numbered as pinocchio does.
+    mimics : tuple of MimicJoint
+    links : tuple of str
+        Number 0 is ``"world"``.
+    frames : tuple of int
+        The pinocchio frame of each link but the world.
+    masses : ndarray, shape (L,)
+        Mass of each link as its file says; the world has none [kg].
+    shapes : tuple of PlacedShape
+    roots : dict of str to int
+        Number of each body's root link.
+    start : ndarray, shape (n_q,)
+        Initial configuration in pinocchio's order.
+    ignored : tuple of str
+        What the URDFs say and the model does not use.
+    """
+
+    model: Any
+    joints: tuple[ModelJoint, ...]
+    mimics: tuple[MimicJoint, ...]
+    links: tuple[str, ...]
+    frames: tuple[int, ...]
+    masses: Array
+    shapes: tuple[PlacedShape, ...]
+    roots: dict[str, int]
+    start: Array
+    ignored: tuple[str, ...]
+
+
+def world_of(bodies: Sequence[Body]) -> World:
+    """Load every body's URDF and append it to one model.
+
+    Raises
+    ------
+    ModelError
+        If a URDF is not usable, two bodies share a name, or a body names a joint that it
+        does not have.
+    """
+    model = pin.Model()
+    urdfs: dict[str, Urdf] = {}
+    for body in bodies:
+        if body.name in urdfs:
+            raise ModelError("is the name of two bodies", field="body.name", value=body.name)
+        floating = body.base == "floating"
+        urdf = loaded_urdf(body.urdf, floating=floating, package_dirs=body.package_dirs)
+        _check_joint_names(body, urdf)
+        urdfs[body.name] = urdf
+        placement = pin.SE3.Identity() if floating else _placement(body)
+        model = pin.appendModel(model, _prefixed(urdf.model, body.name), 0, placement)
+    links, masses, roots, shapes = ["world"], [0.0], {}, []
+    for name, urdf in urdfs.items():
+        first = roots[name] = len(links)
+        links += [f"{name}/{link}" for link in urdf.links]
+        masses += [urdf.file.links[link].mass for link in urdf.links]
+        for shape in urdf.shapes:
+            shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
+    joints, start = [], pin.neutral(model)
+    for body in bodies:
+        for joint, position in _joints(body, urdfs[body.name], model):
+            joints.append(joint)
+            start[joint.q[0] : sum(joint.q)] = position
+    return World(
+        model=model,
+        joints=tuple(joints),
+        mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
+        links=tuple(links),
+        frames=tuple(body_frame(model, link) for link in links[1:]),
+        masses=np.array(masses),
+        shapes=tuple(shapes),
+        roots=roots,
+        start=start,
+        ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
+    )
+
+
+def joint_key(joint: str) -> str:
+    """Name of a joint inside the model.
+
+    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
+    space, so this cannot be a link's.
+    """
+    return f"joint {joint}"
+
+
+def _prefixed(model: Any, name: str) -> Any:
+    for number in range(1, model.njoints):
+        model.names[number] = joint_key(f"{name}/{model.names[number]}")
+    for number in range(1, model.nframes):  # frame 0 is the universe
+        frame = model.frames[number]
+        prefixed = f"{name}/{frame.name}"
+        frame.name = prefixed if frame.type == pin.FrameType.BODY else joint_key(prefixed)
+    return model
+
+
+def _placement(body: Body) -> Any:
+    return pin.SE3(rotation(np.asarray(body.rpy)), np.asarray(body.xyz))
+
+
+def _check_joint_names(body: Body, urdf: Urdf) -> None:
+    kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != "fixed"}
+    scalar = {name for name, joint in kinds.items() if joint.mimic is None}
+    known = scalar | {BASE} if urdf.floating else scalar
+    actuated = () if body.actuated == "all" else body.actuated
+    for field, names, allowed in (
+        ("actuated", actuated, known),
+        ("positions", tuple(body.positions), scalar),
+    ):
+        for name in names:
+            if name in allowed:
+                continue
+            joint = kinds.get(name)
+            problem = f"has no such joint{suggestion(str(name), allowed)}"
+            if joint is not None and joint.mimic is not None:
+                problem = f"mimics {joint.mimic.of!r} and has no coordinate of its own"
+            elif name == BASE and urdf.floating:
+                problem = "is placed by xyz and rpy"
+            elif name == BASE:
+                problem = 'is fixed; say base = "floating" to move it'
+            raise ModelError(problem, field=f"{body.name}.{field}", value=name)
+        if len(set(names)) != len(names):
+            raise ModelError("names a joint twice", field=f"{body.name}.{field}", value=names)
+
+
+def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]]:
+    """Joints with coordinates of one body, each with its start."""
+    kinds = {BASE: "floating"} if urdf.floating else {}
+    kinds |= {j.name: j.kind for j in urdf.file.joints if j.kind != "fixed" and j.mimic is None}
+    found = []
+    for name, kind in kinds.items():
+        joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
+        position = body.positions.get(name, 0.0)
+        if kind == "floating":
+            placement = _placement(body)
+            quaternion = pin.Quaternion(placement.rotation).normalized()
+            start = np.concatenate([placement.translation, quaternion.coeffs()])
+        elif kind == "continuous":
+            start = np.array([np.cos(position), np.sin(position)])
+        else:
+            start = np.array([position])
+        actuated = body.actuated == "all" or name in body.actuated
+        entries = (joint.idx_q, joint.nq), (joint.idx_v, joint.nv)
+        found.append((ModelJoint(f"{body.name}/{name}", kind, actuated, *entries), start))
+    return found
+
+
+def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:
+    return [
+        MimicJoint(
+            f"{body}/{joint.name}",
+            f"{body}/{joint.mimic.of}",
+            joint.mimic.multiplier,
+            joint.mimic.offset,
+        )
+        for joint in urdf.file.joints
+        if joint.mimic is not None
+    ]

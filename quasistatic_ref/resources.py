@@ -1,0 +1,38 @@
+"""Where the models that come with the package are: in the wheel, or beside it in a checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from quasistatic_ref.errors import ScenarioError, suggestion
+
+
+def models_folder() -> Path:
+    """The folder of the models that come with the package."""
+    package = Path(__file__).parent
+    beside = package.parent / "models"
+    in_checkout = (package.parent / "pyproject.toml").is_file() and beside.is_dir()
+    return beside if in_checkout else package / "models"
+
+
+def scenario_names() -> list[str]:
+    """Names of the scenarios that come with the package."""
+    return sorted(path.stem for path in models_folder().glob("*/*.toml"))
+
+
+def scenario_path(name: str | Path) -> Path:
+    """A scenario file: a path as it is, or the name of one that comes with the package.
+
+    Raises
+    ------
+    ScenarioError
+        If there is neither such a file nor such a name.
+    """
+    path = Path(name)
+    if path.suffix == ".toml" or path.exists():
+        return path
+    for known in models_folder().glob("*/*.toml"):
+        if known.stem == str(name):
+            return known
+    hint = suggestion(str(name), scenario_names())
+    raise ScenarioError(f"is neither a file nor a scenario that comes along{hint}", file=name)

@@ -1,0 +1,198 @@
+"""The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import ScenarioError, suggestion
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
+from quasistatic_ref.step.data import Array
+
+ZERO = np.zeros(3)
+
+
+@dataclass(frozen=True, eq=False)
+class Wrenches:
+    """An external wrench at a body's centre of mass, piecewise linear in time.
+
+    Parameters
+    ----------
+    body : str
+    times : ndarray, shape (w,)
+        [s].
+    values : ndarray, shape (w, 6)
+        Force [N] and torque [N m], world frame.
+    """
+
+    body: str
+    times: Array
+    values: Array
+
+    def force(self, system: System, t: float, q: Array) -> Array:
+        """Generalised force at time t, shape (n_v,)."""
+        wrench = piecewise_linear(self.times, self.values, t)
+        return system.centre_of_mass_force(q, self.body, wrench[:3], wrench[3:])
+
+
+@dataclass(frozen=True, eq=False)
+class BodyEntry:
+    """What one table says, before the system is known.
+
+    Parameters
+    ----------
+    body : Body
+    table : Fields
+        For messages.
+    K_q : object
+        As parsed: a table of joints, or a matrix.
+    targets : list
+        As parsed: waypoints.
+    cloud : Path or None
+    gravity_compensated : bool
+        Whether gravity on the actuated coordinates is the robot's business (default) or ours.
+    wrenches : Wrenches or None
+    """
+
+    body: Body
+    table: Fields
+    K_q: Any
+    targets: list[Any]
+    cloud: Path | None
+    gravity_compensated: bool
+    wrenches: Wrenches | None
+
+    def actuated(self, system: System) -> list[Joint]:
+        """The actuated joints of this body, in the order of q."""
+        own = f"{self.body.name}/"
+        return [j for j in system.joints if j.actuated and j.name.startswith(own)]
+
+    def short(self, joint: Joint) -> str:
+        """A joint's name without the body's."""
+        return joint.name.removeprefix(f"{self.body.name}/")
+
+
+def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
+    """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
+    urdf = folder / table.text("urdf")
+    base = table.text("base", "fixed", ("fixed", "floating"))
+    actuated = table.take("actuated", [])
+    if actuated != "all":
+        if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
+            raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
+        actuated = tuple(actuated)
+    xyz, rpy = _pose(table.table("pose", {}))
+    positions = table.table("positions", {})
+    start = {joint: positions.number(joint) for joint in positions.names()}
+    cloud = table.text("cloud", None)
+    entry = BodyEntry(
+        body=Body(
+            name=name,
+            urdf=urdf,
+            base=base,
+            actuated=actuated,
+            xyz=tuple(xyz),
+            rpy=tuple(rpy),
+            positions=start,
+        ),
+        table=table,
+        K_q=table.take("K_q", None),
+        targets=table.sequence("targets", []),
+        cloud=None if cloud is None else folder / cloud,
+        gravity_compensated=table.boolean("gravity_compensated", True),
+        wrenches=_wrenches(name, table),
+    )
+    table.close()
+    return entry
+
+
+def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
+    """Fill a body's block into the system's K_q.
+
+    Each joint has a number, a list (diagonal) or a matrix; or the whole body has one matrix.
+
+    Raises
+    ------
+    ScenarioError
+        If a joint is left out, unknown, or its stiffness has the wrong shape.
+    """
+    joints, table = entry.actuated(system), entry.table
+    if entry.K_q is None and joints:
+        raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
+    if isinstance(entry.K_q, list):
+        index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
+        whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
+        K_q[np.ix_(index, index)] = whole.array("K_q", (len(index), len(index)))
+        return
+    given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
+    for joint in joints:
+        K_q[joint.v, joint.v] = _joint_stiffness(given, entry.short(joint), joint)
+    given.close()
+
+
+def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
+    """The waypoints of a body's joints as functions of time."""
+    joints = {entry.short(joint): joint for joint in entry.actuated(system)}
+    times: dict[str, list[float]] = {}
+    values: dict[str, list[Any]] = {}
+    for i, record in enumerate(entry.targets):
+        waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
+        t = waypoint.number("t")
+        for name in waypoint.names():
+            if name not in joints:
+                hint = suggestion(name, joints)
+                raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
+            if joints[name].kind == "floating":
+                xyz, rpy = _pose(waypoint.table(name))
+                value: Any = np.concatenate([xyz, quaternion(rpy)])
+            else:
+                value = [waypoint.number(name)]
+            times.setdefault(name, []).append(t)
+            values.setdefault(name, []).append(value)
+    return [
+        JointTrack(system, joints[name], np.array(times[name]), np.array(values[name]))
+        for name in times
+    ]
+
+
+def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
+    n = joint.v.stop - joint.v.start
+    value = given.take(name)
+    wrapped = Fields({name: value}, given.where, ScenarioError)
+    if not isinstance(value, list):
+        return wrapped.number(name, above=0.0) * np.eye(n)
+    if value and isinstance(value[0], list):
+        return wrapped.array(name, (n, n))
+    diagonal = wrapped.array(name, (n,))
+    if not (diagonal > 0).all():
+        raise given.fail(name, "must be greater than 0 in every entry", value)
+    return np.diag(diagonal)
+
+
+def _pose(table: Fields) -> tuple[Array, Array]:
+    xyz, rpy = table.array("xyz", (3,), ZERO), table.array("rpy", (3,), ZERO)
+    table.close()
+    return xyz, rpy
+
+
+def _wrenches(name: str, table: Fields) -> Wrenches | None:
+    times, values = [], []
+    for i, record in enumerate(table.sequence("wrenches", [])):
+        one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
+        times.append(one.number("t"))
+        values.append(
+            np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
+        )
+        one.close()
+    if not times:
+        return None
+    if not (np.diff(times) > 0).all():
+        raise table.fail("wrenches", "must have increasing times t", times)
+    return Wrenches(name, np.array(times), np.array(values))

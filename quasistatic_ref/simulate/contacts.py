@@ -1,0 +1,124 @@
+"""The ``[shapes.NAME]`` and ``[contacts.NAME]`` tables of a scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import InputError, ScenarioError, suggestion
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.model.clouds import point_cloud
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cylinder,
+    HalfSpace,
+    PlacedShape,
+    Shape,
+    Sphere,
+)
+from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.bodies import BodyEntry
+
+WORLD = 0
+Shapes = dict[str, list[PlacedShape]]
+
+
+def placed_shapes(system: System, entries: Mapping[str, BodyEntry], world: Fields) -> Shapes:
+    """Every name that ``[contacts]`` may use, with its shapes.
+
+    A link has the collision shapes of its URDF; a body's name means its cloud, or else its root
+    link; a name from ``[shapes]`` is fixed in the world.
+    """
+    named: Shapes = {}
+    for name in world.names():
+        named[name] = [_world_shape(name, world.table(name))]
+    world.close()
+    for i, link in enumerate(system.links):
+        if i != WORLD:
+            named[link] = [shape for shape in system.shapes if shape.link == i]
+    for name, entry in entries.items():
+        if name in named:
+            raise ScenarioError("is the name of a body as well", field=f"shapes.{name}")
+        root = system.link(name)
+        if entry.cloud is None:
+            named[name] = named[system.links[root]]
+        else:
+            cloud = point_cloud(entry.cloud)
+            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), cloud)]
+    return named
+
+
+def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
+    """The pairs of all ``[contacts.NAME]`` tables, in file order."""
+    pairs = []
+    for name in tables.names():
+        table = tables.table(name)
+        sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
+        rows = table.integer("rows", 6)
+        if rows not in (4, 6):
+            raise table.fail("rows", "must be 4 or 6", rows)
+        mu_v = table.number("mu_v", least=0.0)
+        mu_omega = table.number("mu_omega", *([0.0] if rows == 4 else []), least=0.0)
+        k = table.integer("k", 1, least=1)
+        table.close()
+        for alpha in sides[0]:
+            for beta in sides[1]:
+                label = f"{name}({alpha.name}, {beta.name})"
+                try:
+                    pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k))
+                except InputError as error:
+                    error.field = table.where
+                    raise
+    tables.close()
+    return tuple(pairs)
+
+
+def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
+    value = table.take(key)
+    names = value if isinstance(value, list) else [value]
+    found: list[PlacedShape] = []
+    for name in names:
+        if not isinstance(name, str):
+            raise table.fail(key, "must be a name or a list of names", value)
+        if name not in shapes:
+            raise table.fail(key, f"names nothing here{suggestion(name, shapes)}", name)
+        if not shapes[name]:
+            raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
+        found += shapes[name]
+    if not found:
+        raise table.fail(key, "must name at least one shape", value)
+    return found
+
+
+def _world_shape(name: str, table: Fields) -> PlacedShape:
+    pose = table.table("pose", {})
+    zero = np.zeros(3)
+    t, rpy = pose.array("xyz", (3,), zero), pose.array("rpy", (3,), zero)
+    pose.close()
+    kinds = [kind for kind in table.names() if kind in _KINDS]
+    if len(kinds) != 1:
+        raise table.fail("shape", f"must be exactly one of {', '.join(_KINDS)}", table.names())
+    sizes = table.table(kinds[0])
+    try:
+        shape = _KINDS[kinds[0]](sizes)
+    except InputError as error:
+        error.field = error.field if error.field and "." in error.field else sizes.where
+        raise
+    sizes.close()
+    table.close()
+    return PlacedShape(name, WORLD, rotation(rpy), t, shape)
+
+
+_KINDS: dict[str, Callable[[Fields], Shape]] = {
+    "halfspace": lambda s: HalfSpace(s.array("normal", (3,)), s.number("offset", 0.0)),
+    "box": lambda s: Box(s.array("size", (3,)) / 2),
+    "sphere": lambda s: Sphere(s.number("radius", above=0.0)),
+    "cylinder": lambda s: Cylinder(
+        s.number("radius", above=0.0), s.number("length", above=0.0) / 2
+    ),
+    "capsule": lambda s: Capsule(s.number("radius", above=0.0), s.number("length", above=0.0) / 2),
+}

@@ -1,0 +1,208 @@
+"""A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.files import bytes_read, text_of
+from quasistatic_ref.model.system import System
+from quasistatic_ref.resources import scenario_path
+from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
+from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.simulate.simulator import GRAVITY, Force, Simulator, simulate
+from quasistatic_ref.simulate.target import Targets
+from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.step.data import CONES, Array
+from quasistatic_ref.tolerances import ACCURACY
+
+FORMAT = "quasistatic-ref/scenario"
+VERSION = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Scenario:
+    """Everything that a scenario file says, checked and loaded.
+
+    Parameters
+    ----------
+    path : Path
+    h : float
+        Time step [s].
+    steps : int
+    gravity : ndarray, shape (3,)
+        [m/s^2], world frame.
+    system : System
+    pairs : tuple of ContactPair
+    K_q : ndarray, shape (n_a, n_a)
+    feels_gravity : ndarray of bool, shape (n_a,)
+    targets : Targets
+        q_bar_a(t).
+    wrenches : tuple of Wrenches
+        External, world frame, at centres of mass.
+    backend, accuracy, certify, record
+        Settings.
+    """
+
+    path: Path
+    h: float
+    steps: int
+    gravity: Array
+    system: System
+    pairs: tuple[ContactPair, ...]
+    K_q: Array
+    feels_gravity: Array
+    targets: Targets
+    wrenches: tuple[Wrenches, ...] = ()
+    backend: str = DEFAULT
+    accuracy: float = ACCURACY
+    certify: str = CERTIFY[0]
+    record: str = "full"
+    bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
+
+    def simulator(self) -> Simulator:
+        """A simulator of this scenario."""
+        return Simulator(
+            self.system,
+            self.pairs,
+            h=self.h,
+            K_q=self.K_q,
+            gravity=self.gravity.tolist(),
+            feels_gravity=self.feels_gravity,
+            backend=self.backend,
+            accuracy=self.accuracy,
+            certify=self.certify,
+        )
+
+    @property
+    def force(self) -> Force | None:
+        """External generalised force (t, q) -> (n_v,), or None where there is none."""
+        if not self.wrenches:
+            return None
+        return lambda t, q: np.sum([w.force(self.system, t, q) for w in self.wrenches], axis=0)
+
+    def run(self, progress: bool = True) -> Trajectory:
+        """Simulate the whole scenario; raises RunFailed where a step fails."""
+        return simulate(
+            self.simulator(),
+            self.system.q_start,
+            self.targets,
+            self.steps,
+            force=self.force,
+            record=self.record,
+            progress=progress,
+        )
+
+
+def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
+    """Load a scenario from a file, or by the name of one that comes with the package.
+
+    Parameters
+    ----------
+    name : str or Path
+    settings : sequence of str
+        Changes as ``dotted.key=value``, made before anything is checked.
+
+    Returns
+    -------
+    Scenario
+
+    Raises
+    ------
+    ScenarioError
+        Naming the file, the field and the value.
+    """
+    path = scenario_path(name)
+    try:
+        try:
+            tables = tomllib.loads(text_of(bytes_read(path), path))
+        except tomllib.TOMLDecodeError as error:
+            raise ScenarioError(f"is not TOML: {error}") from None
+        except (RecursionError, ValueError):
+            raise ScenarioError("is nested too deeply, or holds an unusable number") from None
+        for setting in settings:
+            _apply(tables, setting)
+        return _scenario(path, Fields(tables, error=ScenarioError))
+    except InputError as error:
+        raise error.in_file(path) from None
+
+
+def _scenario(path: Path, top: Fields) -> Scenario:
+    top.text("format", choices=(FORMAT,))
+    version = top.integer("version")
+    if version != VERSION:
+        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    h, steps = top.number("h", above=0.0), top.integer("steps", least=0)
+    gravity = top.array("gravity", (3,), np.array(GRAVITY))
+    top.text("cone", "pyramid", CONES)
+    record = top.text("record", "full", RECORDS)
+    solver = top.table("solver", {})
+    backend = solver.text("backend", DEFAULT)
+    accuracy = solver.number("accuracy", ACCURACY, above=0.0)
+    certify = solver.text("certify", CERTIFY[0], CERTIFY)
+    solver.close()
+
+    tables = top.table("bodies")
+    entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
+    tables.close()
+    if not entries:
+        raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
+    system = System([entry.body for entry in entries.values()])
+    shapes = placed_shapes(system, entries, top.table("shapes", {}))
+    pairs = contact_pairs(top.table("contacts", {}), shapes)
+    top.close()
+
+    K_q, feels_gravity = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
+    tracks, wrenches = [], []
+    for entry in entries.values():
+        stiffness(system, entry, K_q)
+        for joint in entry.actuated(system):
+            feels_gravity[joint.v] = not entry.gravity_compensated
+        tracks += joint_tracks(system, entry)
+        if entry.wrenches is not None:
+            wrenches.append(entry.wrenches)
+    return Scenario(
+        path=path,
+        h=h,
+        steps=steps,
+        gravity=gravity,
+        system=system,
+        pairs=pairs,
+        K_q=K_q,
+        feels_gravity=feels_gravity,
+        targets=Targets(system.q_start[: system.n_q_a], tracks),
+        wrenches=tuple(wrenches),
+        backend=backend,
+        accuracy=accuracy,
+        certify=certify,
+        record=record,
+        bodies=entries,
+    )
+
+
+def _apply(tables: dict[str, Any], setting: str) -> None:
+    """Make one change ``dotted.key=value``; the value is TOML, or else a plain word."""
+    key, equals, text = setting.partition("=")
+    parts = [part.strip() for part in key.split(".")]
+    if not equals or not all(parts):
+        raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
+    try:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except (tomllib.TOMLDecodeError, KeyError):
+        value = text.strip()
+    at: Any = tables
+    for part in parts[:-1]:
+        at = at.setdefault(part, {}) if isinstance(at, dict) else None
+    if not isinstance(at, dict):
+        raise ScenarioError("does not lead to a table", field="--set", value=setting)
+    at[parts[-1]] = value

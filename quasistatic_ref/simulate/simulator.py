@@ -1,0 +1,238 @@
+"""The simulator: one step as the algorithm of the paper, and steps in sequence."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
+from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.tolerances import ACCURACY
+
+Force = Callable[[float, Array], Array]
+Target = Callable[[float], Array]
+GRAVITY = (0.0, 0.0, -9.81)
+
+
+@dataclass(frozen=True, eq=False)
+class StepResult:
+    """Everything that one step came to.
+
+    Parameters
+    ----------
+    q : ndarray, shape (n_q,)
+        Configuration after the step.
+    step : StepData
+        The problem of the step.
+    solution : StepSolution
+    points : ClosestPoints
+        Where the contacts were, before the step.
+    seconds : dict of str to float
+        Wall time of the parts: distances, rows, solve, integrate [s].
+    """
+
+    q: Array
+    step: StepData
+    solution: StepSolution
+    points: ClosestPoints
+    seconds: dict[str, float]
+
+
+class Simulator:
+    """A system, what may touch in it, and how each step is solved.
+
+    Parameters
+    ----------
+    system : System
+    pairs : sequence of ContactPair
+    h : float
+        Time step [s].
+    K_q : ndarray, shape (n_a, n_a)
+        Joint stiffness [N/m, N m/rad], in the order of q_a.
+    gravity : array_like, shape (3,)
+        [m/s^2], world frame.
+    feels_gravity : ndarray of bool, shape (n_a,), optional
+        Actuated coordinates whose gravity is not compensated by the robot; none by default.
+    backend, accuracy, certify
+        As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        pairs: Sequence[ContactPair],
+        *,
+        h: float,
+        K_q: Array,
+        gravity: Sequence[float] = GRAVITY,
+        feels_gravity: Array | None = None,
+        backend: str = DEFAULT,
+        accuracy: float = ACCURACY,
+        certify: str = "residual",
+    ) -> None:
+        self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
+        self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
+        self.weighs = np.ones(system.n_v)
+        self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
+        self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.problem: StepProblem | None = None
+
+    def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
+        """One step from q towards the target q_bar_a.
+
+        Parameters
+        ----------
+        q : ndarray, shape (n_q,)
+        q_bar_a : ndarray, shape (n_q_a,)
+            Target of the actuated coordinates at the end of the step.
+        force : ndarray, shape (n_v,), optional
+            External generalised force besides gravity [N, N m].
+
+        Returns
+        -------
+        StepResult
+
+        Raises
+        ------
+        StepNotSolved
+            If the backend's answer cannot be trusted.
+        """
+        lap = Stopwatch()
+        kinematics = self.system.kinematics(q)
+        points = closest_points(self.pairs, kinematics)
+        lap("distances")
+        step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
+        lap("rows")
+        solution = self.solved(step)
+        lap("solve")
+        q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        lap("integrate")
+        return StepResult(q_next, step, solution, points, lap.seconds)
+
+    def step_data(self, q: Array, q_bar_a: Array, force: Array | float, at: Contacts) -> StepData:
+        """The problem of one step: everything in Eq. (13) at q."""
+        system, n_a = self.system, self.system.n_a
+        tau = self.weighs * system.gravity_force(q, self.gravity) + force
+        target = system.with_actuated(q, q_bar_a)
+        return StepData(
+            h=self.h,
+            K_q=self.K_q,
+            M_u=system.M_u(q),
+            tau_a=tau[:n_a],
+            tau_u=tau[n_a:],
+            delta_q_bar_a=system.difference(q, target)[:n_a],  # q_bar_a(t + h) (-) q_a
+            contacts=at,
+        )
+
+    def solved(self, step: StepData) -> StepSolution:
+        """The step solved, with a CVXPY problem that is built once."""
+        if self.problem is None:
+            self.problem = StepProblem(step)
+        return solve_step(
+            step,
+            self.backend,
+            accuracy=self.accuracy,
+            certify=self.certify,
+            problem=self.problem,
+        )
+
+
+def simulate(
+    simulator: Simulator,
+    q: Array,
+    target: Target | Array,
+    steps: int,
+    *,
+    force: Force | None = None,
+    record: str = "full",
+    progress: bool = True,
+) -> Trajectory:
+    """Step after step, recorded.
+
+    The step from t to t + h uses the target and the external force at t + h.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+        Where to start; quaternions are normalised.
+    target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
+        q_bar_a as a function of time [s], constant, or step by step.
+    steps : int
+    force : callable, optional
+        (t, q) -> external generalised force, shape (n_v,) [N, N m].
+    record : str
+        ``"full"``, or ``"light"`` to leave out the quadratic programs.
+    progress : bool
+        Whether to show a progress bar on standard error, where that is a terminal.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    RunFailed
+        If a step fails or is interrupted; it holds the trajectory so far, and the failing step.
+    """
+    q = simulator.system.checked(q)
+    q_bar_a = _target_function(simulator, target, steps)
+    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q)
+    bar: Iterable[int] = tqdm(
+        range(steps), unit="step", disable=None if progress else True, leave=False
+    )
+    for k in bar:
+        t = (k + 1) * simulator.h
+        try:
+            goal = q_bar_a(t)
+            result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+        except (QuasistaticError, KeyboardInterrupt) as failure:
+            interrupted = isinstance(failure, KeyboardInterrupt)
+            reason = f"step {k}: {'interrupted' if interrupted else failure}"
+            step = failure.step if isinstance(failure, StepNotSolved) else None
+            raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+        recorder.add(t, goal, result)
+        q = result.q
+    return recorder.trajectory()
+
+
+def _target_function(simulator: Simulator, target: Target | Array, steps: int) -> Target:
+    """Targets in any accepted form as a function of t, checked."""
+    if callable(target):
+        return target
+    values, n = np.asarray(target, dtype=np.float64), simulator.system.n_q_a
+    if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
+        raise InputError(
+            f"must hold finite numbers of shape ({n},) or ({steps}, {n})",
+            field="target",
+            value=values.shape,
+        )
+    if values.ndim == 1:
+        return lambda t: values
+    return lambda t: values[round(t / simulator.h) - 1]
+
+
+class Stopwatch:
+    """Wall time between laps, by name."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._last = time.perf_counter()
+
+    def __call__(self, name: str) -> None:
+        """End the lap of that name."""
+        now = time.perf_counter()
+        self.seconds[name], self._last = now - self._last, now

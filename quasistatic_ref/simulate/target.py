@@ -1,0 +1,108 @@
+"""Functions of time made of waypoints: targets of actuated joints, and external wrenches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.system import System
+from quasistatic_ref.step.data import Array
+
+
+def piecewise_linear(times: Array, values: Array, t: float) -> Array:
+    """Linear between waypoints, held before the first and after the last.
+
+    Parameters
+    ----------
+    times : ndarray, shape (w,)
+        Strictly increasing [s].
+    values : ndarray, shape (w, d)
+    t : float
+        [s].
+
+    Returns
+    -------
+    ndarray, shape (d,)
+    """
+    i, s = _interval(times, t)
+    return np.asarray(values[i] if s == 0 else (1 - s) * values[i] + s * values[i + 1])
+
+
+class JointTrack:
+    """The target of one actuated joint: linear for scalar joints, geodesic for a base.
+
+    Parameters
+    ----------
+    system : System
+    joint : Joint
+    times : ndarray, shape (w,)
+        Strictly increasing [s].
+    values : ndarray, shape (w, nq)
+        The joint's entries of q; an angle, shape (w, 1), for a continuous joint.
+
+    Raises
+    ------
+    ScenarioError
+        If the times do not increase.
+    """
+
+    def __init__(self, system: System, joint: Joint, times: Array, values: Array) -> None:
+        if not (np.diff(times) > 0).all():
+            raise ScenarioError(
+                "waypoint times must increase", field=f"targets of {joint.name}", value=times
+            )
+        self.system, self.joint, self.times, self.values = system, joint, times, values
+
+    def at(self, t: float) -> Array:
+        """The joint's entries of q at time t."""
+        if self.joint.kind != "floating":
+            value = piecewise_linear(self.times, self.values, t)
+            if self.joint.kind == "continuous":
+                return np.array([np.cos(value[0]), np.sin(value[0])])
+            return value
+        i, s = _interval(self.times, t)
+        start = self._placed(self.values[i])
+        if s == 0:
+            return np.asarray(start[self.joint.q])
+        # The geodesic of (+): a screw when the base both moves and turns.
+        whole = self.system.difference(start, self._placed(self.values[i + 1]))
+        return np.asarray(self.system.integrate(start, s * whole)[self.joint.q])
+
+    def _placed(self, value: Array) -> Array:
+        q = self.system.neutral().copy()
+        q[self.joint.q] = value
+        return q
+
+
+class Targets:
+    """q_bar_a as a function of time.
+
+    Parameters
+    ----------
+    q_a_start : ndarray, shape (n_q_a,)
+        Held by every joint that has no track.
+    tracks : sequence of JointTrack
+    """
+
+    def __init__(self, q_a_start: Array, tracks: Sequence[JointTrack]) -> None:
+        self.q_a_start, self.tracks = q_a_start, tuple(tracks)
+
+    def __call__(self, t: float) -> Array:
+        """q_bar_a at time t [s], shape (n_q_a,)."""
+        q_bar_a = self.q_a_start.copy()
+        for track in self.tracks:
+            q_bar_a[track.joint.q] = track.at(t)
+        return q_bar_a
+
+
+def _interval(times: Array, t: float) -> tuple[int, float]:
+    """Index of the waypoint before t, and how far t is towards the next, in [0, 1)."""
+    i = int(np.searchsorted(times, t, side="right")) - 1
+    if i < 0:
+        return 0, 0.0
+    if i >= len(times) - 1:
+        return len(times) - 1, 0.0
+    return i, float((t - times[i]) / (times[i + 1] - times[i]))

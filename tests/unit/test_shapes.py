@@ -1,0 +1,91 @@
+"""Collision shapes: what they refuse, and that coal sees the same solid."""
+
+from collections.abc import Callable
+from typing import Any
+
+import coal
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cylinder,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from tests.tolerances import ROUNDING
+
+REFUSED: list[tuple[str, Callable[[], Any], str]] = [
+    ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
+    ("negative radius", lambda: Sphere(-1.0), r"radius: must be a positive length \(got -1.0\)"),
+    ("nan radius", lambda: Sphere(np.nan), "radius: must be a finite number"),
+    ("infinite radius", lambda: Sphere(np.inf), "radius: must be a finite number"),
+    ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
+    ("text", lambda: Sphere("big"), r"radius: must be a finite number \(got 'big'\)"),  # type: ignore[arg-type]  # the refusal is tested
+    ("flat box", lambda: Box(np.array([1, 0, 1])), "half_extents: must be three positive lengths"),
+    ("two extents", lambda: Box(np.ones(2)), r"half_extents: must have shape \(3,\)"),
+    ("nan box", lambda: Box(np.array([1, np.nan, 1])), "half_extents: must hold finite numbers"),
+    ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
+    ("thin cylinder", lambda: Cylinder(-0.1, 1.0), "radius: must be a positive length"),
+    ("short capsule", lambda: Capsule(1.0, -1.0), "half_length: must be a positive length"),
+    ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
+    ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
+    ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must hold at least one point"),
+    ("plane points", lambda: PointCloud(np.zeros((4, 2))), r"points: must have shape \(4, 3\)"),
+    ("inf point", lambda: PointCloud(np.full((1, 3), np.inf)), "points: must hold finite numbers"),
+    (
+        "reflection",
+        lambda: PlacedShape("a#0", 0, np.diag([1.0, 1.0, -1.0]), np.zeros(3), Sphere(1.0)),
+        "a#0.R: must be a rotation",
+    ),
+]
+
+
+@pytest.mark.parametrize(("make", "words"), [r[1:] for r in REFUSED], ids=[r[0] for r in REFUSED])
+def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> None:
+    with pytest.raises(ModelError, match=words):
+        make()
+
+
+def test_coal_sees_the_sizes_as_written() -> None:
+    assert Sphere(0.2).coal == coal.Sphere(0.2)
+    assert Box(np.array([0.1, 0.2, 0.3])).coal == coal.Box(0.2, 0.4, 0.6)
+    assert Cylinder(0.1, 0.4).coal == coal.Cylinder(0.1, 0.8)
+    assert Capsule(0.1, 0.4).coal == coal.Capsule(0.1, 0.8)
+    assert Capsule(0.1, 0.4).coal != coal.Capsule(0.1, 0.4)
+
+
+def test_the_coal_object_is_made_once() -> None:
+    shape = Box(np.ones(3))
+    assert shape.coal is shape.coal
+
+
+def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
+    floor = HalfSpace(np.array([0.0, 0.0, 2.0]), 0.6)
+    result = coal.DistanceResult()
+    centre = coal.Transform3s(np.eye(3), np.array([0.0, 0.0, 1.0]))
+    ball, request = coal.Sphere(0.25), coal.DistanceRequest()
+    distance = coal.distance(floor.coal, coal.Transform3s(), ball, centre, request, result)
+    # 2 z <= 0.6 is solid up to z = 0.3; the ball's lowest point is at 0.75.
+    assert distance == pytest.approx(0.45, abs=ROUNDING)
+    assert result.normal == pytest.approx([0, 0, 1], abs=ROUNDING)
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1.0, 3.0, 1e200])
+def test_a_half_space_is_the_same_solid_at_any_length_of_its_normal(scale: float) -> None:
+    shape = HalfSpace(scale * np.array([3.0, 0.0, 4.0]), scale * 10.0)
+    assert shape.normal == pytest.approx([0.6, 0.0, 0.8], abs=ROUNDING)
+    assert shape.offset == pytest.approx(2.0, abs=ROUNDING)
+
+
+def test_arrays_are_copied_and_read_only() -> None:
+    points = np.zeros((2, 3))
+    cloud = PointCloud(points)
+    points[0, 0] = 1.0
+    assert cloud.points[0, 0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        cloud.points[0, 0] = 2.0
