@@ -2,8 +2,36 @@
 
 from typing import Final
 
+EXACT: Final = 0.0
+"""The two sides are the same floating-point operations, or exact ones: equal bits."""
+
 ROUNDING: Final = 1e-12
 """The same finite sum of at most some hundred terms of size one, added up in another order."""
+
+OPTIMUM: Final = 1e-6
+"""Agreement of any backend with the truth in the one definition of error (issue 2)."""
+
+ACTIVE_SET: Final = 1e-9
+"""Agreement of two solves by an active-set method at 1e-12: conditioning costs three digits."""
+
+MULTIPLIERS: Final = 1e-6
+"""Forces and multipliers against their largest: they carry a conditioning more than delta_q."""
+
+STICKING: Final = 1e-6
+"""A motion that the closed form says is zero, relative to the unconstrained one."""
+
+TIE: Final = 1e-4
+"""As STICKING, but exactly at the limit of friction, where slack and multiplier both vanish: an
+interior point stops with their product at 1e-12, each of them at 1e-6, times the conditioning."""
+
+WRONG: Final = 1e-2
+"""A relative residual above this is another equation, not a rounding of the same one."""
+
+NATURAL_LOW: Final = 0.5
+"""Least diagonal of H in natural units: units are powers of two, rounded by at most sqrt 2."""
+
+NATURAL_HIGH: Final = 2.0
+"""Greatest diagonal of H in natural units, for the same reason."""
 
 DIFFERENCE_STEP: Final = 1e-5
 """Step of central differences [m or rad]: near the cube root of 2.2e-16, where truncation

@@ -1,0 +1,71 @@
+"""Eq. (4), phi + [J'(n~ + d~_i)]' delta_q >= 0. Under test: step.friction.friction_rows."""
+
+import numpy as np
+
+from quasistatic_ref.step.friction import friction_rows, normal_direction
+from quasistatic_ref.step.problem import StepProblem
+from tests.helpers import random_step
+from tests.tolerances import EXACT, ROUNDING
+
+
+def row(contacts, j, d_tilde_i):
+    """[J_j'(n~_j + d~_i)]' by loops."""
+    n_tilde = [*contacts.n[j], 0.0]
+    entries = []
+    for k in range(contacts.J.shape[2]):
+        total = 0.0
+        for r in range(4):
+            total += contacts.J[j][r][k] * (n_tilde[r] + d_tilde_i[r])
+        entries.append(total)
+    return entries
+
+
+def directions(contacts, j):
+    v, w = contacts.mu_v[j], contacts.mu_omega[j]
+    d1, d2 = contacts.d1[j], contacts.d2[j]
+    return [
+        [v * d1[0], v * d1[1], v * d1[2], 0.0],
+        [v * d2[0], v * d2[1], v * d2[2], 0.0],
+        [-v * d1[0], -v * d1[1], -v * d1[2], 0.0],
+        [-v * d2[0], -v * d2[1], -v * d2[2], 0.0],
+        [0.0, 0.0, 0.0, w],
+        [0.0, 0.0, 0.0, -w],
+    ]
+
+
+def test_n_tilde_is_the_normal_and_a_zero(rng):
+    contacts = random_step(rng).contacts
+    expected = [[n[0], n[1], n[2], 0.0] for n in contacts.n]
+    np.testing.assert_allclose(normal_direction(contacts.n), expected, rtol=EXACT, atol=EXACT)
+
+
+def test_every_row_is_the_printed_one(rng):
+    contacts = random_step(rng, rows=(6, 4, 6, 6)).contacts
+    expected = [[row(contacts, j, d) for d in directions(contacts, j)] for j in range(4)]
+    np.testing.assert_allclose(friction_rows(contacts), expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
+    step = random_step(rng, rows=(6, 4, 6))
+    contacts, delta_q = step.contacts, rng.normal(size=step.n_v)
+    problem = StepProblem(step)
+    problem.fill(step)
+    problem.delta_q_a.value, problem.delta_q_u.value = delta_q[:3], delta_q[3:]
+    for i in range(6):
+        expected = []
+        for j in range(3):
+            if i >= contacts.rows[j]:
+                continue
+            total = contacts.phi[j]
+            for k, entry in enumerate(row(contacts, j, directions(contacts, j)[i])):
+                total += entry * delta_q[k]
+            expected.append(total)
+        constraint = (problem.pyramid + problem.torsion)[i]
+        # CVXPY keeps a >= 0 as 0 - a <= 0.
+        np.testing.assert_allclose(-constraint.expr.value, expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_no_contact_without_torsion_gets_a_torsional_constraint(rng):
+    problem = StepProblem(random_step(rng, rows=(4, 4)))
+    assert problem.torsion == []
+    assert [c.shape for c in problem.pyramid] == [(2,)] * 4

@@ -1,0 +1,38 @@
+"""Eq. (10), A_j delta_q >= b_j. Under test: certify.optimality.optimality_residuals."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.solve.solve import solve_step
+from tests.helpers import contact_row, planted_step, random_step
+from tests.tolerances import OPTIMUM, ROUNDING
+
+
+def slacks(step, delta_q):
+    """A_j delta_q - b_j by loops, contact-major."""
+    left = []
+    for j, count in enumerate(step.contacts.rows):
+        for i in range(count):
+            total = step.contacts.phi[j]
+            for k, entry in enumerate(contact_row(step.contacts, j, i)):
+                total += entry * delta_q[k]
+            left.append(total)
+    return left
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_residual_is_the_deepest_violation(seed):
+    rng = np.random.default_rng(seed)
+    step, delta_q = random_step(rng), rng.normal(size=7)
+    expected = max([0.0] + [-slack for slack in slacks(step, delta_q)])
+    actual = optimality_residuals(step, delta_q, np.zeros(16)).primal
+    assert expected > 0
+    np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_row_is_violated_at_the_optimum(seed):
+    step, _, _ = planted_step(np.random.default_rng(seed))
+    left = slacks(step, solve_step(step).delta_q)
+    assert min(left) > -OPTIMUM * max(np.abs(left))

@@ -1,0 +1,34 @@
+"""Eq. (11), lam_j >= 0. Under test: certify.optimality.optimality_residuals."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.solve.solve import solve_step
+from tests.helpers import REQUIRED, planted_step, random_step
+from tests.tolerances import EXACT, MULTIPLIERS
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_residual_is_the_most_negative_multiplier(seed):
+    rng = np.random.default_rng(seed)
+    lam = rng.normal(size=16)
+    expected = 0.0
+    for entry in lam:
+        expected = max(expected, -entry)
+    actual = optimality_residuals(random_step(rng), np.zeros(7), lam).dual
+    np.testing.assert_allclose(actual, expected, rtol=EXACT, atol=EXACT)
+
+
+def test_positive_multipliers_leave_no_residual(rng):
+    lam = rng.uniform(0.1, 1.0, 16)
+    assert optimality_residuals(random_step(rng), np.zeros(7), lam).dual == 0.0
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+def test_the_multipliers_that_come_back_are_the_planted_positive_ones(backend, rng):
+    # One active row per contact: lam is unique, so it can be compared entry by entry.
+    step, _, lam = planted_step(rng)
+    actual = solve_step(step, backend).lam
+    assert lam.max() > 0
+    np.testing.assert_allclose(actual, lam, rtol=0.0, atol=MULTIPLIERS * lam.max())

@@ -1,0 +1,56 @@
+"""Eq. (12), slack o lam_j = 0. Under test: certify.optimality.optimality_residuals."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import contact_row, planted_step, random_step
+from tests.tolerances import OPTIMUM, ROUNDING
+
+
+def products(step, delta_q, lam):
+    """The printed products by loops, contact by contact with that contact's own lam_j."""
+    left, at = [], 0
+    for j, count in enumerate(step.contacts.rows):
+        lam_j = lam[at : at + count]
+        for i in range(count):
+            slack = step.contacts.phi[j]
+            for k, entry in enumerate(contact_row(step.contacts, j, i)):
+                slack += entry * delta_q[k]
+            left.append(slack * lam_j[i])
+        at += count
+    return left
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_residual_is_the_largest_product(seed):
+    rng = np.random.default_rng(seed)
+    step, delta_q, lam = random_step(rng), rng.normal(size=7), rng.normal(size=16)
+    expected = max(abs(product) for product in products(step, delta_q, lam))
+    actual = optimality_residuals(step, delta_q, lam).complementarity
+    np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_slack_and_multiplier_exclude_each_other_at_the_optimum(seed):
+    step, _, _ = planted_step(np.random.default_rng(seed))
+    optimum = solve_step(step)
+    form = standard_form(step)
+    scale = np.abs(form.A @ optimum.delta_q - form.b).max() * optimum.lam.max()
+    assert max(abs(p) for p in products(step, optimum.delta_q, optimum.lam)) < OPTIMUM * scale
+
+
+def test_erratum_lam_without_its_index_does_not_fit_a_contact_of_several(rng):
+    step, delta_q, lam = planted_step(rng, rows=(6, 4, 6))
+    slack_of_the_second = [
+        step.contacts.phi[1] + contact_row(step.contacts, 1, i) @ delta_q for i in range(4)
+    ]
+    assert len(slack_of_the_second) != len(lam)  # so (12) cannot mean the whole of lambda
+    assert step.contacts.offsets.tolist() == [0, 6, 10, 16]
+    own = lam[6:10]
+    np.testing.assert_allclose(np.multiply(slack_of_the_second, own), 0.0, rtol=0.0, atol=ROUNDING)
+    another = lam[0:4] + lam[10:14]  # another contact's multipliers do not complement this slack
+    assert np.abs(slack_of_the_second).max() > 0
+    assert np.flatnonzero(own).tolist() != np.flatnonzero(another).tolist()

@@ -1,0 +1,84 @@
+"""Eq. (13), the quadratic program. Under test: step.problem.StepProblem."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import REQUIRED, contact_row, error, planted_step, random_step
+from tests.tolerances import OPTIMUM, ROUNDING
+
+
+def objective(step, delta_q):
+    """1/2 dq' [h K_q, 0; 0, M_u / h] dq - h [K_q dq_bar_a + tau_a; tau_u]' dq, by loops."""
+    n_a, value = step.n_a, 0.0
+    for i in range(n_a):
+        pull = step.tau_a[i]
+        for k in range(n_a):
+            value += 0.5 * step.h * step.K_q[i, k] * delta_q[i] * delta_q[k]
+            pull += step.K_q[i, k] * step.delta_q_bar_a[k]
+        value -= step.h * pull * delta_q[i]
+    for i in range(step.n_u):
+        for k in range(step.n_u):
+            value += 0.5 / step.h * step.M_u[i, k] * delta_q[n_a + i] * delta_q[n_a + k]
+        value -= step.h * step.tau_u[i] * delta_q[n_a + i]
+    return value
+
+
+def feasible(step, delta_q):
+    for j, count in enumerate(step.contacts.rows):
+        for i in range(count):
+            if step.contacts.phi[j] + contact_row(step.contacts, j, i) @ delta_q < 0:
+                return False
+    return True
+
+
+@pytest.mark.parametrize(("n_a", "n_u"), [(3, 4), (0, 4), (3, 0), (1, 1)])
+def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
+    step = random_step(rng, n_a, n_u)
+    problem = StepProblem(step)
+    problem.fill(step)
+    for _ in range(5):
+        delta_q = rng.normal(size=step.n_v)
+        problem.delta_q_a.value, problem.delta_q_u.value = delta_q[:n_a], delta_q[n_a:]
+        np.testing.assert_allclose(
+            problem.problem.objective.value, objective(step, delta_q), rtol=ROUNDING, atol=0.0
+        )
+
+
+def test_H_and_g_give_the_printed_objective(rng):
+    step = random_step(rng)
+    form = standard_form(step)
+    for _ in range(5):
+        delta_q = rng.normal(size=step.n_v)
+        actual = 0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q
+        np.testing.assert_allclose(actual, objective(step, delta_q), rtol=ROUNDING, atol=0.0)
+
+
+def test_H_has_no_block_between_actuated_and_unactuated(rng):
+    H = standard_form(random_step(rng, n_a=3, n_u=4)).H
+    assert not H[:3, 3:].any()
+    assert not H[3:, :3].any()
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+@pytest.mark.parametrize("seed", range(5))
+def test_the_planted_optimum_is_found(backend, seed):
+    step, delta_q, _ = planted_step(np.random.default_rng(seed))
+    answer = solve_step(step, backend)
+    np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_feasible_neighbour_is_better(seed):
+    # Needs no optimality condition: only the printed objective and the printed rows.
+    rng = np.random.default_rng(seed)
+    step, delta_q, _ = planted_step(rng)
+    best, compared = objective(step, delta_q), 0
+    for _ in range(400):
+        other = delta_q + 1e-4 * rng.normal(size=step.n_v)
+        if feasible(step, other):
+            compared += 1
+            assert objective(step, other) > best
+    assert compared > 10

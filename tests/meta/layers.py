@@ -1,0 +1,97 @@
+"""The walls of the house as a function of the source: which import crosses which."""
+
+import ast
+from pathlib import Path
+
+# A room imports only from rooms before it, and from itself.
+ROOMS = (
+    "errors",
+    "tolerances",
+    "fields",
+    "files",
+    "resources",
+    "step",
+    "certify",
+    "solve",
+    "model",
+    "contact",
+    "simulate",
+    "vectors",
+    "study",
+    "validate",
+    "figures",
+    "cli",
+)
+
+# Where each third-party package may be imported: a room, or one file.
+WALLS = {
+    "cvxpy": ("step/problem.py", "solve"),
+    "qpsolvers": ("solve",),
+    "pinocchio": ("model",),
+    "coal": ("model", "contact"),
+    "matplotlib": ("figures",),
+    "flint": ("certify",),
+}
+
+DYNAMIC = ("import_module", "__import__")
+
+
+def under_type_checking(tree):
+    """The nodes that run only for a type checker."""
+    inside = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+            for statement in node.body:
+                inside |= set(ast.walk(statement))
+    return inside
+
+
+def imports(tree, package, module):
+    """(line, dotted name) of everything imported anywhere in a file, functions included."""
+    skipped = under_type_checking(tree)
+    for node in ast.walk(tree):
+        if node in skipped:
+            continue
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield node.lineno, alias.name
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                base = ".".join([*module[: len(module) - node.level], *filter(None, [base])])
+            for alias in node.names:
+                yield node.lineno, f"{base}.{alias.name}"
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(DYNAMIC):
+            for argument in node.args[:1]:
+                if isinstance(argument, ast.Constant):
+                    yield node.lineno, str(argument.value)
+
+
+def violations(root: Path, rooms=ROOMS, walls=WALLS):
+    """Sentences, one for each import that crosses a wall."""
+    found = []
+    package = root.name
+    for path in sorted(root.rglob("*.py")):
+        inside = path.relative_to(root)
+        if inside.parts == ("__init__.py",):
+            own = None  # the lazy face: it may import no room at all
+        else:
+            own = inside.parts[0].removesuffix(".py")
+            if own not in rooms:
+                found.append(f"{inside}: {own} is not a room of the house")
+                continue
+        module = (package, *inside.with_suffix("").parts)
+        for line, name in imports(ast.parse(path.read_text()), package, module):
+            top, *rest = name.split(".")
+            if top == package:
+                if not rest or rest[0].startswith("__"):
+                    continue
+                if rest[0] not in rooms:
+                    found.append(f"{inside}:{line}: imports {name}, which is no room")
+                elif own is None or rooms.index(rest[0]) > rooms.index(own):
+                    found.append(f"{inside}:{line}: imports {name} from a later room")
+            elif top in walls and not any(
+                inside.as_posix() == place or inside.parts[0] == place for place in walls[top]
+            ):
+                found.append(f"{inside}:{line}: imports {top}")
+    return found

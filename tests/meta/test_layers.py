@@ -1,0 +1,131 @@
+"""A room imports only from rooms before it; third-party packages keep to their rooms."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import quasistatic_ref
+from tests.meta.layers import violations
+
+PACKAGE = Path(quasistatic_ref.__file__).parent
+
+
+def test_the_walls_of_the_house_hold():
+    assert violations(PACKAGE) == []
+
+
+PLANTED = {
+    "a later room": ("step/a.py", "from quasistatic_ref.solve import units", "later room"),
+    "a later room, whole": ("step/a.py", "import quasistatic_ref.solve.units", "later room"),
+    "a later room from the root": ("step/a.py", "from quasistatic_ref import solve", "later room"),
+    "a later room, relative": ("step/a.py", "from ..solve import units", "later room"),
+    "a later room in a function": (
+        "step/a.py",
+        "def f():\n    from quasistatic_ref.certify import optimality",
+        "later room",
+    ),
+    "the ground floor": ("errors.py", "from quasistatic_ref.step import data", "later room"),
+    "a lazy import": ("step/a.py", "import_module('quasistatic_ref.cli')", "later room"),
+    "the face": ("__init__.py", "from quasistatic_ref.step import data", "later room"),
+    "an unknown room": ("attic/a.py", "x = 1", "not a room"),
+    "from an unknown room": ("step/a.py", "import quasistatic_ref.attic", "no room"),
+    "cvxpy in the judge": ("certify/a.py", "import cvxpy as cp", "imports cvxpy"),
+    "cvxpy in another file of step": ("step/data.py", "from cvxpy import Problem", "cvxpy"),
+    "cvxpy in a try": ("model/a.py", "try:\n    import cvxpy\nexcept ImportError: ...", "cvxpy"),
+    "qpsolvers outside solve": ("step/problem.py", "import qpsolvers", "imports qpsolvers"),
+    "pinocchio in contact": ("contact/a.py", "import pinocchio as pin", "imports pinocchio"),
+    "coal in simulate": ("simulate/a.py", "import coal", "imports coal"),
+    "matplotlib in cli": ("cli/a.py", "import matplotlib.pyplot as plt", "imports matplotlib"),
+    "flint in solve": ("solve/a.py", "from flint import fmpq", "imports flint"),
+}
+
+ALLOWED = {
+    "an earlier room": ("solve/a.py", "from quasistatic_ref.step import data"),
+    "its own room": ("step/a.py", "from . import data"),
+    "the version": ("cli/a.py", "from quasistatic_ref import __version__"),
+    "cvxpy in problem.py": ("step/problem.py", "import cvxpy as cp"),
+    "coal in contact": ("contact/a.py", "import coal"),
+    "for a type checker": (
+        "errors.py",
+        "if TYPE_CHECKING:\n    from quasistatic_ref.step.data import StepData",
+    ),
+}
+
+
+def house(tmp_path, file, source):
+    path = tmp_path / "quasistatic_ref" / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source + "\n")
+    return tmp_path / "quasistatic_ref"
+
+
+@pytest.mark.parametrize(("file", "source", "says"), PLANTED.values(), ids=PLANTED)
+def test_the_checker_catches_a_planted_violation(tmp_path, file, source, says):
+    found = violations(house(tmp_path, file, source))
+    assert len(found) == 1
+    assert says in found[0]
+
+
+@pytest.mark.parametrize(("file", "source"), ALLOWED.values(), ids=ALLOWED)
+def test_the_checker_lets_pass_what_is_allowed(tmp_path, file, source):
+    assert violations(house(tmp_path, file, source)) == []
+
+
+def run(source):
+    command = [sys.executable, "-W", "error", "-c", source]
+    root = str(PACKAGE.parent)
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=60, cwd=root, check=False
+    )
+
+
+def test_step_certify_and_solve_work_without_pinocchio_and_coal():
+    modules = [
+        "quasistatic_ref." + ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
+        for room in ("step", "certify", "solve")
+        for path in sorted((PACKAGE / room).rglob("*.py"))
+        if path.name != "__init__.py"
+    ]
+    assert len(modules) >= 9
+    source = "\n".join(
+        [
+            "import sys",
+            "for name in ('pinocchio', 'coal', 'hppfcl', 'matplotlib'): sys.modules[name] = None",
+            *(f"import {module}" for module in modules),
+            "from tests.helpers import sphere_on_floor",
+            "from quasistatic_ref import solve_step",
+            "print(solve_step(sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0))).status)",
+        ]
+    )
+    done = run(source)
+    assert (done.returncode, done.stdout.strip()) == (0, "optimal"), done.stderr
+
+
+def test_the_judge_runs_without_cvxpy():
+    source = "\n".join(
+        [
+            "import sys",
+            "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
+            "import numpy as np",
+            "from tests.helpers import planted_step",
+            "from quasistatic_ref.certify.optimality import optimality_residuals",
+            "step, delta_q, lam = planted_step(np.random.default_rng(1))",
+            "print(optimality_residuals(step, delta_q, lam).worst < 1e-9)",
+        ]
+    )
+    done = run(source)
+    assert (done.returncode, done.stdout.strip()) == (0, "True"), done.stderr
+
+
+def test_importing_the_package_loads_none_of_its_rooms():
+    source = "\n".join(
+        [
+            "import sys, quasistatic_ref",
+            "loaded = [m for m in sys.modules if m.startswith('quasistatic_ref.')]",
+            "print(loaded, 'numpy' in sys.modules, 'cvxpy' in sys.modules)",
+        ]
+    )
+    done = run(source)
+    assert (done.returncode, done.stdout.strip()) == (0, "[] False False"), done.stderr

@@ -1,0 +1,190 @@
+"""What must not matter, and what must scale: on random steps of every kind."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import (
+    JUDGE,
+    changed,
+    error,
+    hessian,
+    planted_step,
+    random_frame,
+    random_step,
+    reordered,
+)
+from tests.tolerances import ACTIVE_SET, EXACT, MULTIPLIERS, ROUNDING
+
+
+@st.composite
+def shapes(draw, contacts_at_least=1):
+    """(n_a, n_u, rows), with at least one coordinate."""
+    n_a = draw(st.integers(0, 4))
+    n_u = draw(st.integers(0 if n_a else 1, 4))
+    rows = draw(st.lists(st.sampled_from([4, 6]), min_size=contacts_at_least, max_size=5))
+    return n_a, n_u, tuple(rows)
+
+
+@st.composite
+def steps(draw, contacts_at_least=1):
+    """A feasible step: phi >= 0, or planted around an optimum with phi of either sign."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    shape = draw(shapes(contacts_at_least))
+    if draw(st.booleans()):
+        return random_step(rng, *shape)
+    return planted_step(rng, *shape)[0]
+
+
+scales = st.floats(1e-3, 1e3)
+seeds = st.integers(0, 2**32 - 1)
+
+
+def solved(step):
+    return solve_step(step, JUDGE)
+
+
+def assert_same_motion(step, actual, expected):
+    np.testing.assert_allclose(error(step, actual, expected), 0.0, rtol=0.0, atol=ACTIVE_SET)
+
+
+def push(step, lam):
+    """A' lam: what the multipliers do to the coordinates; lam itself need not be unique."""
+    return standard_form(step).A.T @ lam
+
+
+@given(steps(), st.integers(0, 4))
+def test_a_contact_given_twice_leaves_delta_q(step, which):
+    n_c = step.contacts.n_c
+    twice = step.replace(contacts=reordered(step.contacts, [*range(n_c), which % n_c]))
+    assert_same_motion(step, solved(twice).delta_q, solved(step).delta_q)
+
+
+@given(steps(), seeds)
+def test_the_order_of_contacts_leaves_delta_q_and_each_contact_its_own_push(step, seed):
+    order = np.random.default_rng(seed).permutation(step.contacts.n_c)
+    moved = step.replace(contacts=reordered(step.contacts, order))
+    one, two = solved(step), solved(moved)
+    assert_same_motion(step, two.delta_q, one.delta_q)
+    scale = np.abs(push(step, one.lam)).max() + np.abs(standard_form(step).g).max()
+    np.testing.assert_allclose(
+        push(moved, two.lam), push(step, one.lam), rtol=0.0, atol=MULTIPLIERS * scale
+    )
+
+
+@given(steps(), st.integers(1, 3))
+def test_a_quarter_turn_of_the_tangents_leaves_delta_q(step, quarters):
+    contacts = step.contacts
+    d1, d2 = contacts.d1, contacts.d2
+    for _ in range(quarters):
+        d1, d2 = d2, -d1
+    turned = step.replace(contacts=changed(contacts, d1=d1, d2=d2))
+    assert_same_motion(step, solved(turned).delta_q, solved(step).delta_q)
+
+
+@given(steps(), seeds)
+def test_the_world_may_be_turned(step, seed):
+    # n, d1, d2 and the world-frame rows of J turn together; delta_q is not in the world frame.
+    R = random_frame(np.random.default_rng(seed))
+    contacts = step.contacts
+    J = contacts.J.copy()
+    J[:, :3] = np.einsum("rs,csv->crv", R, contacts.J[:, :3])
+    turned = changed(contacts, n=contacts.n @ R.T, d1=contacts.d1 @ R.T, d2=contacts.d2 @ R.T, J=J)
+    assert_same_motion(step, solved(step.replace(contacts=turned)).delta_q, solved(step).delta_q)
+
+
+@given(steps(), scales)
+def test_all_forces_and_inertias_times_c_leave_delta_q_and_give_lam_times_c(step, c):
+    scaled = step.replace(
+        K_q=c * step.K_q, M_u=c * step.M_u, tau_a=c * step.tau_a, tau_u=c * step.tau_u
+    )
+    one, two = solved(step), solved(scaled)
+    assert_same_motion(step, two.delta_q, one.delta_q)
+    expected = c * push(step, one.lam)
+    scale = np.abs(expected).max() + c * np.abs(standard_form(step).g).max()
+    np.testing.assert_allclose(push(scaled, two.lam), expected, rtol=0.0, atol=MULTIPLIERS * scale)
+
+
+@given(steps(), scales)
+def test_all_motions_and_loads_times_c_give_delta_q_times_c(step, c):
+    scaled = step.replace(
+        tau_a=c * step.tau_a,
+        tau_u=c * step.tau_u,
+        delta_q_bar_a=c * step.delta_q_bar_a,
+        contacts=changed(step.contacts, phi=c * step.contacts.phi),
+    )
+    assert_same_motion(scaled, solved(scaled).delta_q, c * solved(step).delta_q)
+
+
+@given(steps(), scales, seeds)
+def test_another_unit_of_length_leaves_the_motion(step, s, seed):
+    # Coordinates are lengths or angles. In a unit 1/s as long: lengths x s, energies x s^2,
+    # angles as they are; mu_omega is a length.
+    length = np.random.default_rng(seed).uniform(size=step.n_v) < 0.5
+    D, n_a, contacts = np.where(length, s, 1.0), step.n_a, step.contacts
+    J = contacts.J / D
+    J[:, :3] *= s
+    scaled = StepData(
+        h=step.h,
+        K_q=s**2 * step.K_q / np.outer(D[:n_a], D[:n_a]),
+        M_u=s**2 * step.M_u / np.outer(D[n_a:], D[n_a:]),
+        tau_a=s**2 * step.tau_a / D[:n_a],
+        tau_u=s**2 * step.tau_u / D[n_a:],
+        delta_q_bar_a=step.delta_q_bar_a * D[:n_a],
+        contacts=changed(contacts, phi=s * contacts.phi, J=J, mu_omega=s * contacts.mu_omega),
+    )
+    assert_same_motion(step, solved(scaled).delta_q / D, solved(step).delta_q)
+
+
+@given(seeds, shapes())
+def test_standing_still_is_allowed_without_penetration_so_the_optimum_is_not_above_zero(
+    seed, shape
+):
+    step = random_step(np.random.default_rng(seed), *shape)
+    assert step.contacts.phi.min() >= 0
+    delta_q, form = solved(step).delta_q, standard_form(step)
+    value = 0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q
+    assert value <= ROUNDING * abs(form.g @ np.linalg.solve(form.H, form.g))
+
+
+@given(steps())
+def test_contacts_only_push_and_only_where_they_touch(step):
+    answer, form = solved(step), standard_form(step)
+    gap = form.A @ answer.delta_q - form.b
+    # Scales of the sums that must cancel: in a row of (10), and of the impulses of (9).
+    far = (np.abs(form.A) @ np.abs(answer.delta_q) + np.abs(form.b)).max()
+    hard = max(answer.lam.max(), np.abs(form.g).max())
+    assert answer.lam.min() >= -MULTIPLIERS * hard
+    assert gap.min() >= -ACTIVE_SET * far
+    assert np.abs(gap * answer.lam).max() <= MULTIPLIERS * far * hard
+
+
+@given(steps())
+def test_the_unconstrained_step_is_never_nearer_than_the_optimum(step):
+    # x* is the projection of x0 = H^-1 g in the norm of H: <x0 - x*, y - x*>_H <= 0, so with
+    # y = 0, feasible for phi >= 0, ||x*||_H <= ||x0||_H.
+    if step.contacts.phi.min() < 0:
+        return
+    H, delta_q = hessian(step), solved(step).delta_q
+    free = np.linalg.solve(H, standard_form(step).g)
+    assert delta_q @ H @ delta_q <= free @ H @ free * (1 + ROUNDING)
+
+
+@given(seeds, shapes())
+def test_six_rows_without_torsion_equal_four(seed, shape):
+    step = random_step(np.random.default_rng(seed), *shape)
+    contacts = changed(step.contacts, mu_omega=np.zeros(step.contacts.n_c))
+    four, six = (
+        step.replace(contacts=changed(contacts, rows=np.full(contacts.n_c, k))) for k in (4, 6)
+    )
+    assert_same_motion(step, solved(six).delta_q, solved(four).delta_q)
+
+
+@given(steps())
+def test_the_same_step_gives_the_same_bits(step):
+    one, two = solved(step), solved(step)
+    np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(two.lam, one.lam, rtol=EXACT, atol=EXACT)

@@ -1,0 +1,189 @@
+"""What StepData and Contacts accept, refuse and keep."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Contacts, Extra
+from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
+from tests.helpers import changed, no_contacts, random_step, reordered
+from tests.tolerances import EXACT
+
+STEP = random_step(np.random.default_rng(7), n_a=2, n_u=3, rows=(6, 4))
+CONTACTS = STEP.contacts
+NAN, INF = float("nan"), float("inf")
+
+STEP_REFUSALS = {
+    "h zero": ({"h": 0.0}, "h:"),
+    "h negative": ({"h": -0.01}, "h:"),
+    "h NaN": ({"h": NAN}, "h:"),
+    "h infinite": ({"h": INF}, "h:"),
+    "cone unknown": ({"cone": "cube"}, "cone:"),
+    "K_q of another size": ({"K_q": np.eye(3)}, "K_q:"),
+    "K_q not square": ({"K_q": np.ones((2, 3))}, "K_q:"),
+    "K_q not symmetric": ({"K_q": [[2.0, 1.0], [0.0, 2.0]]}, "K_q: must be symmetric"),
+    "K_q zero": ({"K_q": np.zeros((2, 2))}, "K_q: must be positive definite"),
+    "K_q with a free joint": ({"K_q": np.diag([1.0, 0.0])}, "K_q: must be positive definite"),
+    "K_q indefinite": ({"K_q": [[1.0, 2.0], [2.0, 1.0]]}, "K_q: must be positive definite"),
+    "K_q NaN": ({"K_q": [[NAN, 0.0], [0.0, 1.0]]}, "K_q: must hold finite"),
+    "M_u of a massless link": ({"M_u": np.diag([1.0, 1.0, 0.0])}, "M_u: must be positive"),
+    "M_u negative": ({"M_u": -np.eye(3)}, "M_u: must be positive definite"),
+    "M_u infinite": ({"M_u": np.diag([INF, 1.0, 1.0])}, "M_u: must hold finite"),
+    "tau_a a column": ({"tau_a": np.zeros((2, 1))}, "tau_a:"),
+    "tau_a NaN": ({"tau_a": [NAN, 0.0]}, "tau_a: must hold finite"),
+    "tau_a words": ({"tau_a": ["a", "b"]}, "tau_a: must be numbers"),
+    "tau_u infinite": ({"tau_u": [0.0, -INF, 0.0]}, "tau_u: must hold finite"),
+    "delta_q_bar_a too short": ({"delta_q_bar_a": [0.0]}, "delta_q_bar_a:"),
+    "delta_q_bar_a NaN": ({"delta_q_bar_a": [NAN, 0.0]}, "delta_q_bar_a: must hold finite"),
+    "contacts of another width": ({"contacts": no_contacts(4)}, "contacts.J:"),
+    "extra of another width": ({"extra": Extra(("a",), np.ones((1, 4)), [0.0])}, "extra.A:"),
+}
+
+CONTACT_REFUSALS = {
+    "phi too long": ({"phi": [0.0, 0.0, 0.0]}, "contacts.phi:"),
+    "phi NaN": ({"phi": [0.0, NAN]}, "contacts.phi: must hold finite"),
+    "phi infinite": ({"phi": [INF, 0.0]}, "contacts.phi: must hold finite"),
+    "J of three rows": ({"J": np.zeros((2, 3, 5))}, "contacts.J:"),
+    "J flat": ({"J": np.zeros((8, 5))}, "contacts.J:"),
+    "J NaN": ({"J": np.full((2, 4, 5), NAN)}, "contacts.J: must hold finite"),
+    "mu_v negative": ({"mu_v": [0.5, -0.1]}, "contacts[c1].mu_v: must be >= 0"),
+    "mu_omega negative": ({"mu_omega": [-1e-9, 0.1]}, "contacts[c0].mu_omega: must be >= 0"),
+    "mu_v NaN": ({"mu_v": [NAN, 0.5]}, "contacts.mu_v: must hold finite"),
+    "five rows": ({"rows": [6, 5]}, "contacts.rows: must be 4 or 6"),
+    "rows too short": ({"rows": [6]}, "contacts.rows:"),
+    "n not a unit vector": ({"n": 2 * CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
+    "left-handed": ({"d1": -CONTACTS.d1}, "contacts[c0]: d1, d2, n must be"),
+    "d1 along n": ({"d1": CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
+    "d1 and d2 swapped": ({"d1": CONTACTS.d2, "d2": CONTACTS.d1}, "contacts[c0]: d1, d2, n"),
+    "n in the plane": ({"n": CONTACTS.n[:, :2]}, "contacts.n:"),
+}
+
+
+@pytest.mark.parametrize(("changes", "says"), STEP_REFUSALS.values(), ids=STEP_REFUSALS)
+def test_a_step_refuses(changes, says):
+    with pytest.raises(StepDataError) as caught:
+        STEP.replace(**changes)
+    assert str(caught.value).startswith(says)
+
+
+@pytest.mark.parametrize(("changes", "says"), CONTACT_REFUSALS.values(), ids=CONTACT_REFUSALS)
+def test_contacts_refuse(changes, says):
+    with pytest.raises(StepDataError) as caught:
+        changed(CONTACTS, **changes)
+    assert str(caught.value).startswith(says)
+
+
+LEAKS = {
+    "h a word": lambda: STEP.replace(h="0.01"),
+    "h missing": lambda: STEP.replace(h=None),
+    "h an integer beyond float": lambda: STEP.replace(h=10**400),
+    "phi an integer beyond float": lambda: changed(CONTACTS, phi=[10**400, 0]),
+    "rows ragged": lambda: changed(CONTACTS, rows=[4, [6]]),
+    "J ragged": lambda: changed(CONTACTS, J=[[1.0], [1.0, 2.0]]),
+    "J without columns": lambda: Contacts((), [], [], [], [], [], [], [], []),
+    "extra.A without columns": lambda: Extra((), [], []),
+}
+
+
+@pytest.mark.xfail(strict=True, reason="step/data.py lets NumPy's own errors out", raises=Exception)
+@pytest.mark.parametrize("build", LEAKS.values(), ids=LEAKS)
+def test_nothing_but_the_package_s_own_error_comes_out(build):
+    with pytest.raises(StepDataError):
+        build()
+
+
+@pytest.mark.xfail(strict=True, reason="a Cholesky factor in floats passes some singular matrices")
+def test_singular_stiffnesses_are_refused_although_some_have_a_factor_in_floats():
+    for k in range(1, 101):
+        with pytest.raises(StepDataError):
+            STEP.replace(K_q=np.full((2, 2), float(k)))
+
+
+def test_a_frame_just_inside_the_tolerance_passes_and_one_just_outside_does_not():
+    def tilted(angle):
+        return np.cos(angle) * CONTACTS.n + np.sin(angle) * CONTACTS.d1
+
+    assert changed(CONTACTS, n=tilted(0.5 * ORTHONORMAL)).n_c == 2
+    with pytest.raises(StepDataError):
+        changed(CONTACTS, n=tilted(2 * ORTHONORMAL))
+
+
+def test_an_almost_symmetric_matrix_is_made_symmetric_from_its_lower_triangle():
+    K_q = np.array([[2.0, 1.0 + SYMMETRIC], [1.0, 3.0]])
+    kept = STEP.replace(K_q=K_q).K_q
+    np.testing.assert_allclose(kept, [[2.0, 1.0], [1.0, 3.0]], rtol=EXACT, atol=EXACT)
+    with pytest.raises(StepDataError):
+        STEP.replace(K_q=[[2.0, 1.0 + 4 * SYMMETRIC], [1.0, 3.0]])
+
+
+def test_minus_zero_becomes_zero():
+    step = STEP.replace(
+        tau_a=[-0.0, 1.0], tau_u=-np.zeros(3), contacts=changed(CONTACTS, phi=[-0.0, -0.0])
+    )
+    for array in (step.tau_a, step.tau_u, step.contacts.phi):
+        assert not np.signbit(array).any()
+
+
+def test_fields_cannot_be_assigned():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        STEP.h = 0.02
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        CONTACTS.phi = np.zeros(2)
+
+
+STEP_ARRAYS = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
+CONTACT_ARRAYS = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
+
+
+@pytest.mark.parametrize(
+    "array",
+    [getattr(STEP, name) for name in STEP_ARRAYS]
+    + [getattr(CONTACTS, name) for name in CONTACT_ARRAYS]
+    + [STEP.extra.A, STEP.extra.b],
+    ids=[*STEP_ARRAYS, *CONTACT_ARRAYS, "extra.A", "extra.b"],
+)
+def test_arrays_cannot_be_written(array):
+    assert not array.flags.writeable
+
+
+@pytest.mark.xfail(strict=True, reason="step/data.py caches mask and offsets as writable arrays")
+@pytest.mark.parametrize("name", ["mask", "offsets"])
+def test_derived_arrays_cannot_be_written(name):
+    assert not getattr(CONTACTS, name).flags.writeable
+
+
+def test_the_caller_s_own_array_is_copied_not_locked():
+    tau_a = np.array([1.0, 2.0])
+    step = STEP.replace(tau_a=tau_a)
+    tau_a[0] = 5.0
+    np.testing.assert_allclose(step.tau_a, [1.0, 2.0], rtol=EXACT, atol=EXACT)
+
+
+def test_numbers_in_lists_become_float64():
+    step = STEP.replace(tau_a=[1, 2])
+    assert step.tau_a.dtype == np.float64
+
+
+def test_counts_are_those_of_the_arrays():
+    assert (STEP.n_a, STEP.n_u, STEP.n_v, CONTACTS.n_c) == (2, 3, 5, 2)
+    assert CONTACTS.offsets.tolist() == [0, 6, 10]
+    assert CONTACTS.mask.tolist() == [[True] * 6, [True] * 4 + [False] * 2]
+
+
+def test_empty_blocks_and_no_contacts_are_steps_too(rng):
+    assert random_step(rng, n_a=0, n_u=2, rows=()).n_v == 2
+    assert random_step(rng, n_a=2, n_u=0, rows=()).n_v == 2
+
+
+def test_same_as_sees_every_bit():
+    assert STEP.same_as(STEP.replace())
+    tau_u = STEP.tau_u.copy()
+    tau_u[1] = np.nextafter(tau_u[1], INF)
+    assert not STEP.same_as(STEP.replace(tau_u=tau_u))
+    assert not STEP.same_as(STEP.replace(h=np.nextafter(STEP.h, 1.0)))
+    assert not STEP.same_as(STEP.replace(contacts=reordered(CONTACTS, [1, 0])))
+    assert not STEP.same_as(STEP.replace(contacts=changed(CONTACTS, name=("c0", "other"))))
+    assert not STEP.same_as(STEP.replace(contacts=changed(CONTACTS, rows=[4, 4])))
+    assert not STEP.same_as(STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])))

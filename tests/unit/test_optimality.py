@@ -1,0 +1,130 @@
+"""Each residual answers to a planted violation with exactly the planted size."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.step.data import Extra
+from tests.helpers import changed, contact_row, no_contacts, planted_step, random_step
+from tests.tolerances import ROUNDING
+
+SIZES = [1e-6, 1e-3, 1.0]
+every_size = pytest.mark.parametrize("size", SIZES)
+
+
+def plant(seed=5):
+    step, delta_q, lam = planted_step(np.random.default_rng(seed))
+    slack = []
+    for j, count in enumerate(step.contacts.rows):
+        for i in range(count):
+            slack.append(step.contacts.phi[j] + contact_row(step.contacts, j, i) @ delta_q)
+    return step, delta_q, lam, np.array(slack)
+
+
+def near(actual, expected):
+    np.testing.assert_allclose(actual, expected, rtol=0.0, atol=ROUNDING)
+
+
+def test_a_planted_optimum_has_no_residual():
+    step, delta_q, lam, _ = plant()
+    near(optimality_residuals(step, delta_q, lam).worst, 0.0)
+
+
+@every_size
+@pytest.mark.parametrize("k", range(4))
+def test_a_force_too_much_is_the_stationarity_residual_and_no_other(size, k):
+    step, delta_q, lam, _ = plant()
+    tau_u = step.tau_u.copy()
+    tau_u[k] += size / step.h
+    found = optimality_residuals(step.replace(tau_u=tau_u), delta_q, lam)
+    near(found.stationarity, size)
+    near([found.primal, found.dual, found.complementarity], 0.0)
+
+
+@every_size
+@pytest.mark.parametrize("k", range(3))
+def test_an_actuated_force_too_much_counts_too(size, k):
+    step, delta_q, lam, _ = plant()
+    tau_a = step.tau_a.copy()
+    tau_a[k] -= size / step.h
+    near(optimality_residuals(step.replace(tau_a=tau_a), delta_q, lam).stationarity, size)
+
+
+@every_size
+@pytest.mark.parametrize("j", range(3))
+def test_a_contact_too_deep_is_the_primal_residual_times_lam_in_complementarity(size, j):
+    # The active row of contact j had slack 0: it is now -size, and its product -size lam.
+    step, delta_q, lam, _ = plant()
+    phi = step.contacts.phi.copy()
+    phi[j] -= size
+    found = optimality_residuals(
+        step.replace(contacts=changed(step.contacts, phi=phi)), delta_q, lam
+    )
+    near(found.primal, size)
+    near([found.stationarity, found.dual], 0.0)
+    rows = slice(*step.contacts.offsets[j : j + 2])
+    near(found.complementarity, size * lam[rows].max())
+
+
+@every_size
+def test_a_negative_multiplier_is_the_dual_residual(size):
+    # On a row of zero slack, so that (12) still holds; its force is taken back, so that (9) does.
+    step, delta_q, lam, slack = plant()
+    row = int(np.argmin(np.abs(slack)))
+    j, i = 0, row
+    while i >= step.contacts.rows[j]:
+        i -= step.contacts.rows[j]
+        j += 1
+    wrong = lam.copy()
+    wrong[row] = -size
+    push = contact_row(step.contacts, j, i) * (lam[row] + size) / step.h
+    step = step.replace(tau_a=step.tau_a + push[:3], tau_u=step.tau_u + push[3:])
+    found = optimality_residuals(step, delta_q, wrong)
+    near(found.dual, size)
+    near([found.stationarity, found.primal, found.complementarity], 0.0)
+
+
+@every_size
+def test_a_force_without_touch_is_the_complementarity_residual(size):
+    # On a row of positive slack s the multiplier size / s makes the product size.
+    step, delta_q, lam, slack = plant()
+    row = int(np.argmax(slack))
+    wrong = lam.copy()
+    wrong[row] = size / slack[row]
+    found = optimality_residuals(step, delta_q, wrong)
+    np.testing.assert_allclose(found.complementarity, size, rtol=ROUNDING, atol=0.0)
+    near([found.primal, found.dual], 0.0)
+
+
+def test_the_user_s_own_rows_are_judged_with_the_others():
+    step, delta_q, lam, _ = plant()
+    row = np.ones(7)
+    step = step.replace(extra=Extra(("own",), [row], [float(row @ delta_q) + 0.25]))
+    found = optimality_residuals(step, delta_q, np.append(lam, 0.0))
+    near(found.primal, 0.25)
+    found = optimality_residuals(step, delta_q, np.append(lam, -0.5))
+    near(found.dual, 0.5)
+    near(found.complementarity, 0.125)
+    near(found.stationarity, 0.5)
+
+
+def test_the_worst_is_the_largest_of_the_four():
+    for k in range(4):
+        values = [0.1, 0.1, 0.1, 0.1]
+        values[k] = 0.3
+        assert Residuals(*values).worst == 0.3
+
+
+@pytest.mark.parametrize("where", ["delta_q", "lam"])
+def test_an_answer_that_is_not_a_number_is_never_small(where):
+    step, delta_q, lam, _ = plant()
+    answer = {"delta_q": delta_q.copy(), "lam": lam.copy()}
+    answer[where][0] = np.nan
+    assert not optimality_residuals(step, **answer).worst <= 1e300
+
+
+def test_without_contacts_only_stationarity_is_left(rng):
+    step = random_step(rng).replace(contacts=no_contacts(7))
+    found = optimality_residuals(step, rng.normal(size=7), np.zeros(0))
+    assert found.stationarity > 0
+    assert (found.primal, found.dual, found.complementarity) == (0.0, 0.0, 0.0)

@@ -1,0 +1,164 @@
+"""The parameterised CVXPY problem: its size, its cache, its empty cases, its multipliers."""
+
+import cvxpy as cp
+import numpy as np
+import pytest
+from cvxpy.utilities import scopes
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.problem import StepProblem
+from tests.helpers import (
+    JUDGE,
+    REQUIRED,
+    contact_row,
+    error,
+    planted_step,
+    random_step,
+    unconstrained,
+)
+from tests.tolerances import MULTIPLIERS, OPTIMUM
+
+PAPER = {"n_a": 7, "n_u": 6, "rows": (6,) * 10 + (4,) * 5}
+
+
+def filled(step):
+    problem = StepProblem(step)
+    problem.fill(step)
+    return problem
+
+
+@pytest.mark.parametrize("solver", [cp.CLARABEL, cp.OSQP, cp.PIQP])
+def test_the_paper_s_step_compiles_to_13_variables_and_80_rows(solver, rng):
+    problem = filled(random_step(rng, **PAPER)).problem
+    data, _, _ = problem.get_problem_data(solver, solver_opts={})
+    rows = data["F"] if "F" in data else data["A"]  # a QP solver's inequalities | a conic one's
+    assert data["P"].shape == (13, 13)
+    assert rows.shape == (80, 13)
+
+
+def test_quad_form_with_a_psd_parameter_is_dpp_only_inside_its_scope(rng):
+    problem = filled(random_step(rng, **PAPER)).problem
+    assert not problem.is_dpp()
+    with scopes.quad_form_dpp_scope():
+        assert problem.is_dpp()
+
+
+@pytest.mark.parametrize("solver", ["clarabel", "osqp", "piqp", "daqp"])
+def test_nothing_is_compiled_after_the_first_solve(solver, monkeypatch):
+    steps = [planted_step(np.random.default_rng(seed), **PAPER) for seed in range(3)]
+    problem = StepProblem(steps[0][0])
+    solve_step(steps[0][0], solver, problem=problem)
+    compiled = problem.problem._cache.param_prog
+    assert compiled is not None
+
+    def recompile(*_, **__):
+        raise AssertionError("CVXPY compiled the problem again")
+
+    monkeypatch.setattr(cp.Problem, "_construct_chain", recompile)
+    for step, delta_q, _ in steps[1:]:
+        answer = solve_step(step, solver, problem=problem)
+        np.testing.assert_allclose(
+            error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM
+        )
+        assert problem.problem._cache.param_prog is compiled
+
+
+def test_every_matrix_and_vector_of_a_new_step_reaches_the_solver():
+    # A parameter that kept its old value would show: all of them differ between the two steps.
+    first, second = (planted_step(np.random.default_rng(seed), 3, 4)[0] for seed in (1, 2))
+    problem = StepProblem(first)
+    for step in (first, second, first):
+        fresh = solve_step(step, JUDGE).delta_q
+        kept = solve_step(step, JUDGE, problem=problem).delta_q
+        np.testing.assert_allclose(error(step, kept, fresh), 0.0, rtol=0.0, atol=OPTIMUM)
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+@pytest.mark.parametrize(
+    ("n_a", "n_u", "rows"),
+    [(0, 4, (6, 4)), (3, 0, (4, 6)), (3, 4, (4, 4)), (3, 4, (6, 6)), (0, 1, (4,)), (1, 0, (6,))],
+)
+def test_empty_blocks_are_left_out(backend, n_a, n_u, rows, rng):
+    step, delta_q, lam = planted_step(rng, n_a, n_u, rows)
+    answer = solve_step(step, backend)
+    np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)
+    assert answer.lam.shape == lam.shape
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+def test_without_contacts_the_step_is_unconstrained(backend, rng):
+    step = random_step(rng, 3, 4, rows=())
+    answer = solve_step(step, backend)
+    gap = error(step, answer.delta_q, unconstrained(step))
+    np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)
+    assert answer.lam.shape == (0,)
+    assert answer.wrench.shape == (0, 4)
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+def test_a_row_of_the_user_s_own_holds_a_coordinate_back(backend, rng):
+    # Alone, delta_q_a would be tau_a / K; the row -delta_q_a >= -limit stops it there with the
+    # multiplier h (tau_a - K limit).
+    step = random_step(rng, 1, 1, rows=()).replace(
+        K_q=[[100.0]],
+        tau_a=[2.0],
+        delta_q_bar_a=[0.0],
+        extra=Extra(("stop",), [[-1.0, 0.0]], [-0.005]),
+    )
+    answer = solve_step(step, backend)
+    push = step.h * (2.0 - 100.0 * 0.005)
+    np.testing.assert_allclose(answer.delta_q[0], 0.005, rtol=OPTIMUM, atol=0.0)
+    np.testing.assert_allclose(answer.lam_extra, [push], rtol=MULTIPLIERS, atol=0.0)
+    assert answer.lam.shape == (0,)
+
+
+def test_multipliers_are_contact_major_although_cvxpy_lists_them_row_by_row(rng):
+    step, _, lam = planted_step(rng, 3, 4, rows=(4, 6, 4, 6))
+    answer = solve_step(step, JUDGE)
+    np.testing.assert_allclose(answer.lam, lam, rtol=0.0, atol=MULTIPLIERS * lam.max())
+    push = np.zeros(7)
+    for j, start in enumerate((0, 4, 10, 14)):
+        for i in range((4, 6, 4, 6)[j]):
+            push += answer.lam[start + i] * contact_row(step.contacts, j, i)
+    H_delta_q = np.concatenate(
+        [
+            step.h * step.K_q @ (answer.delta_q[:3] - step.delta_q_bar_a) - step.h * step.tau_a,
+            step.M_u @ answer.delta_q[3:] / step.h - step.h * step.tau_u,
+        ]
+    )
+    np.testing.assert_allclose(push, H_delta_q, rtol=0.0, atol=MULTIPLIERS * np.abs(push).max())
+
+
+OTHERS = {
+    "another h": lambda step, rng: step.replace(h=2 * step.h),
+    "another n_a": lambda step, rng: random_step(rng, 2, 4),
+    "another n_u": lambda step, rng: random_step(rng, 3, 5),
+    "the same n_v, split otherwise": lambda step, rng: random_step(rng, 4, 3),
+    "fewer contacts": lambda step, rng: random_step(rng, 3, 4, (6, 4)),
+    "as many rows, on other contacts": lambda step, rng: random_step(rng, 3, 4, (4, 6, 6)),
+    "a row of the user's own": lambda step, rng: step.replace(
+        extra=Extra(("a",), np.ones((1, 7)), [0.0])
+    ),
+}
+
+
+@pytest.mark.parametrize("other", OTHERS.values(), ids=OTHERS)
+def test_a_step_of_another_kind_is_refused(other, rng):
+    step = random_step(rng, 3, 4, (6, 4, 6))
+    problem = StepProblem(step)
+    assert problem.fits(random_step(rng, 3, 4, (6, 4, 6)))
+    with pytest.raises(StepDataError):
+        problem.fill(other(step, rng))
+
+
+def test_the_problem_is_an_ordinary_cvxpy_problem_that_can_be_extended(rng):
+    step, _, _ = planted_step(rng)
+    problem = filled(step)
+    low = -1e-5
+    extended = cp.Problem(
+        problem.problem.objective, [*problem.problem.constraints, problem.delta_q[0] <= low]
+    )
+    extended.solve(solver=cp.CLARABEL)
+    assert problem.delta_q.value[0] <= low * (1 - OPTIMUM)

@@ -1,0 +1,150 @@
+"""Natural units lose nothing and put everything near one."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.units import Units, from_natural, natural_units, to_natural
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import (
+    JUDGE,
+    error,
+    hessian,
+    pinch,
+    planted_step,
+    random_step,
+    sphere_on_floor,
+    unconstrained,
+)
+from tests.tolerances import ACTIVE_SET, EXACT, NATURAL_HIGH, NATURAL_LOW, ROUNDING
+
+STEPS = {
+    "random": random_step(np.random.default_rng(1), 7, 6, (6,) * 10 + (4,) * 5),
+    "own rows": random_step(np.random.default_rng(2)).replace(
+        extra=Extra(("a",), np.ones((1, 7)), [-0.3])
+    ),
+    "no q_a": random_step(np.random.default_rng(3), 0, 4),
+    "no q_u": random_step(np.random.default_rng(4), 3, 0),
+    "no contacts": random_step(np.random.default_rng(5), rows=()),
+    "sphere": sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0.1), phi=-1e-4),
+    "pinch": pinch(),
+}
+every_step = pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+
+
+def inverse(units):
+    """The units of a natural step that lead back to SI."""
+    return Units(1 / units.coordinate, 1 / units.length, 1 / units.size)
+
+
+@every_step
+def test_there_and_back_gives_the_same_bits(step):
+    units = natural_units(step)
+    assert to_natural(to_natural(step, units), inverse(units)).same_as(step)
+
+
+@every_step
+def test_all_units_are_powers_of_two(step):
+    units = natural_units(step)
+    mantissas, _ = np.frexp([*units.coordinate, units.length, units.size])
+    np.testing.assert_allclose(mantissas, 0.5, rtol=EXACT, atol=EXACT)
+
+
+@every_step
+def test_the_natural_diagonal_of_H_is_about_one(step):
+    diagonal = np.diag(hessian(to_natural(step, natural_units(step))))
+    assert diagonal.min() >= NATURAL_LOW
+    assert diagonal.max() <= NATURAL_HIGH
+
+
+@every_step
+def test_the_typical_natural_row_is_about_one(step):
+    norms = np.linalg.norm(standard_form(to_natural(step, natural_units(step))).A, axis=1)
+    if norms.size:
+        assert NATURAL_LOW <= np.median(norms) <= NATURAL_HIGH
+
+
+@every_step
+def test_the_natural_unconstrained_step_is_no_longer_than_about_one(step):
+    # rho is ||H^-1 g||_H, or the push out of a penetration where that is more.
+    natural = to_natural(step, natural_units(step))
+    free = unconstrained(natural)
+    assert np.sqrt(free @ hessian(natural) @ free) <= NATURAL_HIGH
+
+
+@every_step
+def test_natural_units_keep_the_form_of_13_and_4(step):
+    # H' = S H S, g' = S g / rho, A' = A S / ell, b' = b / (rho ell), all exact.
+    units, given = natural_units(step), standard_form(step)
+    S, ell, rho = units.coordinate, units.length, units.size
+    natural = standard_form(to_natural(step, units))
+    np.testing.assert_allclose(natural.H, given.H * np.outer(S, S), rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(natural.b, given.b / (rho * ell), rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(natural.A, given.A * S / ell, rtol=ROUNDING, atol=EXACT)
+    np.testing.assert_allclose(natural.g, given.g * S / rho, rtol=ROUNDING, atol=EXACT)
+
+
+def test_mu_omega_and_the_frames_are_left_alone():
+    step = STEPS["random"]
+    natural = to_natural(step, natural_units(step))
+    assert natural.h == step.h
+    for name in ("n", "d1", "d2", "mu_v", "mu_omega", "rows"):
+        np.testing.assert_allclose(
+            getattr(natural.contacts, name), getattr(step.contacts, name), rtol=EXACT, atol=EXACT
+        )
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_answer_does_not_depend_on_the_units(seed):
+    # Solve in natural units, and in units spoilt by powers of two per coordinate; compare in SI.
+    rng = np.random.default_rng(seed)
+    step, delta_q, lam = planted_step(rng)
+    units = natural_units(step)
+    spoilt = Units(
+        units.coordinate * 2.0 ** rng.integers(-2, 3, 7), units.length * 4, units.size / 2
+    )
+    for chosen in (units, spoilt):
+        answer = solve_step(to_natural(step, chosen), JUDGE)
+        back, impulses = from_natural(answer.delta_q, answer.lam, chosen)
+        np.testing.assert_allclose(error(step, back, delta_q), 0.0, rtol=0.0, atol=ACTIVE_SET)
+        np.testing.assert_allclose(impulses, lam, rtol=0.0, atol=ACTIVE_SET * lam.max())
+
+
+def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else():
+    # Twice the motion and force: the natural step is the same, bit for bit.
+    step = STEPS["random"]
+    contacts = dataclasses.replace(step.contacts, phi=2 * step.contacts.phi)
+    twice = step.replace(
+        tau_a=2 * step.tau_a,
+        tau_u=2 * step.tau_u,
+        delta_q_bar_a=2 * step.delta_q_bar_a,
+        contacts=contacts,
+    )
+    one, two = natural_units(step), natural_units(twice)
+    assert two.size == 2 * one.size
+    assert to_natural(twice, two).same_as(to_natural(step, one))
+
+
+def test_a_step_without_force_or_gap_has_units_too(rng):
+    still = random_step(rng, rows=()).replace(
+        tau_a=np.zeros(3), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(3)
+    )
+    assert natural_units(still).size == 1.0
+    np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1.0])
+def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
+    # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.
+    natural = sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))
+    natural = to_natural(natural, natural_units(natural))
+    assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
+
+
+def test_a_gap_sets_the_size_where_nothing_else_does():
+    step = sphere_on_floor(phi=0.02)
+    natural = to_natural(step, natural_units(step))
+    assert NATURAL_LOW <= natural.contacts.phi[0] <= NATURAL_HIGH
