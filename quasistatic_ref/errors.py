@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 class QuasistaticError(Exception):
     """Root of every error that this package raises on purpose."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Exceptions are rebuilt from `args`, which here hold the message only.
+        return _rebuilt, (type(self), self.args, self.__dict__)
+
 
 class InputError(QuasistaticError):
     """Something given by the user cannot be used.
@@ -136,9 +140,19 @@ class RunFailed(QuasistaticError):
 def suggestion(name: str, known: Iterable[str]) -> str:
     """Return ``"; did you mean 'x'? Known: ..."`` for an unknown name."""
     names = sorted(known)
-    near = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
+    by_lower = {known_name.lower(): known_name for known_name in names}
+    near = difflib.get_close_matches(name.lower(), by_lower, n=1)
+    hint = f"; did you mean {by_lower[near[0]]!r}?" if near else ""
     return f"{hint or ';'} known: {', '.join(names) or 'none'}"
+
+
+def _rebuilt(
+    kind: type[QuasistaticError], args: tuple[Any, ...], state: dict[str, Any]
+) -> QuasistaticError:
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(state)
+    return error
 
 
 def _short(value: Any, limit: int = 80) -> str:

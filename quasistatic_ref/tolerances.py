@@ -13,6 +13,12 @@ SYMMETRIC: Final = 1e-12
 Rounding in a mass matrix leaves 1e-16; anything above 1e-12 is another matrix. What is smaller
 is removed: the lower triangle counts."""
 
+DEFINITE: Final = 1e-14
+"""Smallest pivot of a stiffness or mass matrix relative to its diagonal entry.
+
+Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
+a condition number above 1e14, and its inverse no correct digit."""
+
 ACCURACY: Final = 1e-12
 """Default accuracy asked of every backend, in natural units [-].
 
@@ -23,6 +29,12 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+FAR: Final = 100.0
+"""Distance, in natural units [-], beyond which a contact is as good as infinitely far.
+
+The unconstrained step is about one long. Solvers lose digits on numbers like 1e6 beside 1; a
+row that is held at 100 stays inactive, and the judge, who sees the true distance, would notice."""
 
 WITNESS: Final = 1e-6
 """Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].

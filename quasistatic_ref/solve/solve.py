@@ -13,7 +13,13 @@ import qpsolvers
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend
-from quasistatic_ref.solve.units import from_natural, natural_units, to_natural
+from quasistatic_ref.solve.units import (
+    from_natural,
+    natural_units,
+    out_of_reach,
+    to_natural,
+    within_reach,
+)
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.problem import StepProblem
@@ -68,12 +74,17 @@ def solve_step(
     BackendError
         If the backend is unknown or not installed.
     """
+    if not accuracy > 0:
+        raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     units = natural_units(step)
     natural = to_natural(step, units)
     try:
-        answer = backend_answer(natural, backend, accuracy, problem)
+        answer = backend_answer(within_reach(natural), backend, accuracy, problem)
+        # The rows that were moved nearer bear no load: the judge, who sees the true gap, decides.
+        idle = np.repeat(out_of_reach(natural), step.contacts.rows)
+        answer.lam[: idle.size][idle] = 0.0
         certificate = _judged(natural, answer, backend, accuracy, certify)
     except StepNotSolved as failure:
         failure.step = step  # the caller's own step, not its scaled copy
@@ -104,7 +115,9 @@ def backend_answer(
     """
     road = _through_qpsolvers if name.startswith(QPSOLVERS) else _through_cvxpy
     failure: StepNotSolved | None = None
-    for options in backend(name).attempts(accuracy):
+    entry = backend(name)
+    accuracy = max(accuracy, entry.floor)
+    for options in entry.attempts(accuracy):
         try:
             answer = road(step, name, options, accuracy, problem)
         except StepNotSolved as failed:
@@ -129,7 +142,7 @@ def _through_cvxpy(
             # Cold, so that a step replayed by itself takes the same path. (PROXQP's interface
             # in CVXPY raises TypeError on a second warm start anyway.)
             problem.problem.solve(solver=name.upper(), warm_start=False, **options)
-        except (cp.error.SolverError, ValueError) as error:
+        except Exception as error:  # whatever another package raises
             raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
     status = str(problem.problem.status)
     if status != cp.OPTIMAL:
@@ -151,13 +164,13 @@ def _through_qpsolvers(
         warnings.simplefilter("ignore")
         try:
             solution = qpsolvers.solve_problem(program, name.removeprefix(QPSOLVERS), **options)
-        except qpsolvers.exceptions.QPError as error:
+        except Exception as error:  # whatever another package raises
             raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
     if not solution.found or solution.x is None or solution.z is None:
         raise StepNotSolved(name, "no solution found", step, accuracy)
     return Answer(
-        np.asarray(solution.x),
-        np.asarray(solution.z).reshape(-1),
+        np.array(solution.x),
+        np.array(solution.z).reshape(-1),
         SolverStatistics(name, "optimal", None, solution.solve_time, accuracy),
     )
 
