@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, suggestion
@@ -132,7 +133,8 @@ BACKENDS: dict[str, Backend] = {
 DEFAULT = "clarabel"
 
 
-def installed_backends() -> list[str]:
+@cache  # CVXPY tries to import every solver it knows: 2 ms
+def installed_backends() -> tuple[str, ...]:
     """Names that ``backend=`` accepts here: CVXPY's road first, then qpsolvers'."""
     import cvxpy
     import qpsolvers
@@ -140,7 +142,7 @@ def installed_backends() -> list[str]:
     by_cvxpy = {name.lower() for name in cvxpy.installed_solvers()}
     through_cvxpy = [b.name for b in BACKENDS.values() if b.cvxpy and b.name in by_cvxpy]
     direct = [QPSOLVERS + n for n in BACKENDS if n in qpsolvers.available_solvers]
-    return through_cvxpy + direct
+    return (*through_cvxpy, *direct)
 
 
 def backend(name: str) -> Backend:

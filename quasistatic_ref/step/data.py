@@ -237,7 +237,7 @@ def _columns(value: Any, name: str, ndim: int) -> int:
     shape = _numbers(value, name).shape
     if len(shape) != ndim:
         raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
-    return shape[-1]
+    return int(shape[-1])
 
 
 def _names(value: Any, name: str) -> tuple[str, ...]:
