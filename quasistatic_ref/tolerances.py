@@ -23,3 +23,9 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+ILL_POSED: Final = 1e6
+"""Longest certified step, in the H norm and relative to what the step asks for by itself: the
+larger of the unconstrained step and the longest push-out of a single row.
+
+Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""

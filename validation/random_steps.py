@@ -94,7 +94,7 @@ def skew(v: Array) -> Array:
 
 
 def unit(v: Array) -> Array:
-    """v / ||v||."""
+    """The direction of v."""
     return v / np.linalg.norm(v)
 
 

@@ -50,16 +50,19 @@ class Balls:
 
     Parameters
     ----------
-    x : arb_mat, shape (n_v, 1)
+    x : list of arb, length n_v
     lam : list of arb
         Multipliers, in the order of the working set.
-    slack : arb_mat, shape (m, 1)
+    net : list of arb, length n_v
+        A_w' lam.
+    slack : list of arb, length m
         A x - b.
     """
 
-    x: arb_mat
+    x: list[arb]
     lam: list[arb]
-    slack: arb_mat
+    net: list[arb]
+    slack: list[arb]
 
 
 def ball_form(form: ExactForm) -> BallForm:
@@ -70,7 +73,7 @@ def ball_form(form: ExactForm) -> BallForm:
     StepDataError
         If H is not positive definite.
     """
-    if not _positive_definite(form.H):
+    if not positive_definite(form.H):
         raise StepDataError("must be positive definite without rounding", field="H")
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
@@ -107,11 +110,15 @@ def equality_solution(balls: BallForm, working: Sequence[int]) -> Balls | None:
         except ZeroDivisionError:
             return None
         x = balls.x_free + range_.transpose() * lam
-        return Balls(x, lam.entries(), balls.A * x - balls.b)
+        net, slack = A_w.transpose() * lam, balls.A * x - balls.b
+        return Balls(x.entries(), lam.entries(), net.entries(), slack.entries())
 
 
-def _positive_definite(H: fmpz_mat) -> bool:
-    """Return whether all pivots of H = L D L' are positive; what balls leave open by minors."""
+def positive_definite(H: fmpz_mat) -> bool:
+    """Whether a symmetric H is positive definite, decided exactly.
+
+    By the pivots of H = L D L' in balls; by the leading minors where a pivot stays open.
+    """
     n = H.nrows()
     with ctx.workprec(PRECISION):
         S = [[arb(H[i, j]) for j in range(i + 1)] for i in range(n)]

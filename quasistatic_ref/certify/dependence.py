@@ -1,7 +1,8 @@
 """Linear dependence of rows, decided exactly, by arithmetic modulo a prime first.
 
 Rows that are independent modulo a prime are independent. The converse holds for all but
-finitely many primes, so a dependence seen modulo a prime is checked in integers before it counts.
+finitely many primes, so a dependence seen modulo a prime is checked in integers before it counts,
+and another prime is taken if it was an accident.
 """
 
 from __future__ import annotations
@@ -17,7 +18,11 @@ PRIME: Final = (1 << 61) - 1
 """The first prime tried; an unlucky one costs a retry, never a wrong answer."""
 
 SMALL: Final = 1 << 20
-"""Coefficients up to this size are guessed from their residues, then checked in integers."""
+"""Coefficients up to this size are guessed from their residues, then checked in integers.
+
+Within a contact they are -1, 0 and 1."""
+
+Row = list[fmpz]
 
 
 def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
@@ -33,65 +38,91 @@ def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, .
     -------
     tuple of int
     """
-    if not candidates:
-        return ()
-    echelon, rank = _columns(form, candidates, PRIME).rref()
-    return tuple(candidates[j] for j in _pivots(echelon, rank))
+    pivots, _ = _echelon([form.row(i) for i in candidates], PRIME)
+    return tuple(candidates[j] for j in pivots)
 
 
-def combinations(
-    form: ExactForm, working: Sequence[int], rows: Sequence[int]
-) -> list[list[fmpq] | None]:
-    """How each of some rows of A is combined from the working set, decided exactly.
+def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> list[bool]:
+    """Whether equations a'x = b follow from A_w x = b_w alone, decided exactly.
 
     Parameters
     ----------
     form : ExactForm
     working : sequence of int
         Independent rows.
-    rows : sequence of int
-        The rows asked about.
+    rows : sequence of list of fmpz
+        [a, b] each.
 
     Returns
     -------
-    list
-        For each row a the coefficients c with a = sum_j c_j A[working[j]], or None if it is
-        independent of the working set.
+    list of bool
     """
-    k, n = len(working), form.n
-    found: list[list[fmpq] | None] = [None] * len(rows)
+    k = len(working)
+    held = [[*form.row(i), form.b[i, 0]] for i in working]
     for prime in _primes():
-        echelon, rank = _columns(form, [*working, *rows], prime).rref()
-        if _pivots(echelon, rank)[:k] == list(range(k)):
+        pivots, echelon = _echelon([*held, *rows], prime)
+        if pivots[:k] != list(range(k)):
+            continue
+        guess = [not any(column[k : len(pivots)]) for column in echelon[k:]]
+        guessed = [row for row, seen in zip(rows, guess, strict=True) if seen]
+        if not guessed or fmpz_mat([*held, *guessed]).rank() == k:
+            return guess
+    raise AssertionError("there are infinitely many primes")
+
+
+def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+    """How a row of A is combined from the rows of a working set, decided exactly.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows.
+    p : int
+
+    Returns
+    -------
+    list of fmpq or None
+        c with a_p = sum_j c_j A[working[j]]; None if a_p is independent of them.
+    """
+    k = len(working)
+    held, target = [form.row(i) for i in working], form.row(p)
+    for prime in _primes():
+        pivots, echelon = _echelon([*held, target], prime)
+        if pivots == list(range(k + 1)):
+            return None
+        if pivots == list(range(k)):
             break
-    spanned = [
-        j for j in range(len(rows)) if not any(int(echelon[i, k + j]) for i in range(k, rank))
-    ]
-    for j in spanned:
-        residues = [int(echelon[i, k + j]) for i in range(k)]
-        guess = [c - prime if c > prime // 2 else c for c in residues]
-        target = [form.A[rows[j], v] for v in range(n)]
-        if all(abs(c) < SMALL for c in guess) and _combines(form, working, guess, target):
-            found[j] = [fmpq(c) for c in guess]
-        else:
-            found[j] = _solved(form, working, target, prime)
-    return found
+    residues = echelon[k][:k]
+    guess = [c - prime if c > prime // 2 else c for c in residues]
+    guessed = [fmpq(c) for c in guess]
+    if all(abs(c) < SMALL for c in guess) and _combines(held, guessed, target):
+        return guessed
+    # Exactly in k coordinates in which the rows are independent, then checked in all.
+    chosen, _ = _echelon([list(column) for column in zip(*held, strict=True)], prime)
+    square = fmpz_mat([[row[v] for row in held] for v in chosen])
+    solution = square.solve(fmpz_mat([[target[v]] for v in chosen]))
+    exact = [fmpq(solution[j, 0]) for j in range(k)]
+    return exact if _combines(held, exact, target) else None
 
 
-def _columns(form: ExactForm, rows: Sequence[int], prime: int) -> nmod_mat:
-    """Return the given rows of A as the columns of a matrix modulo a prime."""
-    n = form.n
-    entries = [form.A[i, v] for i in rows for v in range(n)]
-    return nmod_mat(fmpz_mat(len(rows), n, entries), prime).transpose()
+def _combines(rows: Sequence[Row], c: Sequence[fmpq], target: Row) -> bool:
+    used = [(c_j, row) for c_j, row in zip(c, rows, strict=True) if c_j]
+    return all(sum((c_j * row[v] for c_j, row in used), fmpq(0)) == a for v, a in enumerate(target))
 
 
-def _pivots(echelon: nmod_mat, rank: int) -> list[int]:
+def _echelon(columns: Sequence[Row], prime: int) -> tuple[list[int], list[list[int]]]:
+    """Return the pivots among some columns modulo a prime, and the reduced columns."""
+    if not columns or not columns[0]:
+        return [], [[] for _ in columns]
+    reduced, rank = nmod_mat(fmpz_mat(list(columns)).transpose(), prime).rref()
+    table = [[int(x) for x in column] for column in reduced.transpose().tolist()]
     pivots, j = [], 0
     for i in range(rank):
-        while not int(echelon[i, j]):
+        while not table[j][i]:
             j += 1
         pivots.append(j)
-    return pivots
+    return pivots, table
 
 
 def _primes() -> Iterator[int]:
@@ -100,35 +131,3 @@ def _primes() -> Iterator[int]:
         if fmpz(candidate).is_prime():
             yield candidate
         candidate -= 2
-
-
-def _combines(
-    form: ExactForm, working: Sequence[int], c: Sequence[int], target: Sequence[fmpz]
-) -> bool:
-    nonzero = [(i, c_i) for i, c_i in zip(working, c, strict=True) if c_i]
-    return all(
-        sum((form.A[i, v] * c_i for i, c_i in nonzero), fmpz(0)) == target[v]
-        for v in range(form.n)
-    )
-
-
-def _solved(
-    form: ExactForm, working: Sequence[int], target: Sequence[fmpz], prime: int
-) -> list[fmpq] | None:
-    """Return the coefficients by an exact solve in k independent coordinates, checked in all."""
-    k = len(working)
-    by_coordinate = nmod_mat(
-        fmpz_mat(k, form.n, [form.A[i, v] for i in working for v in range(form.n)]), prime
-    )
-    echelon, rank = by_coordinate.rref()
-    chosen = _pivots(echelon, rank)
-    square = fmpz_mat(k, k, [form.A[i, v] for v in chosen for i in working])
-    c = square.solve(fmpz_mat(k, 1, [target[v] for v in chosen]))
-    coefficients = [fmpq(c[i, 0]) for i in range(k)]
-    for v in range(form.n):
-        combined = sum(
-            (form.A[i, v] * c_i for i, c_i in zip(working, coefficients, strict=True)), fmpq(0)
-        )
-        if combined != target[v]:
-            return None
-    return coefficients

@@ -6,13 +6,14 @@ and from the rational solution of the KKT system otherwise. The last is the dear
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from flint import arb, fmpq, fmpz, fmpz_mat
+from flint import arb, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.balls import BallForm, Balls, equality_solution
-from quasistatic_ref.certify.dependence import combinations
+from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.rational import ExactForm
 
 
@@ -22,13 +23,14 @@ class Rational:
 
     Parameters
     ----------
-    x, lam, slack : list of fmpz
-        Numerators; ``slack`` is A x - b for all m rows.
+    x, lam, net, slack : list of fmpz
+        Numerators; ``net`` is A_w' lam, ``slack`` is A x - b for all m rows.
     denominator : fmpz
     """
 
     x: list[fmpz]
     lam: list[fmpz]
+    net: list[fmpz]
     slack: list[fmpz]
     denominator: fmpz
 
@@ -53,12 +55,13 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> Rational:
         for j in range(n):
             K[row, j] = form.A[i, j]
             K[j, row] = -form.A[i, j]
-    numerators, denominator = K.solve(right).numer_denom()
+    numerators, denominator = fmpq_mat(K.solve(right)).numer_denom()
     if denominator < 0:
         numerators, denominator = numerators * -1, -denominator
     entries = numerators.entries()
-    slack = form.A * fmpz_mat(n, 1, entries[:n]) - form.b * denominator
-    return Rational(entries[:n], entries[n:], slack.entries(), denominator)
+    x, lam = fmpz_mat(n, 1, entries[:n]), entries[n:]
+    net, slack = form.H * x - form.g * denominator, form.A * x - form.b * denominator
+    return Rational(x.entries(), lam, net.entries(), slack.entries(), denominator)
 
 
 class Point:
@@ -74,7 +77,7 @@ class Point:
 
     def __init__(self, form: ExactForm, balls: BallForm, working: tuple[int, ...]) -> None:
         self.form, self.ball_form, self.working = form, balls, working
-        self._dependent: dict[int, int] = {}  # row -> sign of its slack
+        self._implied: dict[int, bool] = {}
 
     @cached_property
     def balls(self) -> Balls | None:
@@ -85,11 +88,6 @@ class Point:
     def rational(self) -> Rational:
         """The same without rounding: milliseconds, so only where it is needed."""
         return rational_solution(self.form, self.working)
-
-    @property
-    def was_solved_exactly(self) -> bool:
-        """Whether the rational solution was needed."""
-        return "rational" in self.__dict__
 
     def lam_ball(self, j: int) -> arb | None:
         """Return the ball of a multiplier."""
@@ -106,34 +104,38 @@ class Point:
 
     @cached_property
     def slack_signs(self) -> list[int | None]:
-        """Signs of all slacks that come without the rational solution; None where unknown."""
-        signs: list[int | None] = [None] * self.form.m
-        if self.balls is not None:
-            signs = [_ball_sign(ball) for ball in self.balls.slack.entries()]
+        """Signs of all slacks as the balls show them: 1, -1, or None where they do not."""
+        if self.balls is None:
+            return [None] * self.form.m
+        return [_ball_sign(ball) or None for ball in self.balls.slack]
+
+    @cached_property
+    def decided_slack_signs(self) -> list[int]:
+        """Exact signs of all slacks."""
+        signs = list(self.slack_signs)
         for i in self.working:
             signs[i] = 0
-        return signs
+        for i in self.spanned([i for i, sign in enumerate(signs) if sign is None]):
+            signs[i] = 0
+        return [_sign(self.rational.slack[i]) if s is None else s for i, s in enumerate(signs)]
 
-    def decide_slacks(self) -> list[int]:
-        """Return the exact signs of all slacks."""
-        signs = self.slack_signs
-        open_ = [i for i, sign in enumerate(signs) if sign is None]
-        if not open_:
-            return [sign or 0 for sign in signs]
-        for i, c in zip(open_, combinations(self.form, self.working, open_), strict=True):
-            if c is not None:  # a_i = sum c_j a_j, so its slack is sum c_j b_j - b_i
-                b = self.form.b
-                total = sum(
-                    (c_j * b[j, 0] for c_j, j in zip(c, self.working, strict=True)), fmpq(0)
-                )
-                signs[i] = _sign(total - b[i, 0])
-        for i in open_:
-            if signs[i] is None:
-                signs[i] = _sign(self.rational.slack[i])
-        return [sign or 0 for sign in signs]
+    def spanned(self, rows: Sequence[int]) -> list[int]:
+        """Return those of some rows whose slack is zero because the working set implies it."""
+        new = [i for i in rows if i not in self._implied]
+        equations = [[*self.form.row(i), self.form.b[i, 0]] for i in new]
+        if new:
+            self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
+        return [i for i in rows if self._implied[i]]
+
+    def zero_coordinates(self, coordinates: Sequence[int]) -> list[int]:
+        """Return those of some coordinates in which x is zero because the working set implies it."""
+        n = self.form.n
+        units = [[fmpz(int(i == v)) for i in range(n + 1)] for v in coordinates]
+        zero = implied(self.form, self.working, units) if units else []
+        return [v for v, is_zero in zip(coordinates, zero, strict=True) if is_zero]
 
 
-def _sign(x: fmpz | fmpq) -> int:
+def _sign(x: fmpz) -> int:
     return (x > 0) - (x < 0)
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpz_mat
+from flint import fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.errors import StepDataError
@@ -59,6 +59,10 @@ class ExactForm:
     def m(self) -> int:
         """Number of rows."""
         return self.A.nrows()
+
+    def row(self, i: int) -> list[fmpz]:
+        """Return row i of A."""
+        return [self.A[i, v] for v in range(self.n)]
 
 
 def exact_form(step: StepData) -> ExactForm:
