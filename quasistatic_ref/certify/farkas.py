@@ -102,7 +102,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     for y_i in y:
         common *= (y_i * common).q
     row = fmpz_mat(1, form.m, [(y_i * common).p for y_i in y])
-    if any(row * form.A):
+    if any((row * form.A).entries()):
         return "A'y is not zero"
     if not (row * form.b)[0, 0] > 0:
         return "b'y is not positive"

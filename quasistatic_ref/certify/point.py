@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 from flint import arb, fmpq_mat, fmpz, fmpz_mat
 
@@ -55,7 +56,7 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> Rational:
         for j in range(n):
             K[row, j] = form.A[i, j]
             K[j, row] = -form.A[i, j]
-    numerators, denominator = fmpq_mat(K.solve(right)).numer_denom()
+    numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()
     if denominator < 0:
         numerators, denominator = numerators * -1, -denominator
     entries = numerators.entries()
@@ -128,7 +129,7 @@ class Point:
         return [i for i in rows if self._implied[i]]
 
     def zero_coordinates(self, coordinates: Sequence[int]) -> list[int]:
-        """Return those of some coordinates in which x is zero because the working set implies it."""
+        """Return those of some coordinates in which the working set implies that x is zero."""
         n = self.form.n
         units = [[fmpz(int(i == v)) for i in range(n + 1)] for v in coordinates]
         zero = implied(self.form, self.working, units) if units else []
