@@ -3,7 +3,7 @@
 A certificate names a working set of independent rows. Solving one linear system without rounding
 gives the minimiser on it; if its multipliers and slacks are >= 0 it is the optimum, which is
 unique. Verification does that in rational numbers alone: it shares the formation of H, g, A, b
-with the method that found the answer, not its balls, its walks or its proofs by primes.
+with the method that found the answer, not its balls or its walks.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpz
 
 from quasistatic_ref.certify.balls import positive_definite
+from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
+from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.point import Rational, rational_solution
+from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import ROW_NAMES, contact_rows, flat_rows
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
@@ -76,6 +76,7 @@ def verify(
     delta_q: Array,
     active: Sequence[tuple[int, int]],
     lam: Array | None = None,
+    claims: Certificate | None = None,
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
@@ -83,22 +84,19 @@ def verify(
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-        The claimed optimum; every bit counts, but for the sign of zero.
+        The claimed optimum; every bit counts.
     active : sequence of (int, int)
         Contact and row of each member of the working set, as in the certificate.
     lam : ndarray, shape (m,), optional
         The claimed multipliers on that working set, the user's own rows last.
+    claims : Certificate, optional
+        Its margins and its statements on uniqueness and differentiability are checked as well.
 
     Returns
     -------
     Verdict
     """
     form = exact_form(step)
-    delta_q = np.asarray(delta_q, dtype=np.float64)
-    if delta_q.shape != (form.n,):
-        return Verdict(
-            False, f"delta_q has shape {delta_q.shape}, the step has {form.n} coordinates"
-        )
     try:
         working = flat_rows(step, active)
     except IndexError as error:
@@ -109,11 +107,14 @@ def verify(
         solution = rational_solution(form, working)
     except ZeroDivisionError:
         return Verdict(False, "the rows of the working set are not independent")
-    reason = (
-        _wrong_sign(step, working, solution)
-        or _wrong_delta_q(form, solution, delta_q)
-        or ("" if lam is None else _wrong_lam(form, working, solution, np.asarray(lam)))
-    )
+    x, lam_w, _, slack = rounded_solution(form, solution)
+    reason = _wrong_sign(step, working, solution) or _wrong_bits("delta_q", delta_q, x)
+    if lam is not None and not reason:
+        full = np.zeros(form.m)
+        full[list(working)] = lam_w
+        reason = _wrong_bits("lam", lam, full)
+    if claims is not None and not reason:
+        reason = _wrong_claim(form, working, solution, claims, lam_w, slack)
     return Verdict(not reason, reason)
 
 
@@ -127,23 +128,43 @@ def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> s
     return ""
 
 
-def _wrong_delta_q(form: ExactForm, solution: Rational, delta_q: Array) -> str:
-    for v, x_v in enumerate(solution.x):
-        right = nearest_fraction(form.x_unit * fmpq(x_v, solution.denominator))
-        if not delta_q[v] == right:
-            given = float(delta_q[v])
-            return f"delta_q[{v}] is {given!r}; the exact optimum rounds to {right!r}"
-    return ""
+def _wrong_bits(name: str, given: Array, right: Array) -> str:
+    given = np.array(given, dtype=np.float64)
+    if given.shape != right.shape:
+        return f"{name} has shape {given.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(given.view(np.int64) != right.view(np.int64))
+    if not wrong.size:
+        return ""
+    at = int(wrong[0])
+    return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
 
 
-def _wrong_lam(form: ExactForm, working: Sequence[int], solution: Rational, lam: Array) -> str:
-    if lam.shape != (form.m,):
-        return f"lam has shape {lam.shape}, the step has {form.m} rows"
-    exact = dict(zip(working, solution.lam, strict=True))
-    for i in range(form.m):
-        right = nearest_fraction(form.lam_unit * fmpq(exact.get(i, fmpz(0)), solution.denominator))
-        if not lam[i] == right:
-            return f"lam[{i}] is {float(lam[i])!r}; on this working set it rounds to {right!r}"
+def _wrong_claim(
+    form: ExactForm,
+    working: Sequence[int],
+    solution: Rational,
+    claims: Certificate,
+    lam_w: Array,
+    slack: Array,
+) -> str:
+    pressed = [i for i, lam_i in zip(working, solution.lam, strict=True) if lam_i > 0]
+    idle = [i for i, s in enumerate(solution.slack) if not s and i not in pressed]
+    equations = [[*form.row(i), form.b[i, 0]] for i in idle]
+    spans = dict(zip(idle, implied(form, pressed, equations), strict=True))
+    spanned, free = [i for i in idle if spans[i]], [i for i in idle if not spans[i]]
+    smooth = differentiable(form, pressed, free)
+    open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s > 0]
+    right = {
+        "kind": "exact",
+        "error_bound": 0.0,
+        "multipliers_unique": multipliers_unique(form, pressed, spanned, free),
+        "differentiable": smooth,
+        "smallest_inactive_slack": min(open_, default=None) if smooth else 0.0,
+        "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),
+    }
+    for name, value in right.items():
+        if getattr(claims, name) != value:
+            return f"{name} is claimed to be {getattr(claims, name)!r}; it is {value!r}"
     return ""
 
 

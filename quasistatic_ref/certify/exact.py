@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.balls import PRECISION, Balls
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
-from quasistatic_ref.certify.point import Point, Rational, rational_solution
+from quasistatic_ref.certify.kkt import Rational, rational_solution
+from quasistatic_ref.certify.point import Point
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
 from quasistatic_ref.step.data import Array

@@ -7,62 +7,14 @@ and from the rational solution of the KKT system otherwise. The last is the dear
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
-from flint import arb, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, fmpz
 
 from quasistatic_ref.certify.balls import BallForm, Balls, equality_solution
 from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.kkt import Rational, rational_solution
 from quasistatic_ref.certify.rational import ExactForm
-
-
-@dataclass(frozen=True, eq=False)
-class Rational:
-    """A solution of H x = g + A_w' lam, A_w x = b_w: fractions of one positive denominator.
-
-    Parameters
-    ----------
-    x, lam, net, slack : list of fmpz
-        Numerators; ``net`` is A_w' lam, ``slack`` is A x - b for all m rows.
-    denominator : fmpz
-    """
-
-    x: list[fmpz]
-    lam: list[fmpz]
-    net: list[fmpz]
-    slack: list[fmpz]
-    denominator: fmpz
-
-
-def rational_solution(form: ExactForm, working: tuple[int, ...]) -> Rational:
-    """The minimiser under A_i x = b_i for i in a working set, without rounding.
-
-    Raises
-    ------
-    ZeroDivisionError
-        If the rows are not independent.
-    """
-    n, k = form.n, len(working)
-    K = fmpz_mat(n + k, n + k)
-    right = fmpz_mat(n + k, 1)
-    for i in range(n):
-        right[i, 0] = form.g[i, 0]
-        for j in range(n):
-            K[i, j] = form.H[i, j]
-    for row, i in enumerate(working, start=n):
-        right[row, 0] = form.b[i, 0]
-        for j in range(n):
-            K[row, j] = form.A[i, j]
-            K[j, row] = -form.A[i, j]
-    numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()
-    if denominator < 0:
-        numerators, denominator = numerators * -1, -denominator
-    entries = numerators.entries()
-    x, lam = fmpz_mat(n, 1, entries[:n]), entries[n:]
-    net, slack = form.H * x - form.g * denominator, form.A * x - form.b * denominator
-    return Rational(x.entries(), lam, net.entries(), slack.entries(), denominator)
 
 
 class Point:
