@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 from flint import arb, fmpq
@@ -38,6 +39,14 @@ def nearest_in(ball: arb) -> float | None:
     """
     low, high = _exact(ball.lower()), _exact(ball.upper())
     return low if low == high else None
+
+
+def nearest_above(ball: arb) -> float:
+    """A float64 that no number in a ball exceeds."""
+    top = ball.upper()
+    if not top.is_finite():
+        return float("inf")
+    return math.nextafter(_exact(top), math.inf) if top != 0 else 0.0
 
 
 def decimal_string(x: Fraction, digits: int) -> str:
