@@ -101,3 +101,66 @@ def unit(v: Array) -> Array:
 def rotation(rng: np.random.Generator) -> Array:
     """A random orthogonal matrix, shape (3, 3)."""
     return np.linalg.qr(rng.standard_normal((3, 3)))[0]
+
+
+def random_step(
+    rng: np.random.Generator,
+    n_a: int,
+    n_u: int,
+    n_c: int,
+    mass_ratio: float = 1.0,
+) -> StepData:
+    """Anything that a step may be: duplicated contacts, penetration, mu = 0, light beside heavy.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    n_a, n_u, n_c : int
+        Coordinates of either kind, and contacts.
+    mass_ratio : float
+        Largest mass over smallest, and largest stiffness over smallest.
+
+    Returns
+    -------
+    StepData
+        Infeasible in some cases.
+    """
+    frames = [rotation(rng) for _ in range(n_c)]
+    frames = [R * np.sign(np.linalg.det(R)) for R in frames]
+    J = rng.standard_normal((n_c, 4, n_a + n_u))
+    J *= rng.random((n_c, 1, n_a + n_u)) < 0.7  # some coordinates do not move a contact
+    phi = rng.choice([0.0, 1e-3, -1e-4], n_c) * rng.random(n_c)
+    mu_v = rng.choice([0.0, 0.5, 1.0], n_c) * rng.random(n_c)
+    mu_omega = rng.choice([0.0, 0.01], n_c)
+    same = np.arange(n_c)
+    for j in range(1, n_c):
+        if rng.random() < 0.3:
+            same[j] = same[rng.integers(j)]
+    n = np.array([frames[j][:, 2] for j in same]).reshape(n_c, 3)
+    return StepData(
+        h=0.01,
+        K_q=spread_matrix(rng, n_a, 1e3, mass_ratio),
+        M_u=spread_matrix(rng, n_u, 1.0, mass_ratio),
+        tau_a=rng.standard_normal(n_a),
+        tau_u=rng.choice([0.0, 1.0]) * rng.standard_normal(n_u),
+        delta_q_bar_a=1e-3 * rng.standard_normal(n_a),
+        contacts=Contacts(
+            name=tuple(f"c{j}" for j in range(n_c)),
+            phi=phi[same],
+            n=n,
+            d1=np.array([frames[j][:, 0] for j in same]).reshape(n_c, 3),
+            d2=np.array([frames[j][:, 1] for j in same]).reshape(n_c, 3),
+            J=J[same],
+            mu_v=mu_v[same],
+            mu_omega=mu_omega[same],
+            rows=rng.choice([4, 6], n_c),
+        ),
+    )
+
+
+def spread_matrix(rng: np.random.Generator, n: int, size: float, ratio: float) -> Array:
+    """A positive definite matrix whose diagonal spans a ratio, shape (n, n)."""
+    scale = np.sqrt(size / np.geomspace(1, ratio, n)) if n else np.zeros(0)
+    L = np.tril(0.3 * rng.standard_normal((n, n)), -1) + np.eye(n)
+    S = scale[:, None] * (L @ L.T) * scale
+    return (S + S.T) / 2
