@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -84,19 +85,18 @@ def correct_digits(
     Digits
     """
     form = standard_form(step)
-    scale = 1 / np.sqrt(np.diag(form.H))  # keeps the factor regular at mass ratios of 1e9
-    L = np.linalg.cholesky(form.H * np.outer(scale, scale))
+    norm = energy_norm(form)
     with np.errstate(over="ignore", invalid="ignore"):
         off = delta_q - exact_delta_q
-        free = float(np.linalg.norm(np.linalg.solve(L, scale * form.g)))
+        free = float(norm.impulses(form.g[None])[0])
         wrench = None
         if lam is not None and exact_net is not None:
-            net_off = np.linalg.solve(L, scale * (form.A.T @ lam - exact_net))
-            wrench = _digits(float(np.linalg.norm(net_off)), free)
-        reach = np.linalg.norm(np.linalg.solve(L, (form.A * scale).T), axis=0)
+            net_off = form.A.T @ lam - exact_net
+            wrench = _digits(float(norm.impulses(net_off[None])[0]), free)
+        reach = norm.impulses(form.A)
         slack_off = np.abs(form.A @ off)[reach > 0] / reach[reach > 0]
         return Digits(
-            delta_q=_digits(float(np.linalg.norm(L.T @ (off / scale))), free),
+            delta_q=_digits(norm.displacement(off), free),
             wrench=wrench,
             slack=_digits(float(slack_off.max(initial=0.0)), free),
         )

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_vector
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.step.data import Array, StepData
@@ -64,12 +65,10 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     float
     """
     form = standard_form(step)
-    scale = 1 / np.sqrt(np.diag(form.H))
-    L = np.linalg.cholesky(form.H * np.outer(scale, scale))
-    free = np.linalg.norm(np.linalg.solve(L, scale * form.g))
+    norm = energy_norm(form)
     pushed = form.b > 0
-    reach = np.linalg.norm(np.linalg.solve(L, (form.A[pushed] * scale).T), axis=0)
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        asked = max(float(free), float(np.max(form.b[pushed] / reach, initial=0.0)))
-        length = float(np.linalg.norm(L.T @ (delta_q / scale)))
+        push_out = form.b[pushed] / norm.impulses(form.A[pushed])
+        asked = float(max(norm.impulses(form.g[None])[0], push_out.max(initial=0.0)))
+        length = norm.displacement(delta_q)
         return length / asked if asked else (0.0 if length == 0 else float("inf"))
