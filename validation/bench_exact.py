@@ -1,8 +1,9 @@
 """What exact certification costs: ``python -m validation.bench_exact [STEPS]``.
 
 Two families of random grasp-like steps; warm from the answers of two backends, and cold. Times
-are of forming H, g, A, b without rounding, finding the optimum and rounding it; the backend's own
-time is not in them. The last column is of `verify`, in rational numbers alone.
+are of reading the backend's answer, forming H, g, A, b without rounding, finding the optimum and
+rounding it; the backend's own time is not in them. The last column is of `verify`, in rational
+numbers alone.
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate, verify
+from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.solve import backend_answer
 from quasistatic_ref.solve.units import natural_units, to_natural
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
 from validation.random_steps import grasp_step
@@ -32,17 +34,25 @@ FAMILIES = {
 STARTS = ("daqp", "clarabel", None)
 
 
-def warm_start(step: StepData, backend: str | None) -> list[int]:
-    """The rows that a backend finds active; none if it fails or is None."""
+Pressed = tuple[Array, Array, Array]
+
+
+def backend_rows(step: StepData, backend: str | None) -> Pressed | None:
+    """A, lam and the slacks of a backend's answer, in natural units; None if it has none."""
     if backend is None:
-        return []
+        return None
     natural = to_natural(step, natural_units(step))
     try:
         answer = backend_answer(natural, backend, ACCURACY)
     except StepNotSolved:
-        return []
+        return None
     form = standard_form(natural)
-    return warm_rows(answer.lam, form.A @ answer.delta_q - form.b)
+    return form.A, answer.lam, form.A @ answer.delta_q - form.b
+
+
+def certified(step: StepData, pressed: Pressed | None) -> ExactOptimum:
+    """The exact optimum: what is timed."""
+    return exact_step(step, warm_rows(*pressed) if pressed else [])
 
 
 def milliseconds(call: Callable[[], Any]) -> tuple[Any, float]:
@@ -62,8 +72,8 @@ def main(steps: int) -> None:
         for backend in STARTS:
             cost, walks, checks, bits = [], [], [], []
             for step in problems:
-                warm = warm_start(step, backend)
-                optimum, ms = milliseconds(lambda s=step, w=warm: exact_step(s, w))
+                pressed = backend_rows(step, backend)
+                optimum, ms = milliseconds(lambda s=step, p=pressed: certified(s, p))
                 certificate = exact_certificate(step, optimum)
                 claims = (step, optimum.delta_q, certificate.active, optimum.lam, certificate)
                 verdict, check = milliseconds(lambda c=claims: verify(*c))

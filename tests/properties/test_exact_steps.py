@@ -43,7 +43,7 @@ def warm_starts(step, seed):
             answer = backend_answer(natural, name, ACCURACY)
         except StepNotSolved:
             continue
-        yield warm_rows(answer.lam, scaled.A @ answer.delta_q - scaled.b)
+        yield warm_rows(scaled.A, answer.lam, scaled.A @ answer.delta_q - scaled.b)
 
 
 def answer_from(step, warm):
