@@ -141,7 +141,7 @@ def _walk(point: Point, p: int) -> Point | Farkas:
 
 
 def _first_below_zero(point: Point, after: Point) -> int | None:
-    """Return which multiplier vanishes first between two points; the least index of a tie."""
+    """Return which multiplier vanishes first between two points; the first of W in a tie."""
     first = None
     for j in range(len(point.working)):
         if after.lam_sign(j) < 0 and (first is None or _vanishes_before(point, after, j, first)):
@@ -161,7 +161,7 @@ def _vanishes_before(point: Point, after: Point, j: int, k: int) -> bool:
 
 
 def _first_on_combination(point: Point, c: Sequence[fmpq]) -> int | None:
-    """Return which l_j - t c_j vanishes first as t grows; the least index of a tie."""
+    """Return which l_j - t c_j vanishes first as t grows; the first of W in a tie."""
     first = None
     for j, c_j in enumerate(c):
         if c_j > 0 and (first is None or _ratio_less(point, c, j, first)):
