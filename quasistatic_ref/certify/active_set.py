@@ -23,9 +23,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from flint import fmpq
+from flint import ctx, fmpq
 
-from quasistatic_ref.certify.balls import BallForm, ball_form
+from quasistatic_ref.certify.balls import PRECISION, BallForm, ball_form
 from quasistatic_ref.certify.dependence import combination, independent_rows
 from quasistatic_ref.certify.point import Point
 from quasistatic_ref.certify.rational import ExactForm
@@ -153,9 +153,10 @@ def _vanishes_before(point: Point, after: Point, j: int, k: int) -> bool:
     """Return whether l_j / (l_j - u_j) < l_k / (l_k - u_k), both u being negative."""
     if point.balls is not None and after.balls is not None:
         l_ball, u_ball = point.balls.lam, after.balls.lam
-        left, right = l_ball[k] * u_ball[j], l_ball[j] * u_ball[k]
-        if left < right or left > right:
-            return bool(left < right)
+        with ctx.workprec(PRECISION):
+            difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
+        if not difference.contains(0):
+            return bool(difference < 0)
     l_exact, u_exact = point.rational.lam, after.rational.lam
     return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
@@ -172,9 +173,10 @@ def _first_on_combination(point: Point, c: Sequence[fmpq]) -> int | None:
 def _ratio_less(point: Point, c: Sequence[fmpq], j: int, k: int) -> bool:
     """Return whether l_j / c_j < l_k / c_k, both c being positive."""
     if point.balls is not None:
-        left, right = point.balls.lam[j] * c[k], point.balls.lam[k] * c[j]
-        if left < right or left > right:
-            return bool(left < right)
+        with ctx.workprec(PRECISION):
+            difference = point.balls.lam[j] * c[k] - point.balls.lam[k] * c[j]
+        if not difference.contains(0):
+            return bool(difference < 0)
     l_exact = point.rational.lam
     return bool(l_exact[j] * c[k] < l_exact[k] * c[j])
 

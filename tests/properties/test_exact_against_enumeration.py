@@ -176,8 +176,8 @@ def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch, bits):
     """With balls that decide next to nothing every sign is taken from rational numbers."""
     problems = [small_problem(seed) for seed in range(0, PROBLEMS, 5)]
     expected = [exact_optimum(exact_form_of(*problem)) for problem in problems]
-    monkeypatch.setattr("quasistatic_ref.certify.balls.PRECISION", bits)
-    monkeypatch.setattr("quasistatic_ref.certify.exact.PRECISION", bits)
+    for module in ("active_set", "balls", "exact"):
+        monkeypatch.setattr(f"quasistatic_ref.certify.{module}.PRECISION", bits)
     for problem, right in zip(problems, expected, strict=True):
         found = exact_optimum(exact_form_of(*problem))
         assert isinstance(found, Farkas) == isinstance(right, Farkas)
