@@ -153,7 +153,7 @@ def _wrong_claim(
     spans = dict(zip(idle, implied(form, pressed, equations), strict=True))
     spanned, free = [i for i in idle if spans[i]], [i for i in idle if not spans[i]]
     smooth = differentiable(form, pressed, free)
-    open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s > 0]
+    open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
     right = {
         "kind": "exact",
         "error_bound": 0.0,

@@ -150,9 +150,9 @@ def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactFo
     b_m = b.shifted(A.e + e_x) if b.m.any() else b.m
     return ExactForm(
         H=_matrix(H.m),
-        g=_matrix(g_m.reshape(-1, 1)),
+        g=_matrix(g_m[:, None]),
         A=_matrix(A.m),
-        b=_matrix(b_m.reshape(-1, 1)),
+        b=_matrix(b_m[:, None]),
         x_unit=_two_to(e_x),
         slack_unit=_two_to(A.e + e_x),
         lam_unit=_two_to(H.e + e_x - A.e) / h,

@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref.certify.digits import correct_digits, digits_of_error
 from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.unit.test_farkas import EAST, point_between_walls
 from validation.random_steps import grasp_step
@@ -62,6 +63,15 @@ def test_slacks_never_have_fewer_digits_than_the_displacement():
         exact = exact_step(step).delta_q
         found = correct_digits(step, exact + size * rng.standard_normal(13) * exact, exact)
         assert found.slack >= found.delta_q - HALF_DIGIT
+
+
+def test_row_without_coefficients_has_no_say():
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    empty = Extra(("empty",), np.zeros((1, 3)), np.array([-1.0]))
+    exact = exact_step(step).delta_q
+    found = correct_digits(step.replace(extra=empty), exact * (1 + 1e-9), exact)
+    assert found == correct_digits(step, exact * (1 + 1e-9), exact)
+    assert found.slack == 16.0
 
 
 def test_answer_that_is_not_finite_has_no_digits():

@@ -70,6 +70,19 @@ def test_single_row_that_nothing_satisfies_is_named_alone():
         exact_step(step)
 
 
+@pytest.mark.parametrize("factor", [0.25, 4.0])
+def test_largest_entry_of_a_proof_is_one(factor):
+    """Of x >= 1 and -f x >= 0, the proof is y = (f, 1) but for a factor."""
+    extra = Extra(("one", "two"), np.array([[1.0, 0, 0], [-factor, 0, 0]]), np.array([1.0, 0.0]))
+    step = point_between_walls([NORTH], [1.0]).replace(extra=extra)
+    with pytest.raises(StepInfeasible) as failure:
+        exact_step(step)
+    y = [F(text) for text in failure.value.farkas.exact[-2:]]
+    assert max(y) == 1
+    assert y[0] == F(factor) * y[1]
+    assert failure.value.farkas.contradiction == float(y[0])
+
+
 def test_false_proofs_are_refused_with_a_reason():
     step = point_between_walls([EAST, WEST], [-1e-3, -3e-3])
     right = ["1", "0", "0", "0", "1", "0", "0", "0"]
