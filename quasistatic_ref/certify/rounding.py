@@ -37,6 +37,12 @@ def nearest_in(ball: arb) -> float | None:
     None is what an exact zero gives unless its ball is exact, and a number half-way between
     two float64 numbers.
     """
+    x = float(ball) + 0.0  # of its midpoint: a candidate, never -0.0
+    below, above = math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
+    if not (math.isfinite(below) and math.isfinite(above)):
+        return None
+    if 2 * ball > arb(below) + x and 2 * ball < arb(above) + x:
+        return x
     low, high = _exact(ball.lower()), _exact(ball.upper())
     return low if low == high else None
 
