@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
-    from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.data import Array, StepData
 
 
 class QuasistaticError(Exception):
@@ -116,6 +117,49 @@ class StepNotSolved(QuasistaticError):
         super().__init__(
             f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
             "try another backend, or look at the step itself"
+        )
+
+
+class StepInfeasible(StepNotSolved):
+    """No displacement satisfies the rows of the step; this is proved, not a solver's opinion.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    farkas : FarkasVector
+        The proof: a combination of the rows that reads 0 >= something positive.
+    """
+
+    def __init__(self, step: StepData, farkas: FarkasVector) -> None:
+        self.backend, self.status, self.step = "exact", "infeasible", step
+        self.accuracy, self.residuals, self.farkas = 0.0, None, farkas
+        QuasistaticError.__init__(
+            self, f"the step has no solution: {farkas.in_words} (proved without rounding)"
+        )
+
+
+class StepIllPosed(StepNotSolved):
+    """The exact optimum is known and absurd: the rows contradict each other but for rounding.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    delta_q : ndarray, shape (n_v,)
+        The exact optimum [m, rad], correctly rounded.
+    length : float
+        Its length in the H norm, relative to what the step asks for by itself [-].
+    """
+
+    def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
+        self.backend, self.status, self.step = "exact", "ill-posed", step
+        self.accuracy, self.residuals = 0.0, None
+        self.delta_q, self.length = delta_q, length
+        QuasistaticError.__init__(
+            self,
+            f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
+            "its contacts contradict each other but for rounding",
         )
 
 

@@ -60,3 +60,9 @@ Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, no
 UNIT_ROUNDING: Final = 1e-15
 """Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
 in the length as computed, so that what was normalised once is not touched again."""
+
+ILL_POSED: Final = 1e6
+"""Longest certified step, in the H norm and relative to what the step asks for by itself: the
+larger of the unconstrained step and the longest push-out of a single row.
+
+Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
