@@ -56,6 +56,10 @@ class Fields:
     def __contains__(self, field: str) -> bool:
         return field in self._left
 
+    def is_null(self, field: str) -> bool:
+        """Tell whether a field is there and holds JSON's null."""
+        return field in self._left and self._left[field] is None
+
     def names(self) -> list[str]:
         """Return the names of the fields not yet taken, in file order."""
         return list(self._left)

@@ -30,6 +30,11 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
 
+WRENCH: Final = 1e-12
+"""Largest difference of a contact wrench from its formula, relative to the largest of the step.
+
+Six products and five sums in float64, in whatever order, differ by 1e-15."""
+
 FAR: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
 

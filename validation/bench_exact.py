@@ -20,7 +20,7 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.solve.solve import backend_answer
+from quasistatic_ref.solve.ask import backend_answer
 from quasistatic_ref.solve.units import natural_units, to_natural
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form

@@ -71,6 +71,29 @@ def exact_certificate(
     )
 
 
+def in_words(step: StepData, certificate: Certificate) -> str:
+    """What a certificate claims, in a sentence or two."""
+    if certificate.kind == "residual":
+        worst = max(certificate.residuals.values(), default=float("nan"))
+        known = certificate.error_bound is not None
+        bound = f"its error is at most {certificate.error_bound:.1e}" if known else "no error bound"
+        return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
+    if certificate.kind != "exact":
+        return "nothing is certified"
+    m = int(step.contacts.offsets[-1]) + len(step.extra.names)
+    words = [
+        f"exact: the optimum of the step, correctly rounded; {len(certificate.active)} of {m} rows "
+        "hold it",
+        "multipliers unique" if certificate.multipliers_unique else "multipliers not unique",
+        f"{'' if certificate.differentiable else 'not '}differentiable in the forces",
+    ]
+    if certificate.smallest_inactive_slack is not None:
+        words.append(f"smallest inactive slack {certificate.smallest_inactive_slack:.1e} m")
+    if certificate.smallest_active_multiplier is not None:
+        words.append(f"smallest active multiplier {certificate.smallest_active_multiplier:.1e} N s")
+    return "; ".join(words)
+
+
 def verify(
     step: StepData,
     delta_q: Array,

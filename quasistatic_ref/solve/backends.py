@@ -131,6 +131,8 @@ BACKENDS: dict[str, Backend] = {
     )
 }
 DEFAULT = "clarabel"
+NONE = "none"
+"""No backend: the exact method from a cold start."""
 
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
@@ -153,7 +155,7 @@ def backend(name: str) -> Backend:
     BackendError
         If the name is unknown, or its solver is not installed.
     """
-    known = installed_backends()
+    known = (*installed_backends(), NONE)
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None:
         hint = suggestion(str(name), known)

@@ -60,6 +60,8 @@ class SolverStatistics:
         Time inside the solver [s], where it reports one.
     accuracy : float
         What was asked for, in natural units [-].
+    digits : float or None
+        Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
     """
 
     backend: str
@@ -67,6 +69,7 @@ class SolverStatistics:
     iterations: int | None
     solve_time: float | None
     accuracy: float
+    digits: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
