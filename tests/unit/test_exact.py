@@ -123,8 +123,8 @@ def test_negative_underflow_is_written_without_sign():
     assert exact_optimum(form).delta_q.tobytes() == np.zeros(1).tobytes()
 
 
-def test_tied_ratios_end_and_agree_for_every_order_of_rows():
-    """Three equal rows and two of their sums: each walk meets exactly tied ratios."""
+def test_duplicated_and_dependent_rows_agree_in_every_order():
+    """Three unit rows, and sums of them, one of them twice."""
     base = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     rows = [*base, [1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]]
     b = [1.0, 1.0, 1.0, 2.0, 3.0, 3.0]
