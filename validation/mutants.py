@@ -1,15 +1,16 @@
 """Mutants of a source file, generated from its syntax tree: one wrong sign, comparison or index.
 
 Operators: + and -, * and /, << and >>, ** and * change places; a minus or a `not` is dropped; a
-comparison is turned round or loses its equality; an index, a bound of a slice or an axis is one
-off; two indices change places. Annotations and messages are left alone.
+comparison is turned round or loses its equality; an index or a bound of a slice is one off; an
+axis is another; two indices, or two neighbours in a list, change places. Annotations and messages
+are left alone.
 """
 
 from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass
 
@@ -35,7 +36,6 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.In: (ast.NotIn,),
     ast.NotIn: (ast.In,),
 }
-Change = Callable[[], ast.expr | None]
 
 
 @dataclass(frozen=True)
@@ -123,14 +123,17 @@ def _changed(node: ast.AST) -> Iterator[ast.AST]:
     elif isinstance(node, ast.Subscript):
         for index in _indices(node.slice):
             yield _with(node, slice=index)
-    elif isinstance(node, ast.keyword) and node.arg == "axis":
-        for other in _indices(node.value):
-            yield _with(node, value=other)
+    elif isinstance(node, ast.List) and not any(isinstance(e, ast.JoinedStr) for e in node.elts):
+        for k in range(len(node.elts) - 1):
+            left, right = node.elts[k : k + 2]
+            yield _with(node, elts=[*node.elts[:k], right, left, *node.elts[k + 2 :]])
+    elif isinstance(node, ast.keyword) and node.arg == "axis" and _number(node.value):
+        yield _with(node, value=ast.Constant(int(node.value.value == 0)))
 
 
 def _indices(index: ast.expr) -> Iterator[ast.expr]:
     """Neighbours of an index."""
-    if isinstance(index, ast.Constant) and type(index.value) is int:
+    if _number(index):
         yield ast.Constant(index.value + 1)
     elif isinstance(index, ast.UnaryOp) and isinstance(index.operand, ast.Constant):
         yield ast.Constant(0)
@@ -145,6 +148,10 @@ def _indices(index: ast.expr) -> Iterator[ast.expr]:
                 yield _with(index, elts=[*index.elts[:k], new, *index.elts[k + 1 :]])
         if len(index.elts) == 2:
             yield _with(index, elts=index.elts[::-1])
+
+
+def _number(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) is int
 
 
 def _with(node: ast.AST, **changes: object) -> ast.AST:

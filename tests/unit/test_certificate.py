@@ -9,6 +9,7 @@ from quasistatic_ref.certify.certificate import exact_certificate, verify
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.step.data import Extra
+from tests.unit.test_exact import resting_point
 from validation.random_steps import grasp_step
 
 
@@ -110,3 +111,17 @@ def test_false_claims_are_refused(step, optimum, field, value):
     claims = replace(exact_certificate(step, optimum), **{field: value})
     verdict = verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
     assert field in verdict.reason
+
+
+def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
+    """At the limit of friction one row carries all; an idle one beside it changes no claim."""
+    step = resting_point(tau_x=1.0)
+    optimum = exact_step(step)
+    assert optimum.working_set == (2,)
+    claims = exact_certificate(step, optimum)
+    wider = replace(claims, active=contact_rows(step, (2, 1)), smallest_active_multiplier=0.0)
+    assert not wider.differentiable
+    assert verify(step, optimum.delta_q, wider.active, optimum.lam, wider)
+    smooth = replace(wider, differentiable=True)
+    reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
+    assert "differentiable" in reason
