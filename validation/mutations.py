@@ -88,17 +88,18 @@ TESTS: dict[str, tuple[str, ...]] = {
 
 # Slow, and asks nothing of the package.
 LEFT_OUT = f"tests/{EXACT[-1]}::test_the_family_holds_every_kind_of_problem"
-SECONDS = 25
-"""Seconds of processor time after which a mutant hangs, and has been noticed; the slowest tests
-take eight."""
+SECONDS = {"own": 8, "others": 25}
+"""Seconds of processor time after which a mutant hangs, and has been noticed: the tests of its own
+file take two, the others eight."""
 
-RUN = f"""
+RUN = """
 import contextlib, resource, sys
+seconds, *arguments = sys.argv[1:]
 with contextlib.suppress(ValueError, OSError):  # a mutant may loop, and gather memory
-    resource.setrlimit(resource.RLIMIT_CPU, ({SECONDS}, {SECONDS} + 5))
+    resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
     resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 import pytest
-sys.exit(pytest.main(sys.argv[1:]))
+sys.exit(pytest.main(arguments))
 """
 
 
@@ -157,20 +158,22 @@ class Workbench:
             path.write_text(mutant.source)
             first, *others = TESTS[mutant.file]
             # The file's own tests by themselves: to import the others takes longer than to run.
-            said = self._tried(folder, [first])
-            return self._tried(folder, others) if said == "survived" and others else said
+            said = self._tried(folder, [first], SECONDS["own"])
+            if said != "survived" or not others:
+                return said
+            return self._tried(folder, others, SECONDS["others"])
         finally:
             shutil.copy2(PACKAGE / mutant.file, path)
             self._free.put(folder)
 
     @staticmethod
-    def _tried(folder: Path, tests: Iterable[str]) -> str:
+    def _tried(folder: Path, tests: Iterable[str], seconds: int) -> str:
         chosen = [f"tests/{test}" for test in tests]
         options = ["-x", "-q", "-p", "no:cacheprovider", "--deselect", LEFT_OUT]
         environment = os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
         environment |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "CI": "1"}
         done = subprocess.run(
-            [sys.executable, "-c", RUN, *options, *chosen],
+            [sys.executable, "-c", RUN, str(seconds), *options, *chosen],
             cwd=folder,
             env=environment,
             capture_output=True,
