@@ -54,6 +54,10 @@ NORMAL_NEAR_AXIS: Final = 1e-9
 COAL: Final = 1e-6
 """Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
 
+COAL_NORMAL: Final = 1e-4
+"""Normals [-] of convex pairs by coal where faces touch: its witnesses coincide there, and what
+is left of their difference has a direction good to 2e-5 (measured); a wrong face is off by 1."""
+
 BRUTE_FORCE: Final = 2e-3
 """A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
 above it by at most the spacing."""

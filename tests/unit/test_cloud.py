@@ -41,9 +41,7 @@ def asked_of_coal(shape, point):
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     request.enable_signed_distance = True
     there = coal.Transform3s(np.eye(3), point)
-    phi = coal.distance(
-        shape.coal, coal.Transform3s(), coal.Sphere(0.0), there, request, result
-    )
+    phi = coal.distance(shape.coal, coal.Transform3s(), coal.Sphere(0.0), there, request, result)
     return phi, np.array(result.normal)
 
 
