@@ -117,7 +117,7 @@ def test_a_byte_order_mark_is_dropped():
 
 
 def test_what_is_not_utf_8_names_its_line():
-    with pytest.raises(InputError, match="^t: line 3: is not UTF-8 text$"):
+    with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
         text_of(b"one\ntwo\n\xff", "t")
 
 
