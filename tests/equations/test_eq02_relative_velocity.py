@@ -89,7 +89,7 @@ def test_the_sign_is_beta_minus_alpha(system):
 
 
 def test_alpha_and_beta_are_two_points_where_there_is_a_gap(system):
-    # Turning at rate 1 about its own z axis, the box carries a point at R [r, 0, 0] along R [0, r, 0].
+    # Turning at rate 1 about its own z, the box carries a point at R [r, 0, 0] along R [0, r, 0].
     q, box = system.q_start, system.link("box/box")
     v = np.zeros(system.n_v)
     v[system.joint("box/base").v] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]

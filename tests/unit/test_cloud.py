@@ -115,7 +115,7 @@ def test_inside_a_cylinder_no_point_of_its_surface_is_nearer(rng):
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_normal_is_the_gradient_where_phi_is_smooth(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(200, 3))
-    phi, normal = signed_distance(shape, points)
+    _, normal = signed_distance(shape, points)
     gradient = np.zeros_like(points)
     for k, step in enumerate(DIFFERENCE_STEP * np.eye(3)):
         ahead, behind = (signed_distance(shape, points + s * step) for s in (1, -1))

@@ -109,7 +109,8 @@ def test_the_header_says_what_the_run_was(run):
         "n_a": 2,
         "n_u": 6,
         "coordinates": [
-            "rail/slide", "rail/turn", *(f"ball/base.{x}" for x in ("x", "y", "z", "rx", "ry", "rz")),
+            "rail/slide", "rail/turn", "ball/base.x", "ball/base.y", "ball/base.z", "ball/base.rx",
+            "ball/base.ry", "ball/base.rz",
         ],
         "steps": 5,
         "failed": None,
@@ -184,7 +185,7 @@ def test_an_interrupted_run_keeps_the_steps_before(scenario):
             raise KeyboardInterrupt
         return scenario.targets(t)
 
-    with pytest.raises(RunFailed, match="^step 2: interrupted$") as caught:
+    with pytest.raises(RunFailed, match=r"^step 2: interrupted$") as caught:
         simulate(scenario.simulator(), scenario.system.q_start, target, 5, progress=False)
     assert caught.value.trajectory.steps == 2
     assert caught.value.step is None
@@ -241,7 +242,7 @@ def test_what_is_not_a_trajectory_is_refused_in_words(tmp_path, run, spoil, says
 
 
 def test_a_missing_file_is_refused_in_words(tmp_path):
-    with pytest.raises(InputError, match="none.npz: no such file"):
+    with pytest.raises(InputError, match=r"none\.npz: no such file"):
         trajectory_read(tmp_path / "none.npz")
 
 
