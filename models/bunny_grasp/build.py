@@ -18,7 +18,7 @@ MASS = 0.2  # kg; the paper gives none
 START = 0
 
 URDF = """<?xml version="1.0"?>
-<!-- Written by build.py: a solid of uniform density inside bunny.obj; its cloud is bunny_992.csv. -->
+<!-- Written by build.py: a solid of uniform density inside bunny.obj. -->
 <robot name="bunny">
   <link name="bunny">
     <inertial>
