@@ -140,7 +140,7 @@ def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, ca
         # M_u delta_q_u / h^2 is the drag of the model; its linear part in the bunny's own frame.
         R = scenario.system.kinematics(run["q"][k]).R[bunny]
         drag = R @ (run["M_u"][k][:3] @ run["delta_q"][k, 7:]) / 0.01**2
-        expected = drag + [0, 0, 0.2 * 9.81]
+        expected = drag + np.array([0, 0, 0.2 * 9.81])
         np.testing.assert_allclose(force, expected, rtol=0, atol=MULTIPLIERS * f[:, 2].max())
 
 
