@@ -1,5 +1,7 @@
 """Scenario files: what each table comes to, and refusals that name file, field and value."""
 
+import tomllib
+
 import numpy as np
 import pytest
 
@@ -621,3 +623,30 @@ def test_scenarios_that_come_along_are_found_by_name():
 def test_every_scenario_that_comes_along_loads():
     for name in scenario_names():
         assert load_scenario(name).steps > 0
+
+
+HOSTILE = (
+    '"x"', '""', '"../x"', "nan", "-1", "0", "true", "[]", "{}", "[[1]]", "[nan, 0, 0]", "[{}]",
+    '["x"]', "1979-05-27", "1" + "0" * 400, "{ a = { b = 1 } }", "[{ t = 1 }, { t = 0 }]",
+)  # fmt: skip
+
+
+def fields(table, above=()):
+    """The dotted name of every field of a table and of the tables in it."""
+    for key, value in table.items():
+        yield ".".join((*above, key))
+        if isinstance(value, dict):
+            yield from fields(value, (*above, key))
+
+
+@pytest.mark.parametrize("field", fields(tomllib.loads(PUSH)))
+def test_no_value_of_any_field_is_more_than_refused(load, field):
+    loaded = 0
+    for value in HOSTILE:
+        try:
+            load(settings=[f"{field}={value}"])
+        except InputError as refused:
+            assert "\n" not in str(refused)  # noqa: PT017 - either outcome is right
+        else:
+            loaded += 1
+    assert loaded <= 6, "nearly any value is accepted"
