@@ -13,12 +13,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
-    from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.data import Array, StepData
 
 
 class QuasistaticError(Exception):
     """Root of every error that this package raises on purpose."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Exceptions are rebuilt from `args`, which here hold the message only.
+        return _rebuilt, (type(self), self.args, self.__dict__)
 
 
 class InputError(QuasistaticError):
@@ -115,6 +120,49 @@ class StepNotSolved(QuasistaticError):
         )
 
 
+class StepInfeasible(StepNotSolved):
+    """No displacement satisfies the rows of the step; this is proved, not a solver's opinion.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    farkas : FarkasVector
+        The proof: a combination of the rows that reads 0 >= something positive.
+    """
+
+    def __init__(self, step: StepData, farkas: FarkasVector) -> None:
+        self.backend, self.status, self.step = "exact", "infeasible", step
+        self.accuracy, self.residuals, self.farkas = 0.0, None, farkas
+        QuasistaticError.__init__(
+            self, f"the step has no solution: {farkas.in_words} (proved without rounding)"
+        )
+
+
+class StepIllPosed(StepNotSolved):
+    """The exact optimum is known and absurd: the rows contradict each other but for rounding.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    delta_q : ndarray, shape (n_v,)
+        The exact optimum [m, rad], correctly rounded.
+    length : float
+        Its length in the H norm, relative to what the step asks for by itself [-].
+    """
+
+    def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
+        self.backend, self.status, self.step = "exact", "ill-posed", step
+        self.accuracy, self.residuals = 0.0, None
+        self.delta_q, self.length = delta_q, length
+        QuasistaticError.__init__(
+            self,
+            f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
+            "its contacts contradict each other but for rounding",
+        )
+
+
 class RunFailed(QuasistaticError):
     """A simulation ended early; the steps before the failure are kept.
 
@@ -136,9 +184,19 @@ class RunFailed(QuasistaticError):
 def suggestion(name: str, known: Iterable[str]) -> str:
     """Return ``"; did you mean 'x'? Known: ..."`` for an unknown name."""
     names = sorted(known)
-    near = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
+    by_lower = {known_name.lower(): known_name for known_name in names}
+    near = difflib.get_close_matches(name.lower(), by_lower, n=1)
+    hint = f"; did you mean {by_lower[near[0]]!r}?" if near else ""
     return f"{hint or ';'} known: {', '.join(names) or 'none'}"
+
+
+def _rebuilt(
+    kind: type[QuasistaticError], args: tuple[Any, ...], state: dict[str, Any]
+) -> QuasistaticError:
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(state)
+    return error
 
 
 def _short(value: Any, limit: int = 80) -> str:

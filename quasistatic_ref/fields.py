@@ -56,6 +56,10 @@ class Fields:
     def __contains__(self, field: str) -> bool:
         return field in self._left
 
+    def is_null(self, field: str) -> bool:
+        """Tell whether a field is there and holds JSON's null."""
+        return field in self._left and self._left[field] is None
+
     def names(self) -> list[str]:
         """Return the names of the fields not yet taken, in file order."""
         return list(self._left)
@@ -89,6 +93,8 @@ class Fields:
     def integer(self, field: str, default: Any = REQUIRED, *, least: int | None = None) -> int:
         """Return a whole number, at least `least`."""
         value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
         if isinstance(value, bool) or not isinstance(value, int):
             raise self.fail(field, "must be a whole number", value)
         if least is not None and value < least:
@@ -98,6 +104,8 @@ class Fields:
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
         """Return true or false."""
         value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
         if not isinstance(value, bool):
             raise self.fail(field, "must be true or false", value)
         return value
@@ -143,6 +151,8 @@ class Fields:
     def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
         """Return a list."""
         value = self.take(field, default)
+        if value is default and default is not REQUIRED:
+            return value  # type: ignore[no-any-return]  # the caller's own default
         if not isinstance(value, list):
             raise self.fail(field, "must be a list", value)
         return value

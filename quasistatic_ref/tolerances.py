@@ -13,6 +13,12 @@ SYMMETRIC: Final = 1e-12
 Rounding in a mass matrix leaves 1e-16; anything above 1e-12 is another matrix. What is smaller
 is removed: the lower triangle counts."""
 
+DEFINITE: Final = 1e-14
+"""Smallest pivot of a stiffness or mass matrix relative to its diagonal entry.
+
+Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
+a condition number above 1e14, and its inverse no correct digit."""
+
 ACCURACY: Final = 1e-12
 """Default accuracy asked of every backend, in natural units [-].
 
@@ -23,6 +29,17 @@ RESIDUAL_LIMIT: Final = 1e-6
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
+
+WRENCH: Final = 1e-12
+"""Largest difference of a contact wrench from its formula, relative to the largest of the step.
+
+Six products and five sums in float64, in whatever order, differ by 1e-15."""
+
+FAR: Final = 100.0
+"""Distance, in natural units [-], beyond which a contact is as good as infinitely far.
+
+The unconstrained step is about one long. Solvers lose digits on numbers like 1e6 beside 1; a
+row that is held at 100 stays inactive, and the judge, who sees the true distance, would notice."""
 
 WITNESS: Final = 1e-6
 """Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
@@ -48,3 +65,9 @@ Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, no
 UNIT_ROUNDING: Final = 1e-15
 """Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
 in the length as computed, so that what was normalised once is not touched again."""
+
+ILL_POSED: Final = 1e6
+"""Longest certified step, in the H norm and relative to what the step asks for by itself: the
+larger of the unconstrained step and the longest push-out of a single row.
+
+Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""

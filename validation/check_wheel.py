@@ -57,6 +57,7 @@ def main() -> None:
             ["run", "sphere_spin"],
             ["extract", "results/sphere_spin.npz", "--step", "150", "-o", "step.json"],
             ["solve", "step.json", "-o", "solution.json"],
+            ["verify", "step.json", "solution.json"],
             ["inspect", "bunny_grasp"],
             ["backends"],
         ):

@@ -17,6 +17,7 @@ COMMANDS = {
     "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
     "run": "simulate a scenario and write its trajectory",
     "solve": "solve one step file",
+    "verify": "re-check an answer and its certificate without any solver",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "extract": "write one step of a trajectory as a step file",
     "backends": "list the solvers that can be chosen here",

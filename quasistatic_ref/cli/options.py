@@ -23,7 +23,7 @@ def add_out(parser: argparse.ArgumentParser, default: str) -> None:
 def add_solver(parser: argparse.ArgumentParser) -> None:
     """``--backend`` and ``--certify``."""
     parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
-    parser.add_argument("--certify", metavar="KIND", help="residual (default) or off")
+    parser.add_argument("--certify", metavar="KIND", help="full (default), residual or off")
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

@@ -7,7 +7,7 @@ import argparse
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import worst_residual
+from quasistatic_ref.simulate.trajectory import certified, worst_residual
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -38,6 +38,7 @@ def run(options: argparse.Namespace) -> int:
         "backend": scenario.backend,
         "variables": scenario.system.n_v,
         "rows": int(trajectory["rows"].sum()),
+        "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
         "milliseconds_per_step": milliseconds,
     }
@@ -45,7 +46,8 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(summary)
         return 0
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
-    print(f"backend {summary['backend']}, worst residual {_worst(summary['worst_residual'])}")
+    worst = _worst(summary["worst_residual"])
+    print(f"{summary['certified']}; backend {summary['backend']}, worst residual {worst}")
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     print(f"wrote {path}")

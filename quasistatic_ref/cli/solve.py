@@ -6,11 +6,14 @@ import argparse
 import sys
 from pathlib import Path
 
+from quasistatic_ref.certify.certificate import in_words
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
-from quasistatic_ref.step.files import solution_text, step_read
+from quasistatic_ref.step.files import step_read
+from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -23,18 +26,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Solve it and write the solution file; a word on the certificate goes to standard error."""
+    """Solve it and write the solution file; a word on the certificate goes to standard error.
+
+    An infeasible step gets a solution file too, with the proof, and exit status 3.
+    """
     step = step_read(options.step)
-    certify = options.certify or CERTIFY[0]
-    solution = solve_step(step, options.backend or DEFAULT, certify=certify)
-    text = solution_text(step, solution)
-    if options.output is None:
+    backend = options.backend or DEFAULT
+    try:
+        solution = solve_step(step, backend, certify=options.certify or CERTIFY[0])
+    except StepInfeasible as proof:
+        _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
+        raise
+    _write(options.output, solution_text(step, solution))
+    digits = solution.statistics.digits
+    told = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
+    print(f"{in_words(step, solution.certificate)}{told}", file=sys.stderr)
+    return 0
+
+
+def _write(output: Path | None, text: str) -> None:
+    if output is None:
         sys.stdout.write(text)
     else:
-        text_written(options.output, text)
-    worst = max(solution.certificate.residuals.values(), default=None)
-    told = (
-        "nothing was certified" if worst is None else f"worst residual {worst:.1e} in natural units"
-    )
-    print(f"{solution.backend}: {solution.status}; {told}", file=sys.stderr)
-    return 0
+        text_written(output, text)

@@ -81,7 +81,7 @@ class Simulator:
         feels_gravity: Array | None = None,
         backend: str = DEFAULT,
         accuracy: float = ACCURACY,
-        certify: str = "residual",
+        certify: str = "full",
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)

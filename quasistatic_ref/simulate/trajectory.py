@@ -48,10 +48,11 @@ class Trajectory:
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
         ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
-        ``worst_residual`` (natural units; NaN where nothing was certified); ``q`` has one entry
-        more, the start. A full record adds ``H``, ``g``, ``A``, ``b`` and what they are made of:
-        ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``, ``J``. ``mu_v``, ``mu_omega``
-        and ``rows`` are constant.
+        ``certificate`` (its kind), ``worst_residual`` (natural units; NaN where nothing was
+        certified), ``digits`` (correct ones of the backend; NaN where the exact answer is not
+        known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
+        and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
+        ``J``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step; kept in memory only, so that equal runs make equal
         files.
@@ -137,6 +138,16 @@ def trajectory_read(path: str | Path) -> Trajectory:
     return Trajectory(header, arrays)
 
 
+def certified(trajectory: Trajectory) -> str:
+    """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``."""
+    exact = int(np.sum(trajectory["certificate"] == "exact")) if trajectory.steps else 0
+    return f"{exact} of {trajectory.steps} steps exact"
+
+
+def _or_nan(value: float | None) -> float:
+    return np.nan if value is None else value
+
+
 def worst_residual(trajectory: Trajectory) -> float | None:
     """Largest residual of all steps, in natural units [-]; None where none was computed."""
     residuals = trajectory["worst_residual"]
@@ -185,7 +196,9 @@ class Recorder:
             "point": points.point,
             "lam": solution.lam,
             "wrench": solution.wrench,
+            "certificate": solution.certificate.kind,
             "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
+            "digits": _or_nan(solution.statistics.digits),
         }
         if self.record == "full":
             form = standard_form(step)

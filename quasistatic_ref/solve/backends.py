@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, suggestion
@@ -30,8 +31,12 @@ class Backend:
     attempts : callable
         Accuracy in natural units [-] -> sets of the solver's own options, tried in order until
         one of them solves the step.
+    floor : float
+        The accuracy that it can be asked for at most, in natural units [-].
     cvxpy : bool
         Whether CVXPY has an interface to it.
+    package : str
+        What to install, where its name is another.
     required : bool
         Whether the package installs it.
     """
@@ -39,7 +44,9 @@ class Backend:
     name: str
     method: str
     attempts: Callable[[float], Attempts]
+    floor: float = 0.0
     cvxpy: bool = True
+    package: str = ""
     required: bool = False
 
 
@@ -66,13 +73,13 @@ def _clarabel(accuracy: float) -> Attempts:
 
 
 def _osqp(accuracy: float) -> Attempts:
-    # On bunny_grasp its residuals stop falling between 1e-10 and 1e-9 at the worst steps.
-    tight = max(accuracy, 1e-9)
-    common = {"eps_abs": tight, "eps_rel": 0.0, "max_iter": 50_000, "polishing": True}
-    common |= {"eps_prim_inf": tight, "eps_dual_inf": tight, "verbose": False}
+    # No polishing: it prints to standard output, and improves none of the worst answers.
+    common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
+    common |= {"eps_prim_inf": accuracy, "eps_dual_inf": accuracy, "verbose": False}
     # In natural units a fixed rho of about one suits nearly all steps, where the adaptive one
     # runs away to 1e6 on one step in ten; on a step in fifty it is the other way round.
-    return (common | {"adaptive_rho": False, "rho": 0.3}, common | {"adaptive_rho": True})
+    fixed = common | {"adaptive_rho": False, "rho": 0.3}
+    return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
 
 
 def _piqp(accuracy: float) -> Attempts:
@@ -98,12 +105,9 @@ def _scs(accuracy: float) -> Attempts:
 
 
 def _highs(accuracy: float) -> Attempts:
-    # HiGHS refuses tolerances below 1e-10 and can loop, hence the time limit.
-    tight = max(accuracy, 1e-10)
-    tolerances = dict.fromkeys(
-        ("primal_feasibility_tolerance", "dual_feasibility_tolerance"), tight
-    )
-    return (tolerances | {"time_limit": 10.0},)
+    tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
+    # It can loop, hence the time limit [s].
+    return (dict.fromkeys(tight, accuracy) | {"time_limit": 10.0},)
 
 
 def _nothing(accuracy: float) -> Attempts:
@@ -115,19 +119,24 @@ BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
         Backend("clarabel", "interior point", _clarabel, required=True),
-        Backend("osqp", "operator splitting", _osqp, required=True),
+        # On bunny_grasp OSQP's residuals stop falling between 1e-11 and 1e-10 at the worst steps.
+        Backend("osqp", "operator splitting", _osqp, floor=1e-10, required=True),
         Backend("piqp", "proximal interior point", _piqp, required=True),
         Backend("daqp", "dual active set", _daqp),
-        Backend("proxqp", "augmented Lagrangian", _proxqp),
+        Backend("proxqp", "augmented Lagrangian", _proxqp, package="proxsuite"),
         Backend("scs", "operator splitting", _scs),
-        Backend("highs", "active set", _highs),
+        # HiGHS refuses tolerances below 1e-10.
+        Backend("highs", "active set", _highs, floor=1e-10, package="highspy"),
         Backend("quadprog", "dual active set", _nothing, cvxpy=False),
     )
 }
 DEFAULT = "clarabel"
+NONE = "none"
+"""No backend: the exact method from a cold start."""
 
 
-def installed_backends() -> list[str]:
+@cache  # CVXPY tries to import every solver it knows: 2 ms
+def installed_backends() -> tuple[str, ...]:
     """Names that ``backend=`` accepts here: CVXPY's road first, then qpsolvers'."""
     import cvxpy
     import qpsolvers
@@ -135,7 +144,7 @@ def installed_backends() -> list[str]:
     by_cvxpy = {name.lower() for name in cvxpy.installed_solvers()}
     through_cvxpy = [b.name for b in BACKENDS.values() if b.cvxpy and b.name in by_cvxpy]
     direct = [QPSOLVERS + n for n in BACKENDS if n in qpsolvers.available_solvers]
-    return through_cvxpy + direct
+    return (*through_cvxpy, *direct)
 
 
 def backend(name: str) -> Backend:
@@ -146,13 +155,16 @@ def backend(name: str) -> Backend:
     BackendError
         If the name is unknown, or its solver is not installed.
     """
-    known = installed_backends()
-    entry = BACKENDS.get(name.removeprefix(QPSOLVERS))
+    known = (*installed_backends(), NONE)
+    entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None:
-        raise BackendError(
-            f"is not a backend{suggestion(name, known)}", field="backend", value=name
-        )
+        hint = suggestion(str(name), known)
+        raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:
-        remedy = f"pip install {entry.name}, or choose one of: {', '.join(known)}"
-        raise BackendError(f"is not installed; {remedy}", field="backend", value=name)
+        other = QPSOLVERS + name
+        remedy = f"is reached as {other!r}" if other in known else "is not installed"
+        if other not in known:
+            remedy += f"; pip install {entry.package or entry.name}"
+        choices = ", ".join(known)
+        raise BackendError(f"{remedy}; choices here: {choices}", field="backend", value=name)
     return entry

@@ -1,19 +1,29 @@
-"""One step, solved: natural units, a backend, a judgement, and back to SI units."""
+"""One step, solved: natural units, a backend, the judge, and back to SI units."""
 
 from __future__ import annotations
 
 import math
-import warnings
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, replace
 
-import cvxpy as cp
 import numpy as np
-import qpsolvers
 
+from quasistatic_ref.certify.bound import error_bound
+from quasistatic_ref.certify.certificate import exact_certificate
+from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
-from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend
-from quasistatic_ref.solve.units import from_natural, natural_units, to_natural
+from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.solve.ask import Answer, backend_answer
+from quasistatic_ref.solve.backends import DEFAULT, NONE
+from quasistatic_ref.solve.units import (
+    Units,
+    from_natural,
+    natural_units,
+    out_of_reach,
+    to_natural,
+    within_reach,
+)
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.problem import StepProblem
@@ -21,16 +31,7 @@ from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSol
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
-CERTIFY = ("residual", "off")
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """What a solver returned, in the units that it was asked in."""
-
-    delta_q: Array
-    lam: Array
-    statistics: SolverStatistics
+CERTIFY = ("full", "residual", "off")
 
 
 def solve_step(
@@ -38,7 +39,7 @@ def solve_step(
     backend: str = DEFAULT,
     *,
     accuracy: float = ACCURACY,
-    certify: str = "residual",
+    certify: str = "full",
     problem: StepProblem | None = None,
 ) -> StepSolution:
     """The optimum of Eq. (13).
@@ -48,12 +49,14 @@ def solve_step(
     step : StepData
         SI units.
     backend : str
-        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`.
+        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`; or ``"none"``,
+        with ``certify="full"`` only: the exact method from a cold start.
     accuracy : float
         Asked of the backend, in natural units [-].
     certify : str
-        ``"residual"``: refuse an answer whose residuals are not small, and report them;
-        ``"off"``: take the solver's word.
+        ``"full"``: the exact optimum, correctly rounded, the same bits whatever the backend said;
+        ``"residual"``: the backend's answer, refused if its residuals are not small, with a
+        rigorous bound of its error; ``"off"``: the backend's answer, on its own word.
     problem : StepProblem, optional
         A compiled problem of the same kind, kept by the caller between steps.
 
@@ -63,22 +66,99 @@ def solve_step(
 
     Raises
     ------
+    StepInfeasible
+        With ``"full"``, if no displacement satisfies the rows; with the proof.
+    StepIllPosed
+        With ``"full"``, if the exact optimum is absurd.
     StepNotSolved
-        If the backend claims anything but a full solution, or its answer fails the judge.
+        Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
         If the backend is unknown or not installed.
     """
+    if not accuracy > 0:
+        raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     units = natural_units(step)
     natural = to_natural(step, units)
+    if certify == "full":
+        return _exact(step, natural, units, backend, accuracy, problem)
+    if backend == NONE:
+        raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
     try:
-        answer = backend_answer(natural, backend, accuracy, problem)
+        answer = _asked(natural, backend, accuracy, problem)
         certificate = _judged(natural, answer, backend, accuracy, certify)
     except StepNotSolved as failure:
         failure.step = step  # the caller's own step, not its scaled copy
         raise
     delta_q, lam = from_natural(answer.delta_q, answer.lam, units)
+    return _solution(step, delta_q, lam, backend, certificate, answer.statistics)
+
+
+def _asked(natural: StepData, backend: str, accuracy: float, problem: StepProblem | None) -> Answer:
+    """The backend's answer, the rows out of reach bearing no load."""
+    answer = backend_answer(within_reach(natural), backend, accuracy, problem)
+    idle = np.repeat(out_of_reach(natural), natural.contacts.rows)
+    answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
+    return answer
+
+
+def _exact(
+    step: StepData,
+    natural: StepData,
+    units: Units,
+    backend: str,
+    accuracy: float,
+    problem: StepProblem | None,
+) -> StepSolution:
+    """The exact optimum; a backend that fails costs its warm start, not the answer."""
+    answer: Answer | None = None
+    statistics = SolverStatistics(backend, "not asked", None, None, accuracy)
+    warm: list[int] = []
+    if backend != NONE:
+        try:
+            answer = _asked(natural, backend, accuracy, problem)
+            statistics = answer.statistics
+            form = standard_form(natural)
+            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+        except StepNotSolved as failure:
+            statistics = replace(statistics, status=f"failed: {failure.status}", digits=0.0)
+    optimum = exact_step(step, warm)
+    if answer is not None:
+        said, lam_said = from_natural(answer.delta_q, answer.lam, units)
+        digits = correct_digits(step, said, optimum.delta_q, lam_said, optimum.net)
+        statistics = replace(statistics, digits=digits.delta_q)
+    x = optimum.delta_q / (units.size * units.coordinate)
+    y = optimum.lam * (units.length / units.size)
+    residuals = asdict(optimality_residuals(natural, x, y))
+    certificate = exact_certificate(step, optimum, residuals)
+    return _solution(step, optimum.delta_q, optimum.lam, backend, certificate, statistics)
+
+
+def _judged(
+    natural: StepData, answer: Answer, name: str, accuracy: float, certify: str
+) -> Certificate:
+    """The backend's answer judged by its residuals, or not at all."""
+    if certify == "off":
+        return Certificate("none")
+    residuals: Residuals = optimality_residuals(natural, answer.delta_q, answer.lam)
+    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
+        worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
+        status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
+        raise StepNotSolved(name, status, natural, accuracy, residuals)
+    bound = error_bound(natural, answer.delta_q, answer.lam).error
+    known = bound if math.isfinite(bound) else None
+    return Certificate("residual", asdict(residuals), error_bound=known)
+
+
+def _solution(
+    step: StepData,
+    delta_q: Array,
+    lam: Array,
+    backend: str,
+    certificate: Certificate,
+    statistics: SolverStatistics,
+) -> StepSolution:
     m = int(step.contacts.offsets[-1])
     return StepSolution(
         delta_q=delta_q,
@@ -87,89 +167,6 @@ def solve_step(
         wrench=contact_wrenches(step.contacts, lam[:m], step.h),
         backend=backend,
         certificate=certificate,
-        statistics=answer.statistics,
+        statistics=statistics,
         cone=step.cone,
     )
-
-
-def backend_answer(
-    step: StepData, name: str, accuracy: float, problem: StepProblem | None = None
-) -> Answer:
-    """What a backend says to a step, taken as it is given, in the units of the step.
-
-    Raises
-    ------
-    StepNotSolved
-        If it says anything but a full solution, or the numbers are not finite.
-    """
-    road = _through_qpsolvers if name.startswith(QPSOLVERS) else _through_cvxpy
-    failure: StepNotSolved | None = None
-    for options in backend(name).attempts(accuracy):
-        try:
-            answer = road(step, name, options, accuracy, problem)
-        except StepNotSolved as failed:
-            failure = failed
-            continue
-        if np.isfinite(answer.delta_q).all() and np.isfinite(answer.lam).all():
-            return answer
-        failure = StepNotSolved(name, "an answer that is not finite", step, accuracy)
-    assert failure is not None  # a backend has at least one set of options
-    raise failure
-
-
-def _through_cvxpy(
-    step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem | None
-) -> Answer:
-    problem = StepProblem(step) if problem is None else problem
-    problem.fill(step)
-    with warnings.catch_warnings():
-        # "Solution may be inaccurate" is dealt with below, by the status.
-        warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
-        try:
-            # Cold, so that a step replayed by itself takes the same path. (PROXQP's interface
-            # in CVXPY raises TypeError on a second warm start anyway.)
-            problem.problem.solve(solver=name.upper(), warm_start=False, **options)
-        except (cp.error.SolverError, ValueError) as error:
-            raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
-    status = str(problem.problem.status)
-    if status != cp.OPTIMAL:
-        raise StepNotSolved(name, status, step, accuracy)
-    stats = problem.problem.solver_stats
-    statistics = SolverStatistics(name, status, stats.num_iters, stats.solve_time, accuracy)
-    return Answer(problem.primal(), problem.dual(), statistics)
-
-
-def _through_qpsolvers(
-    step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem | None
-) -> Answer:
-    del problem  # this road needs no CVXPY
-    form = standard_form(step)
-    program = qpsolvers.Problem(P=form.H, q=-form.g, G=-form.A, h=-form.b)
-    with warnings.catch_warnings():
-        # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
-        # and of statuses, which are dealt with below.
-        warnings.simplefilter("ignore")
-        try:
-            solution = qpsolvers.solve_problem(program, name.removeprefix(QPSOLVERS), **options)
-        except qpsolvers.exceptions.QPError as error:
-            raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
-    if not solution.found or solution.x is None or solution.z is None:
-        raise StepNotSolved(name, "no solution found", step, accuracy)
-    return Answer(
-        np.asarray(solution.x),
-        np.asarray(solution.z).reshape(-1),
-        SolverStatistics(name, "optimal", None, solution.solve_time, accuracy),
-    )
-
-
-def _judged(
-    natural: StepData, answer: Answer, name: str, accuracy: float, certify: str
-) -> Certificate:
-    if certify == "off":
-        return Certificate("none")
-    residuals: Residuals = optimality_residuals(natural, answer.delta_q, answer.lam)
-    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
-        worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
-        status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
-        raise StepNotSolved(name, status, natural, accuracy, residuals)
-    return Certificate("residual", asdict(residuals))

@@ -15,9 +15,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import FAR
+
+STANDSTILL = 2.0**-100
+"""Size of a step that nothing drives [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +64,9 @@ def natural_units(step: StepData) -> Units:
     unconstrained = np.linalg.solve(form.H, form.g)
     energy = float(np.sqrt(form.g @ unconstrained))  # ||H^-1 g||_H
     push_out = float(form.b.max(initial=0.0)) / float(length)  # from penetration
-    distance = float(np.abs(form.b).max(initial=0.0)) / float(length)
-    size = max(energy, push_out) or distance or 1.0
+    gap = float(np.abs(form.b).max(initial=0.0)) / float(length)
+    # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
+    size = max(energy, push_out) or gap or STANDSTILL
     return Units(coordinate, float(length), float(_power_of_two(size)))
 
 
@@ -81,6 +87,24 @@ def to_natural(step: StepData, units: Units) -> StepData:
         contacts=contacts,
         extra=extra,
     )
+
+
+def within_reach(natural: StepData) -> StepData:
+    """The same step with contacts that are too far to matter moved nearer, for solvers' sake."""
+    far = out_of_reach(natural)
+    if not far.any():
+        return natural
+    near = np.where(far, _reach(natural), natural.contacts.phi)
+    return natural.replace(contacts=replace(natural.contacts, phi=near))
+
+
+def out_of_reach(natural: StepData) -> NDArray[np.bool_]:
+    """Which contacts are too far to matter, shape (n_c,)."""
+    return np.asarray(natural.contacts.phi > _reach(natural))
+
+
+def _reach(natural: StepData) -> Array:
+    return np.asarray(FAR * np.maximum(1.0, np.linalg.norm(natural.contacts.J, axis=(1, 2))))
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
+from quasistatic_ref.tolerances import DEFINITE, ORTHONORMAL, SYMMETRIC
 
 Array = NDArray[np.float64]
 CONES = ("pyramid",)
@@ -60,17 +60,17 @@ class Contacts:
     rows: NDArray[np.int64]
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "name", _names(self.name, "contacts.name"))
         n_c = len(self.name)
-        n_v = np.shape(self.J)[-1] if np.ndim(self.J) == 3 else -1
+        n_v = _columns(self.J, "contacts.J", 3)
         shapes = {"phi": (n_c,), "n": (n_c, 3), "d1": (n_c, 3), "d2": (n_c, 3)}
         shapes |= {"J": (n_c, 4, n_v), "mu_v": (n_c,), "mu_omega": (n_c,)}
         for key, shape in shapes.items():
             _freeze(self, key, shape, "contacts")
-        rows = np.array(self.rows)
+        rows = _numbers(self.rows, "contacts.rows")
         if rows.shape != (n_c,) or not np.isin(rows, ROWS).all():
-            raise StepDataError(
-                "must be 4 or 6 for each contact", field="contacts.rows", value=rows
-            )
+            problem = "must be 4 or 6 for each contact"
+            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
         object.__setattr__(self, "rows", _read_only(rows.astype(np.int64)))
         for key in ("mu_v", "mu_omega"):
             bad = np.flatnonzero(getattr(self, key) < 0)
@@ -96,12 +96,12 @@ class Contacts:
     @cached_property
     def mask(self) -> NDArray[np.bool_]:
         """Which of the six rows of each contact exist, shape (n_c, 6)."""
-        return np.arange(6) < self.rows[:, None]
+        return _read_only(np.arange(6) < self.rows[:, None])
 
     @cached_property
     def offsets(self) -> NDArray[np.int64]:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return np.concatenate([[0], np.cumsum(self.rows)])
+        return _read_only(np.concatenate([[0], np.cumsum(self.rows)]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +120,8 @@ class Extra:
     b: Array
 
     def __post_init__(self) -> None:
-        n_v = np.shape(self.A)[-1] if np.ndim(self.A) == 2 else -1
+        object.__setattr__(self, "names", _names(self.names, "extra.names"))
+        n_v = _columns(self.A, "extra.A", 2)
         _freeze(self, "A", (len(self.names), n_v), "extra")
         _freeze(self, "b", (len(self.names),), "extra")
 
@@ -167,9 +168,12 @@ class StepData:
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.h) and self.h > 0):
+        h = _numbers(self.h, "h")
+        if h.shape != () or not (np.isfinite(h) and h > 0):
             raise StepDataError("must be a positive number of seconds", field="h", value=self.h)
-        object.__setattr__(self, "h", float(self.h))
+        object.__setattr__(self, "h", float(h))
+        if not isinstance(self.contacts, Contacts):
+            raise StepDataError("must be Contacts", field="contacts", value=self.contacts)
         if self.cone not in CONES:
             raise StepDataError(f"must be one of {CONES}", field="cone", value=self.cone)
         n_a, n_u = np.size(self.tau_a), np.size(self.tau_u)
@@ -217,13 +221,35 @@ def _read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
+def _numbers(value: Any, name: str) -> Array:
+    """A float64 copy of real numbers; strings, booleans and ragged lists are refused."""
+    try:
+        array = np.array(value)
+        if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def _columns(value: Any, name: str, ndim: int) -> int:
+    """Number of columns that a matrix, or a stack of matrices, says it has."""
+    shape = _numbers(value, name).shape
+    if len(shape) != ndim:
+        raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
+    return int(shape[-1])
+
+
+def _names(value: Any, name: str) -> tuple[str, ...]:
+    if isinstance(value, str) or not all(isinstance(one, str) for one in value):
+        raise StepDataError("must be a sequence of strings", field=name, value=value)
+    return tuple(value)
+
+
 def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
     """Replace a field by a read-only float64 copy of the given shape, -0.0 becoming 0.0."""
     name = f"{prefix}.{key}" if prefix else key
-    try:
-        array = np.array(getattr(owner, key), dtype=np.float64) + 0.0
-    except (TypeError, ValueError):
-        raise StepDataError("must be numbers", field=name, value=getattr(owner, key)) from None
+    array = _numbers(getattr(owner, key), name) + 0.0
     if array.size == 0 and 0 in shape:
         array = array.reshape(shape)
     if array.shape != shape:
@@ -240,13 +266,16 @@ def _positive_definite(key: str, S: Array) -> Array:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())
     S = np.tril(S) + np.tril(S, -1).T
     try:
-        np.linalg.cholesky(S)
+        pivots = np.diag(np.linalg.cholesky(S)) ** 2
     except np.linalg.LinAlgError:
+        pivots = np.full(len(S), -np.inf)
+    # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
+    if (pivots <= DEFINITE * np.diag(S)).any():
         raise StepDataError(
             "must be positive definite (no zero stiffness, no massless link)",
             field=key,
             value=S.tolist(),
-        ) from None
+        )
     return _read_only(S)
 
 

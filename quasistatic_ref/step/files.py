@@ -1,4 +1,4 @@
-"""A step and its solution as JSON: ``quasistatic-ref/step`` and ``.../solution``, version 1.
+"""A step as JSON: ``quasistatic-ref/step``, version 1.
 
 Numbers are written in shortest round-trip decimal, so a step read back is the same bits.
 """
@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import asdict
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,8 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text, text_written
 from quasistatic_ref.step.data import CONES, Array, Contacts, Extra, StepData
-from quasistatic_ref.step.solution import StepSolution
 
 STEP_FORMAT = "quasistatic-ref/step"
-SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 1
 
 
@@ -79,7 +76,7 @@ def step_from_record(record: Any) -> StepData:
         Naming the field and the value; unknown fields are refused.
     """
     top = Fields(record, error=StepDataError)
-    _check_format(top, STEP_FORMAT)
+    check_format(top, STEP_FORMAT)
     cone = top.text("cone", "pyramid", CONES)
     h = top.number("h", above=0.0)
     n_a, n_u = top.integer("n_a", least=0), top.integer("n_u", least=0)
@@ -112,30 +109,8 @@ def step_written(path: str | Path, step: StepData) -> Path:
     return text_written(path, step_text(step))
 
 
-def solution_record(step: StepData, solution: StepSolution) -> dict[str, Any]:
-    """The solution of a step as a JSON object. Timings never enter it."""
-    offsets = step.contacts.offsets
-    return {
-        "format": SOLUTION_FORMAT,
-        "version": VERSION,
-        "status": solution.status,
-        "cone": solution.cone,
-        "backend": solution.backend,
-        "step_sha256": step_sha256(step),
-        "delta_q": solution.delta_q,
-        "lam": [solution.lam[a:b] for a, b in pairwise(offsets)],
-        "lam_extra": solution.lam_extra,
-        "wrench": solution.wrench,
-        "certificate": asdict(solution.certificate),
-    }
-
-
-def solution_text(step: StepData, solution: StepSolution) -> str:
-    """The solution as one line of JSON."""
-    return json_text(solution_record(step, solution)) + "\n"
-
-
-def _check_format(top: Fields, name: str) -> None:
+def check_format(top: Fields, name: str) -> None:
+    """Take ``format`` and ``version`` from a file, and refuse others than ours."""
     top.text("format", choices=(name,))
     version = top.integer("version")
     if version != VERSION:

@@ -15,13 +15,35 @@ class Certificate:
     Parameters
     ----------
     kind : str
-        ``"residual"`` (optimality residuals were computed and are small) or ``"none"``.
+        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"residual"``
+        (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
         Residuals of Eqs. (9)-(12) in natural units [-].
+    active : tuple of (int, int)
+        Contact and row of each member of the working set; the user's own rows count as those of
+        one contact more. Its multipliers are positive, its rows independent and without slack.
+    multipliers_unique : bool or None
+        Whether lam may be compared component by component; None where nothing is claimed, as below.
+    differentiable : bool or None
+        Whether delta_q is differentiable with respect to the forces and targets (g).
+    smallest_inactive_slack : float or None
+        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
+        differentiable. None if there are no such rows.
+    smallest_active_multiplier : float or None
+        Smallest multiplier [N s] of the working set. None if that is empty.
+    error_bound : float or None
+        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H; 0.0 for ``"exact"``, where the only
+        error is the correct rounding of each entry.
     """
 
     kind: str
     residuals: Mapping[str, float] = field(default_factory=dict)
+    active: tuple[tuple[int, int], ...] = ()
+    multipliers_unique: bool | None = None
+    differentiable: bool | None = None
+    smallest_inactive_slack: float | None = None
+    smallest_active_multiplier: float | None = None
+    error_bound: float | None = None
 
 
 @dataclass(frozen=True)
@@ -38,6 +60,8 @@ class SolverStatistics:
         Time inside the solver [s], where it reports one.
     accuracy : float
         What was asked for, in natural units [-].
+    digits : float or None
+        Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
     """
 
     backend: str
@@ -45,6 +69,7 @@ class SolverStatistics:
     iterations: int | None
     solve_time: float | None
     accuracy: float
+    digits: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

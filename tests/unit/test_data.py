@@ -87,14 +87,12 @@ LEAKS = {
 }
 
 
-@pytest.mark.xfail(strict=True, reason="step/data.py lets NumPy's own errors out", raises=Exception)
 @pytest.mark.parametrize("build", LEAKS.values(), ids=LEAKS)
 def test_nothing_but_the_package_s_own_error_comes_out(build):
     with pytest.raises(StepDataError):
         build()
 
 
-@pytest.mark.xfail(strict=True, reason="a Cholesky factor in floats passes some singular matrices")
 def test_singular_stiffnesses_are_refused_although_some_have_a_factor_in_floats():
     for k in range(1, 101):
         with pytest.raises(StepDataError):
@@ -148,7 +146,6 @@ def test_arrays_cannot_be_written(array):
     assert not array.flags.writeable
 
 
-@pytest.mark.xfail(strict=True, reason="step/data.py caches mask and offsets as writable arrays")
 @pytest.mark.parametrize("name", ["mask", "offsets"])
 def test_derived_arrays_cannot_be_written(name):
     assert not getattr(CONTACTS, name).flags.writeable

@@ -73,7 +73,6 @@ def test_an_input_error_survives_a_process_boundary():
     assert str(error) == "h: is bad (got 0)"
 
 
-@pytest.mark.xfail(strict=True, reason="its constructor does not take Exception.args back")
 def test_an_unsolved_step_survives_a_process_boundary():
     error = StepNotSolved("osqp", "user_limit", point_on_floor(), 1e-9)
     assert copy.copy(error).backend == "osqp"

@@ -79,7 +79,6 @@ def test_a_missing_field_is_its_default_whatever_that_is():
     assert fields.boolean("e", False) is False
 
 
-@pytest.mark.xfail(strict=True, reason="integer, boolean and sequence check their own default")
 @pytest.mark.parametrize("kind", ["integer", "boolean", "sequence"])
 def test_a_default_of_none_is_allowed_for_every_kind(kind):
     try:

@@ -6,9 +6,17 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import Units, from_natural, natural_units, to_natural
+from quasistatic_ref.solve.units import (
+    STANDSTILL,
+    Units,
+    from_natural,
+    natural_units,
+    to_natural,
+    within_reach,
+)
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import FAR
 from tests.helpers import (
     JUDGE,
     error,
@@ -132,7 +140,7 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
     still = random_step(rng, rows=()).replace(
         tau_a=np.zeros(3), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(3)
     )
-    assert natural_units(still).size == 1.0
+    assert natural_units(still).size == STANDSTILL
     np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
 
 
@@ -144,7 +152,22 @@ def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
 
 
+@pytest.mark.parametrize("backend_name", ["clarabel", "osqp", "piqp"])
+def test_a_body_that_nothing_drives_stays_where_it_is(backend_name):
+    delta_q = solve_step(sphere_on_floor(phi=0.0), backend_name).delta_q
+    np.testing.assert_allclose(delta_q, 0.0, rtol=0.0, atol=STANDSTILL)
+
+
 def test_a_gap_sets_the_size_where_nothing_else_does():
     step = sphere_on_floor(phi=0.02)
     natural = to_natural(step, natural_units(step))
     assert NATURAL_LOW <= natural.contacts.phi[0] <= NATURAL_HIGH
+
+
+def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
+    step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
+    natural = to_natural(step, natural_units(step))
+    assert within_reach(natural) is natural
+    far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=[1e9]))
+    reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
+    np.testing.assert_allclose(within_reach(far).contacts.phi, [reach], rtol=ROUNDING, atol=0.0)

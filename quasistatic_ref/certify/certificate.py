@@ -1,0 +1,198 @@
+"""What is claimed about an exact answer, and its verification without any solver.
+
+A certificate names a working set of independent rows. Solving one linear system without rounding
+gives the minimiser on it; if its multipliers and slacks are >= 0 it is the optimum, which is
+unique. Verification does that in rational numbers alone: it shares the formation of H, g, A, b
+with the method that found the answer, not its balls or its walks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.certify.balls import positive_definite
+from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
+from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rows import ROW_NAMES, contact_rows, flat_rows
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import Certificate
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a certificate holds.
+
+    Parameters
+    ----------
+    ok : bool
+    reason : str
+        Why not, in plain words; empty if it holds.
+    """
+
+    ok: bool
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+
+def exact_certificate(
+    step: StepData, optimum: ExactOptimum, residuals: Mapping[str, float] | None = None
+) -> Certificate:
+    """The certificate of an exact optimum.
+
+    Parameters
+    ----------
+    step : StepData
+    optimum : ExactOptimum
+        That of the step.
+    residuals : mapping of str to float, optional
+        Residuals of Eqs. (9)-(12) at the rounded answer, in natural units [-].
+
+    Returns
+    -------
+    Certificate
+    """
+    return Certificate(
+        kind="exact",
+        residuals=dict(residuals or {}),
+        active=contact_rows(step, optimum.working_set),
+        multipliers_unique=optimum.multipliers_unique,
+        differentiable=optimum.differentiable,
+        smallest_inactive_slack=optimum.smallest_inactive_slack,
+        smallest_active_multiplier=optimum.smallest_active_multiplier,
+        error_bound=0.0,
+    )
+
+
+def in_words(step: StepData, certificate: Certificate) -> str:
+    """What a certificate claims, in a sentence or two."""
+    if certificate.kind == "residual":
+        worst = max(certificate.residuals.values(), default=float("nan"))
+        known = certificate.error_bound is not None
+        bound = f"its error is at most {certificate.error_bound:.1e}" if known else "no error bound"
+        return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
+    if certificate.kind != "exact":
+        return "nothing is certified"
+    m = int(step.contacts.offsets[-1]) + len(step.extra.names)
+    words = [
+        f"exact: the optimum of the step, correctly rounded; {len(certificate.active)} of {m} rows "
+        "hold it",
+        "multipliers unique" if certificate.multipliers_unique else "multipliers not unique",
+        f"{'' if certificate.differentiable else 'not '}differentiable in the forces",
+    ]
+    if certificate.smallest_inactive_slack is not None:
+        words.append(f"smallest inactive slack {certificate.smallest_inactive_slack:.1e} m")
+    if certificate.smallest_active_multiplier is not None:
+        words.append(f"smallest active multiplier {certificate.smallest_active_multiplier:.1e} N s")
+    return "; ".join(words)
+
+
+def verify(
+    step: StepData,
+    delta_q: Array,
+    active: Sequence[tuple[int, int]],
+    lam: Array | None = None,
+    claims: Certificate | None = None,
+) -> Verdict:
+    """Whether delta_q is the exact optimum of a step, rounded correctly.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+        The claimed optimum; every bit counts.
+    active : sequence of (int, int)
+        Contact and row of each member of the working set, as in the certificate.
+    lam : ndarray, shape (m,), optional
+        The claimed multipliers on that working set, the user's own rows last.
+    claims : Certificate, optional
+        Its margins and its statements on uniqueness and differentiability are checked as well.
+
+    Returns
+    -------
+    Verdict
+    """
+    form = exact_form(step)
+    try:
+        working = flat_rows(step, active)
+    except IndexError as error:
+        return Verdict(False, str(error))
+    if not positive_definite(form.H):
+        return Verdict(False, "H is not positive definite")
+    try:
+        solution = rational_solution(form, working)
+    except ZeroDivisionError:
+        return Verdict(False, "the rows of the working set are not independent")
+    x, lam_w, _, slack = rounded_solution(form, solution)
+    reason = _wrong_sign(step, working, solution) or _wrong_bits("delta_q", delta_q, x)
+    if lam is not None and not reason:
+        full = np.zeros(form.m)
+        full[list(working)] = lam_w
+        reason = _wrong_bits("lam", lam, full)
+    if claims is not None and not reason:
+        reason = _wrong_claim(form, working, solution, claims, lam_w, slack)
+    return Verdict(not reason, reason)
+
+
+def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> str:
+    for i, lam_i in zip(working, solution.lam, strict=True):
+        if lam_i < 0:
+            return f"the multiplier of {_row_name(step, i)} is negative"
+    for i, slack_i in enumerate(solution.slack):
+        if slack_i < 0:
+            return f"{_row_name(step, i)} is violated by the minimiser on the working set"
+    return ""
+
+
+def _wrong_bits(name: str, given: Array, right: Array) -> str:
+    given = np.array(given, dtype=np.float64)
+    if given.shape != right.shape:
+        return f"{name} has shape {given.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(given.view(np.int64) != right.view(np.int64))
+    if not wrong.size:
+        return ""
+    at = int(wrong[0])
+    return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
+
+
+def _wrong_claim(
+    form: ExactForm,
+    working: Sequence[int],
+    solution: Rational,
+    claims: Certificate,
+    lam_w: Array,
+    slack: Array,
+) -> str:
+    pressed = [i for i, lam_i in zip(working, solution.lam, strict=True) if lam_i > 0]
+    idle = [i for i, s in enumerate(solution.slack) if not s and i not in pressed]
+    equations = [[*form.row(i), form.b[i, 0]] for i in idle]
+    spans = dict(zip(idle, implied(form, pressed, equations), strict=True))
+    spanned, free = [i for i in idle if spans[i]], [i for i in idle if not spans[i]]
+    smooth = differentiable(form, pressed, free)
+    open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
+    right = {
+        "kind": "exact",
+        "error_bound": 0.0,
+        "multipliers_unique": multipliers_unique(form, pressed, spanned, free),
+        "differentiable": smooth,
+        "smallest_inactive_slack": min(open_, default=None) if smooth else 0.0,
+        "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),
+    }
+    for name, value in right.items():
+        if getattr(claims, name) != value:
+            return f"{name} is claimed to be {getattr(claims, name)!r}; it is {value!r}"
+    return ""
+
+
+def _row_name(step: StepData, i: int) -> str:
+    ((contact, row),) = contact_rows(step, [i])
+    if contact == step.contacts.n_c:
+        return f"the extra row {step.extra.names[row]}"
+    return f"row {ROW_NAMES[row]} of contact {step.contacts.name[contact]}"

@@ -1,0 +1,78 @@
+r"""Whether the multipliers are unique and the displacement differentiable, decided exactly.
+
+Let Z be the rows without slack at the optimum x, W in Z a working set with positive multipliers,
+and E = Z \ W. A row is *strictly active* if its multiplier is positive in some optimal lam.
+
+- The multipliers are unique iff no combination d of the rows of Z with d_E >= 0, d_E != 0 is zero;
+  by Gordan's theorem, iff some y has A_W y = 0 and A_E y > 0.
+- x is differentiable as a function of g (of tau_a, tau_u and delta_q_bar_a), A and b being fixed,
+  iff every row of Z is strictly active: x is then locally the minimiser on A_Z x = b_Z; otherwise
+  its directional derivative is the projection on a cone that is no subspace. By Stiemke's theorem
+  this holds iff no y has A_W y = 0, A_E y >= 0 and A_E y != 0.
+
+Sticking contacts are differentiable although six rows have rank four. Nothing is said of
+derivatives with respect to A and b: where Z has dependent rows, they exist along changes that
+keep the dependence (all numbers of one contact), not along those that break it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import fmpq, fmpz, fmpz_mat
+
+from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.rational import ExactForm
+
+
+def multipliers_unique(
+    form: ExactForm, working: Sequence[int], spanned: Sequence[int], free: Sequence[int]
+) -> bool:
+    """Whether lam is unique.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W: independent rows without slack, all multipliers positive.
+    spanned, free : sequence of int
+        E: the other rows without slack; those that W spans, and those that it does not.
+
+    Returns
+    -------
+    bool
+    """
+    if spanned or len(free) <= 1:
+        return not spanned
+    return _feasible(form, working, [form.row(i) for i in free], [1] * len(free))
+
+
+def differentiable(form: ExactForm, working: Sequence[int], free: Sequence[int]) -> bool:
+    """Whether delta_q is differentiable with respect to g; parameters as for uniqueness."""
+    if len(free) <= 1:
+        return not free
+    moves = [form.row(i) for i in free]
+    total = [sum(column, fmpz(0)) for column in zip(*moves, strict=True)]
+    return not _feasible(form, working, [*moves, total], [0] * len(free) + [1])
+
+
+def _feasible(
+    form: ExactForm, working: Sequence[int], moves: list[list[fmpz]], least: list[int]
+) -> bool:
+    """Return whether some y has A_W y = 0 and moves y >= least, by the active-set method."""
+    n = form.n
+    held = [form.row(i) for i in working]
+    rows = held + [[-a for a in row] for row in held] + moves
+    identity = [[int(i == j) for j in range(n)] for i in range(n)]
+    one = fmpq(1)
+    cone = ExactForm(
+        H=fmpz_mat(identity),
+        g=fmpz_mat(n, 1),
+        A=fmpz_mat(len(rows), n, [a for row in rows for a in row]),
+        b=fmpz_mat(len(rows), 1, [0] * (2 * len(held)) + least),
+        x_unit=one,
+        slack_unit=one,
+        lam_unit=one,
+        net_unit=one,
+    )
+    return isinstance(dual_active_set(cone, range(len(held))), Optimum)

@@ -1,0 +1,133 @@
+"""Linear dependence of rows, decided exactly, by arithmetic modulo a prime first.
+
+Rows that are independent modulo a prime are independent. The converse holds for all but
+finitely many primes, so a dependence seen modulo a prime is checked in integers before it counts,
+and another prime is taken if it was an accident.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from flint import fmpq, fmpz, fmpz_mat, nmod_mat
+
+from quasistatic_ref.certify.rational import ExactForm
+
+PRIME: Final = (1 << 61) - 1
+"""The first prime tried; an unlucky one costs a retry, never a wrong answer."""
+
+SMALL: Final = 1 << 20
+"""Coefficients up to this size are guessed from their residues, then checked in integers.
+
+Within a contact they are -1, 0 and 1."""
+
+Row = list[fmpz]
+
+
+def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
+    """An independent subset of some rows of A, maximal but for an unlucky prime.
+
+    Parameters
+    ----------
+    form : ExactForm
+    candidates : sequence of int
+        Rows in order of preference: each is kept unless those before it span it.
+
+    Returns
+    -------
+    tuple of int
+    """
+    pivots, _ = _echelon([form.row(i) for i in candidates], PRIME)
+    return tuple(candidates[j] for j in pivots)
+
+
+def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> list[bool]:
+    """Whether equations a'x = b follow from A_w x = b_w alone, decided exactly.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows.
+    rows : sequence of list of fmpz
+        [a, b] each.
+
+    Returns
+    -------
+    list of bool
+    """
+    k = len(working)
+    held = [[*form.row(i), form.b[i, 0]] for i in working]
+    for prime in _primes():
+        pivots, echelon = _echelon([*held, *rows], prime)
+        if pivots[:k] != list(range(k)):
+            continue
+        guess = [not any(column[k : len(pivots)]) for column in echelon[k:]]
+        guessed = [row for row, seen in zip(rows, guess, strict=True) if seen]
+        if not guessed or fmpz_mat([*held, *guessed]).rank() == k:
+            return guess
+    raise AssertionError("there are infinitely many primes")
+
+
+def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+    """How a row of A is combined from the rows of a working set, decided exactly.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows.
+    p : int
+
+    Returns
+    -------
+    list of fmpq or None
+        c with a_p = sum_j c_j A[working[j]]; None if a_p is independent of them.
+    """
+    k = len(working)
+    held, target = [form.row(i) for i in working], form.row(p)
+    for prime in _primes():
+        pivots, echelon = _echelon([*held, target], prime)
+        if pivots == list(range(k + 1)):
+            return None
+        if pivots == list(range(k)):
+            break
+    residues = echelon[k][:k]
+    guess = [c - prime if c > prime // 2 else c for c in residues]
+    guessed = [fmpq(c) for c in guess]
+    if all(abs(c) < SMALL for c in guess) and _combines(held, guessed, target):
+        return guessed
+    # Exactly in k coordinates in which the rows are independent, then checked in all.
+    chosen, _ = _echelon([list(column) for column in zip(*held, strict=True)], prime)
+    square = fmpz_mat([[row[v] for row in held] for v in chosen])
+    solution = square.solve(fmpz_mat([[target[v]] for v in chosen]))
+    exact = [fmpq(solution[j, 0]) for j in range(k)]
+    return exact if _combines(held, exact, target) else None
+
+
+def _combines(rows: Sequence[Row], c: Sequence[fmpq], target: Row) -> bool:
+    used = [(c_j, row) for c_j, row in zip(c, rows, strict=True) if c_j]
+    return all(sum((c_j * row[v] for c_j, row in used), fmpq(0)) == a for v, a in enumerate(target))
+
+
+def _echelon(columns: Sequence[Row], prime: int) -> tuple[list[int], list[list[int]]]:
+    """Return the pivots among some columns modulo a prime, and the reduced columns."""
+    if not columns or not columns[0]:
+        return [], [[] for _ in columns]
+    reduced, rank = nmod_mat(fmpz_mat(list(columns)).transpose(), prime).rref()
+    table = [[int(x) for x in column] for column in reduced.transpose().tolist()]
+    pivots, j = [], 0
+    for i in range(rank):
+        while not table[j][i]:
+            j += 1
+        pivots.append(j)
+    return pivots, table
+
+
+def _primes() -> Iterator[int]:
+    candidate = PRIME
+    while True:
+        if fmpz(candidate).is_prime():
+            yield candidate
+        candidate -= 2

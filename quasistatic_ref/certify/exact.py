@@ -1,0 +1,166 @@
+"""The exact optimum of a step, rounded correctly to float64.
+
+delta_q, A'lam and the slacks are unique, and correct rounding leaves no choice: they have the
+same bits whatever the warm start was. lam and the working set are one of several possible
+choices where the multipliers are not unique.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb, ctx, fmpq
+from numpy.typing import NDArray
+
+from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
+from quasistatic_ref.certify.balls import PRECISION, Balls
+from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
+from quasistatic_ref.certify.kkt import Rational, rational_solution
+from quasistatic_ref.certify.point import Point
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(frozen=True, eq=False)
+class ExactOptimum:
+    """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b; every number is rounded correctly.
+
+    Parameters
+    ----------
+    delta_q : ndarray, shape (n_v,)
+        [m, rad].
+    lam : ndarray, shape (m,)
+        Basic multipliers [N s]: positive on the working set, zero elsewhere.
+    net : ndarray, shape (n_v,)
+        A'lam [N s, N m s].
+    slack : ndarray, shape (m,)
+        A delta_q - b [m].
+    working_set : tuple of int
+        Rows in increasing order, independent, with positive multipliers.
+    multipliers_unique : bool
+    differentiable : bool
+        With respect to g; see :mod:`~quasistatic_ref.certify.degeneracy`.
+    smallest_inactive_slack : float or None
+        Smallest slack of the rows that are not strictly active: 0.0 where delta_q is not
+        differentiable, otherwise the smallest that is not zero; None if there are no such rows.
+    smallest_active_multiplier : float or None
+        Smallest of lam on the working set; None if that is empty.
+    walks : int
+        Violated rows that were added to the warm start: zero if it was right.
+    """
+
+    delta_q: Array
+    lam: Array
+    net: Array
+    slack: Array
+    working_set: tuple[int, ...]
+    multipliers_unique: bool
+    differentiable: bool
+    smallest_inactive_slack: float | None
+    smallest_active_multiplier: float | None
+    walks: int
+
+
+def exact_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Farkas:
+    """The exact optimum, or an exact proof that there is none.
+
+    Parameters
+    ----------
+    form : ExactForm
+    warm : sequence of int
+        Rows that a solver found active, in order of preference; any rows will do.
+
+    Returns
+    -------
+    ExactOptimum or Farkas
+
+    Raises
+    ------
+    StepDataError
+        If H is not positive definite without rounding.
+    """
+    end = dual_active_set(form, warm)
+    return end if isinstance(end, Farkas) else _rounded(form, end)
+
+
+def decimal_strings(
+    form: ExactForm, working_set: Sequence[int], digits: int = 30
+) -> tuple[str, ...]:
+    """Each delta_q of an optimum in decimal digits, correctly rounded.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working_set : sequence of int
+        That of the optimum.
+    digits : int
+        Significant digits.
+
+    Returns
+    -------
+    tuple of str
+    """
+    solution = rational_solution(form, tuple(working_set))
+    values = [form.x_unit * x / solution.denominator for x in solution.x]
+    return tuple(decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in values)
+
+
+def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
+    point, working = end.point, end.point.working
+    signs = np.array(end.slack_signs, dtype=np.int64)
+    inside = np.flatnonzero(signs)
+    idle = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
+    spanned = point.spanned(idle)
+    free = [i for i in idle if i not in spanned]
+    smooth = differentiable(form, working, free)
+
+    coordinates = range(form.n)
+    lam, slack = np.zeros(form.m), np.zeros(form.m)
+    lam_w = _nearest(point, lambda s: s.lam, form.lam_unit, range(len(working)))
+    lam[list(working)] = lam_w
+    slack[inside] = _nearest(point, lambda s: s.slack, form.slack_unit, inside)
+    least = float(slack[inside].min()) if inside.size else None
+    return ExactOptimum(
+        delta_q=_nearest(point, lambda s: s.x, form.x_unit, coordinates, point.zero_coordinates),
+        lam=lam,
+        net=_nearest(point, lambda s: s.net, form.net_unit, coordinates),
+        slack=slack,
+        working_set=tuple(sorted(working)),
+        multipliers_unique=multipliers_unique(form, working, spanned, free),
+        differentiable=smooth,
+        smallest_inactive_slack=least if smooth else 0.0,
+        smallest_active_multiplier=float(lam_w.min()) if working else None,
+        walks=end.walks,
+    )
+
+
+def _nearest(
+    point: Point,
+    values: Callable[[Balls | Rational], Sequence[Any]],
+    unit: fmpq,
+    entries: Sequence[int] | NDArray[np.int64],
+    zeros: Callable[[Sequence[int]], Sequence[int]] = lambda _: (),
+) -> Array:
+    """Return unit * values[entries] in float64.
+
+    Each comes from its ball, or, where the ball is open, is one that `zeros` proves to be
+    zero, or comes from the rational solution.
+    """
+    rounded: dict[int, float | None] = {int(i): None for i in entries}
+    if point.balls is not None:
+        shown = values(point.balls)
+        with ctx.workprec(PRECISION):
+            factor = arb(unit)
+            rounded = {i: nearest_in(shown[i] * factor) for i in rounded}
+    hidden = [i for i, value in rounded.items() if value is None]
+    rounded.update(dict.fromkeys(zeros(hidden), 0.0))
+    for i in hidden:
+        if rounded[i] is None:
+            numerator, denominator = values(point.rational)[i], point.rational.denominator
+            rounded[i] = nearest_fraction(unit * numerator / denominator)
+    return np.array(list(rounded.values()), dtype=np.float64)

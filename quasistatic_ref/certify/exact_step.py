@@ -1,0 +1,74 @@
+"""The exact answer of a step: the optimum, or a plain account of why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.farkas import farkas_vector
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.errors import StepIllPosed, StepInfeasible
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import ILL_POSED
+
+
+def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
+    """The exact optimum of Eq. (13).
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    warm : sequence of int
+        Rows that a solver found active; see :func:`~quasistatic_ref.certify.warm.warm_rows`.
+
+    Returns
+    -------
+    ExactOptimum
+
+    Raises
+    ------
+    StepInfeasible
+        If no displacement satisfies the rows, with the proof.
+    StepIllPosed
+        If the optimum is absurdly long.
+    """
+    form = exact_form(step)
+    optimum = exact_optimum(form, warm)
+    if isinstance(optimum, Farkas):
+        raise StepInfeasible(step, farkas_vector(step, form, optimum))
+    length = relative_length(step, optimum.delta_q)
+    if not length <= ILL_POSED:
+        raise StepIllPosed(step, optimum.delta_q, length)
+    return optimum
+
+
+def relative_length(step: StepData, delta_q: Array) -> float:
+    """||delta_q||_H relative to what the step asks for by itself.
+
+    That is the larger of ||H^-1 g||_H, the unconstrained step, and of max_i b_i / ||a_i||, the
+    shortest step that satisfies the row i alone (a body pushed out of penetration moves however
+    small g is). Where nothing is asked for, zero is the optimum.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+
+    Returns
+    -------
+    float
+    """
+    form = standard_form(step)
+    norm = energy_norm(form)
+    pushed = form.b > 0
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        push_out = form.b[pushed] / norm.impulses(form.A[pushed])
+        asked = float(max(norm.impulses(form.g[None])[0], push_out.max(initial=0.0)))
+        length = norm.displacement(delta_q)
+        return length / asked if asked else (0.0 if length == 0 else float("inf"))

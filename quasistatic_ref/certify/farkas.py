@@ -1,0 +1,109 @@
+"""Proof that a step has no solution, for people, for files and for checking.
+
+If y >= 0, A'y = 0 and b'y > 0, then A delta_q >= b would give 0 = y'A delta_q >= y'b > 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from flint import fmpq, fmpz_mat
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.step.data import Array, StepData
+
+
+@dataclass(frozen=True, eq=False)
+class FarkasVector:
+    """The proof y, its largest entry being one.
+
+    Parameters
+    ----------
+    y : ndarray, shape (m,)
+        Each entry rounded correctly; contact-major, the user's own rows last.
+    exact : tuple of str, length m
+        The proof itself: each entry as ``"p/q"``, or ``"p"`` if q = 1.
+    contradiction : float
+        b'y [m] > 0, rounded.
+    owners : dict of str to list of str
+        The contacts that take part, each with the names of its rows.
+    """
+
+    y: Array
+    exact: tuple[str, ...]
+    contradiction: float
+    owners: dict[str, list[str]]
+
+    @property
+    def in_words(self) -> str:
+        """Which contacts contradict each other, and by how much."""
+        named = [f"{name} ({', '.join(rows)})" for name, rows in self.owners.items()]
+        if len(named) == 1:
+            return f"{named[0]} cannot be satisfied by any displacement"
+        return f"{', '.join(named[:-1])} and {named[-1]} contradict each other"
+
+
+def farkas_vector(step: StepData, form: ExactForm, proof: Farkas) -> FarkasVector:
+    """An exact proof in the terms of its step.
+
+    Parameters
+    ----------
+    step : StepData
+    form : ExactForm
+        That of the step.
+    proof : Farkas
+
+    Returns
+    -------
+    FarkasVector
+    """
+    largest = max(proof.y.values())
+    y = [proof.y.get(i, fmpq(0)) / largest for i in range(form.m)]
+    contradiction = sum((y_i * form.b[i, 0] for i, y_i in enumerate(y) if y_i), fmpq(0))
+    return FarkasVector(
+        y=np.array([nearest_fraction(y_i) for y_i in y]),
+        exact=tuple(str(y_i) for y_i in y),
+        contradiction=nearest_fraction(contradiction * form.slack_unit),
+        owners=row_owners(step, sorted(proof.y)),
+    )
+
+
+def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
+    """What is wrong with a proof that a step has no solution; None if it holds.
+
+    Parameters
+    ----------
+    step : StepData
+    exact : sequence of str, length m
+        y as fractions ``"p/q"``.
+
+    Returns
+    -------
+    str or None
+        A plain reason.
+    """
+    form = exact_form(step)
+    if len(exact) != form.m:
+        return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
+    try:
+        fractions = [Fraction(text) for text in exact]
+    except (ValueError, ZeroDivisionError):
+        return "the Farkas vector has entries that are no fractions"
+    y = [fmpq(f.numerator, f.denominator) for f in fractions]
+    if any(y_i < 0 for y_i in y):
+        return "the Farkas vector has a negative entry"
+    common = fmpq(1)
+    for y_i in y:
+        common *= (y_i * common).q
+    row = fmpz_mat(1, form.m, [(y_i * common).p for y_i in y])
+    if any((row * form.A).entries()):
+        return "A'y is not zero"
+    if not (row * form.b)[0, 0] > 0:
+        return "b'y is not positive"
+    return None

@@ -1,0 +1,58 @@
+"""The norm that errors and lengths are measured in: ||v||_H, with ||v||_H^2 = v'Hv."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyNorm:
+    """Lengths of displacements and of impulses, safe against overflow and underflow.
+
+    Parameters
+    ----------
+    unit : ndarray, shape (n_v,)
+        Units in which the diagonal of H is one: the factor stays regular at mass ratios of 1e9.
+    L : ndarray, shape (n_v, n_v)
+        Lower Cholesky factor of H in these units.
+    """
+
+    unit: Array
+    L: Array
+
+    def displacement(self, v: Array) -> float:
+        """||v||_H of a displacement."""
+        return float(_norms((self.L.T @ (v / self.unit))[:, None])[0])
+
+    def impulses(self, P: Array) -> Array:
+        """||H^-1 p||_H of each row p of P, the displacement that an impulse causes."""
+        return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))
+
+
+def energy_norm(form: StandardForm) -> EnergyNorm:
+    """The norm of a step, from its float64 H.
+
+    Parameters
+    ----------
+    form : StandardForm
+
+    Returns
+    -------
+    EnergyNorm
+    """
+    unit = 1 / np.sqrt(np.diag(form.H))
+    L = np.linalg.cholesky(form.H * np.outer(unit, unit))
+    return EnergyNorm(unit, np.asarray(L, dtype=np.float64))
+
+
+def _norms(columns: Array) -> Array:
+    """Return the Euclidean length of each column; NaN or infinity where an entry is."""
+    largest = np.abs(columns).max(axis=0, initial=0.0)
+    safe = np.where((largest > 0) & np.isfinite(largest), largest, 1.0)
+    lengths: Array = np.linalg.norm(columns / safe, axis=0) * safe
+    return lengths

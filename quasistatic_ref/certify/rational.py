@@ -1,0 +1,172 @@
+r"""H, g, A, b of Eqs. (1), (4)-(8), (13) formed from the step's numbers without rounding.
+
+The step is what it says: float64 numbers. Everything built from them is rational; rounding it
+would split the ties between the rows of a sticking contact, and the answer would then depend on
+the order of summation. All quantities are brought to integers by one positive factor each,
+
+.. math:: \delta q = u_x\,x, \qquad \lambda = u_\lambda\,y, \qquad
+          \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad A x \ge b,
+
+so that the exact problem is one in integers, and its answer is scaled back at the end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from flint import fmpq, fmpz, fmpz_mat
+
+from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Array, Contacts, StepData
+
+
+@dataclass(frozen=True, eq=False)
+class ExactForm:
+    """A quadratic program in integers, and the factors that lead back to SI units.
+
+    Parameters
+    ----------
+    H, g, A, b : fmpz_mat
+        Shapes (n_v, n_v), (n_v, 1), (m, n_v), (m, 1); H symmetric. The rows of A are contact-major,
+        in the paper's order +d1, +d2, -d1, -d2, +spin, -spin; the user's own rows come last.
+    x_unit : fmpq
+        delta_q = x_unit * x [m, rad].
+    slack_unit : fmpq
+        A delta_q - b = slack_unit * (A x - b) [m].
+    lam_unit : fmpq
+        lam = lam_unit * y [N s].
+    net_unit : fmpq
+        A' lam = net_unit * A' y [N s, N m s].
+    """
+
+    H: fmpz_mat
+    g: fmpz_mat
+    A: fmpz_mat
+    b: fmpz_mat
+    x_unit: fmpq
+    slack_unit: fmpq
+    lam_unit: fmpq
+    net_unit: fmpq
+
+    @property
+    def n(self) -> int:
+        """Number of coordinates."""
+        return self.A.ncols()
+
+    @property
+    def m(self) -> int:
+        """Number of rows."""
+        return self.A.nrows()
+
+    def row(self, i: int) -> list[fmpz]:
+        """Return row i of A."""
+        return [self.A[i, v] for v in range(self.n)]
+
+
+def exact_form(step: StepData) -> ExactForm:
+    """H, g, A, b of a step, without rounding.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Returns
+    -------
+    ExactForm
+    """
+    h = dyadic(step.h)
+    K_q, M_u = dyadic(step.K_q), dyadic(step.M_u)
+    tau_k = K_q @ dyadic(step.delta_q_bar_a)  # Eq. (1)
+    # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
+    H = _block_diagonal(h * h * K_q, M_u)  # Eq. (13)
+    g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
+    A = joined([_friction_rows(step.contacts), dyadic(step.extra.A)])  # Eq. (8)
+    b = joined([dyadic(-np.repeat(step.contacts.phi, step.contacts.rows)), dyadic(step.extra.b)])
+    return _in_integers(H, g, A, b, _fraction(step.h))
+
+
+def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
+    """The same for float64 H, g, A, b taken as they are given.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n_v, n_v)
+        Symmetric to the last bit.
+    g : ndarray, shape (n_v,)
+    A : ndarray, shape (m, n_v)
+    b : ndarray, shape (m,)
+
+    Returns
+    -------
+    ExactForm
+
+    Raises
+    ------
+    StepDataError
+        If H is not symmetric, or a number is not finite.
+    """
+    for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
+        if not np.isfinite(array).all():
+            raise StepDataError("must hold finite numbers only", field=name, value=array)
+    if not np.array_equal(H, H.T):
+        raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
+    return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
+
+
+def _friction_rows(contacts: Contacts) -> Dyadic:
+    """Return the rows n~' J + d~_i' J of Eq. (4) that exist, contact-major."""
+    J = dyadic(contacts.J)
+    mu_v, mu_omega = dyadic(contacts.mu_v), dyadic(contacts.mu_omega)
+    directions = joined(
+        [
+            dyadic(contacts.n)[:, None],
+            (mu_v[:, None] * dyadic(contacts.d1))[:, None],  # Eq. (5)
+            (mu_v[:, None] * dyadic(contacts.d2))[:, None],  # Eq. (5)
+        ],
+        axis=1,
+    )
+    along = directions @ J[:, :3]
+    n, d1, d2 = along[:, :1], along[:, 1:2], along[:, 2:]
+    spin = mu_omega[:, None, None] * J[:, 3:]  # Eq. (7)
+    rows = joined([n + d1, n + d2, n - d1, n - d2, n + spin, n - spin], axis=1)  # Eqs. (4), (6)
+    return rows[contacts.mask]
+
+
+def _block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
+    (n_a, _), (n_u, _) = K.m.shape, M.m.shape
+    right, left = np.full((n_a, n_u), 0, object), np.full((n_u, n_a), 0, object)
+    above, below = joined([K, Dyadic(right, 0)], axis=1), joined([Dyadic(left, 0), M], axis=1)
+    return joined([above, below])
+
+
+def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactForm:
+    """Return the problem min 1/2 x'Hx - g'x s.t. Ax >= b, its objective times h, in integers."""
+    # Exponent of x: small enough that both g and b are integers in it.
+    needed = [v.e - M.e for v, M in ((g, H), (b, A)) if v.m.any()]
+    e_x = min(needed, default=0)
+    g_m = g.shifted(H.e + e_x) if g.m.any() else g.m
+    b_m = b.shifted(A.e + e_x) if b.m.any() else b.m
+    return ExactForm(
+        H=_matrix(H.m),
+        g=_matrix(g_m[:, None]),
+        A=_matrix(A.m),
+        b=_matrix(b_m[:, None]),
+        x_unit=_two_to(e_x),
+        slack_unit=_two_to(A.e + e_x),
+        lam_unit=_two_to(H.e + e_x - A.e) / h,
+        net_unit=_two_to(H.e + e_x) / h,
+    )
+
+
+def _matrix(m: Integers) -> fmpz_mat:
+    return fmpz_mat(m.shape[0], m.shape[1], m.ravel().tolist())
+
+
+def _two_to(e: int) -> fmpq:
+    return fmpq(1 << max(e, 0), 1 << max(-e, 0))
+
+
+def _fraction(x: float) -> fmpq:
+    return fmpq(*x.as_integer_ratio())

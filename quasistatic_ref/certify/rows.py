@@ -1,0 +1,55 @@
+"""Rows by number, by contact and by name.
+
+The rows of A are contact-major; the user's own rows come last, as if of one contact more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from quasistatic_ref.step.data import StepData
+
+ROW_NAMES = ("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")
+
+
+def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
+    """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
+    offsets = step.contacts.offsets
+    pairs = []
+    for i in rows:
+        contact = min(int(np.searchsorted(offsets, i, side="right")) - 1, step.contacts.n_c)
+        pairs.append((contact, int(i - offsets[contact])))
+    return tuple(pairs)
+
+
+def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:
+    """The rows of A that (contact, row) pairs mean.
+
+    Raises
+    ------
+    IndexError
+        If there is no such contact or row.
+    """
+    sizes = [*step.contacts.rows.tolist(), len(step.extra.names)]
+    flat = []
+    for contact, row in pairs:
+        if not (0 <= contact < len(sizes) and 0 <= row < sizes[contact]):
+            raise IndexError(f"the step has no row {row} of contact {contact}")
+        flat.append(int(step.contacts.offsets[contact]) + row)
+    return tuple(flat)
+
+
+def row_owners(step: StepData, rows: Iterable[int]) -> dict[str, list[str]]:
+    """Names of the contacts that some rows belong to, each with the names of those rows.
+
+    The user's own rows stand under ``"extra"``.
+    """
+    owners: dict[str, list[str]] = {}
+    for contact, row in contact_rows(step, rows):
+        if contact < step.contacts.n_c:
+            owners.setdefault(step.contacts.name[contact], []).append(ROW_NAMES[row])
+        else:
+            owners.setdefault("extra", []).append(step.extra.names[row])
+    return owners

@@ -1,0 +1,63 @@
+"""Which rows a solver's answer shows to be active, in floating point: a guess, made well.
+
+An interior-point method presses on all rows of a sticking contact, six of rank four, where the
+exact method needs independent ones with multipliers >= 0. Such a choice exists (Caratheodory):
+moving lam along a dependence of the pressed rows changes neither A'lam nor the optimum, and each
+move empties one of them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.step.data import Array
+
+DEPENDENT = 1e-9
+"""Singular values below this share of the largest count as zero; a wrong guess costs a walk."""
+
+
+def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
+    """Independent rows that carry A'lam, the most pressed first.
+
+    Parameters
+    ----------
+    A : ndarray, shape (m, n_v)
+    lam, slack : ndarray, shape (m,)
+        A solver's multipliers and A delta_q - b; all in natural units (numbers near one).
+
+    Returns
+    -------
+    list of int
+        A start for :func:`~quasistatic_ref.certify.exact_step.exact_step`, as good as the answer.
+    """
+    pressed = np.flatnonzero(lam > np.maximum(slack, 0))
+    basic = _basic(A[pressed], lam[pressed])
+    kept = basic > 0
+    order = np.argsort(-basic[kept], kind="stable")
+    return [int(i) for i in pressed[kept][order]]
+
+
+def _basic(A: Array, lam: Array) -> Array:
+    """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows."""
+    lam = lam.copy()
+    dependences = _null_space(A.T)
+    while dependences.shape[1]:
+        d = dependences[:, 0]
+        d = d if d.max() > 0 else -d
+        falling = np.flatnonzero(d > 0)
+        first = int(falling[np.argmin(lam[falling] / d[falling])])
+        lam = np.maximum(lam - lam[first] / d[first] * d, 0)
+        lam[first] = 0
+        rest = dependences[:, 1:]
+        dependences = rest - np.outer(d / d[first], rest[first])  # none uses that row again
+        dependences[first] = 0
+    return lam
+
+
+def _null_space(M: Array) -> NDArray[np.float64]:
+    if 0 in M.shape:
+        return np.eye(M.shape[1])
+    _, size, directions = np.linalg.svd(M)
+    rank = int(np.sum(size > DEPENDENT * size[0]))
+    return np.asarray(directions[rank:].T, dtype=np.float64)

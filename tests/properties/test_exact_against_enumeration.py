@@ -1,0 +1,212 @@
+"""A second exact check of `certify/exact.py`, by enumeration, sharing no code with it.
+
+Every subset of independent rows is solved in `fractions`; one whose multipliers and slacks are
+>= 0 is the optimum, and if none is the problem is infeasible. Small integers make ties common.
+"""
+
+import random
+from fractions import Fraction
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
+from quasistatic_ref.certify.rational import exact_form_of
+
+PROBLEMS = 800
+
+
+def eliminated(M, right):
+    """The solution of M X = right by Gauss-Jordan elimination; None if M is singular."""
+    rows = [list(r) + list(s) for r, s in zip(M, right, strict=True)]
+    for i in range(len(M)):
+        pivot = next((k for k in range(i, len(M)) if rows[k][i]), None)
+        if pivot is None:
+            return None
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        rows[i] = [a / rows[i][i] for a in rows[i]]
+        for k in range(len(M)):
+            if k != i and rows[k][i]:
+                rows[k] = [a - rows[k][i] * b for a, b in zip(rows[k], rows[i], strict=True)]
+    return [row[len(M) :] for row in rows]
+
+
+def dot(a, b):
+    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+
+
+class Enumeration:
+    """All optimal working sets of min 1/2 x'Hx - g'x s.t. Ax >= b."""
+
+    def __init__(self, H, g, A, b):
+        self.A, self.b, self.m, self.n = A, b, len(b), len(g)
+        identity = [[Fraction(int(i == j)) for j in range(self.n)] for i in range(self.n)]
+        self.H_inv = eliminated(H, identity)
+        self.free = [dot(row, g) for row in self.H_inv]
+        self.reach = [[dot(row, a) for row in self.H_inv] for a in A]
+        self.x, self.vertices = None, []
+        for k in range(min(self.n, self.m) + 1):
+            for W in combinations(range(self.m), k):
+                self._try(W)
+        if self.x is not None:
+            self.slack = [dot(a, self.x) - b_i for a, b_i in zip(A, b, strict=True)]
+            self._degeneracy()
+
+    def _try(self, W):
+        S = [[dot(self.A[i], self.reach[j]) for j in W] for i in W]
+        lam_w = eliminated(S, [[self.b[i] - dot(self.A[i], self.free)] for i in W])
+        if lam_w is None or any(v[0] < 0 for v in lam_w):
+            return
+        lam = [Fraction(0)] * self.m
+        for i, (v,) in zip(W, lam_w, strict=True):
+            lam[i] = v
+        x = [f + sum(lam[i] * self.reach[i][v] for i in W) for v, f in enumerate(self.free)]
+        if all(dot(a, x) >= b_i for a, b_i in zip(self.A, self.b, strict=True)):
+            assert self.x in (None, x)
+            self.x = x
+            if lam not in self.vertices:
+                self.vertices.append(lam)
+
+    def _degeneracy(self):
+        """Rays of the set of optimal multipliers: circuits d >= 0 with A_Z'd = 0."""
+        Z = [i for i, s in enumerate(self.slack) if s == 0]
+        rays = []
+        for k in range(1, len(Z) + 1):
+            for C in combinations(Z, k):
+                first, rest = C[0], C[1:]  # a_first = -sum d_i a_i, rest independent
+                gram = [[dot(self.A[i], self.A[j]) for j in rest] for i in rest]
+                d = eliminated(gram, [[-dot(self.A[i], self.A[first])] for i in rest])
+                if d is None or any(v[0] < 0 for v in d):
+                    continue
+                terms = [
+                    self.A[first],
+                    *([v[0] * a for a in self.A[i]] for v, i in zip(d, rest, strict=True)),
+                ]
+                if all(sum(column) == 0 for column in zip(*terms, strict=True)):
+                    rays.append({first, *(i for v, i in zip(d, rest, strict=True) if v[0])})
+        supports = [{i for i, v in enumerate(lam) if v} for lam in self.vertices]
+        strictly_active = set().union(*supports, *rays)
+        self.unique = len(self.vertices) == 1 and not rays
+        self.differentiable = strictly_active == set(Z)
+
+
+def small_problem(seed):
+    """H, g, A, b as floats: integers, sixteenths or full float64, n <= 4, m <= 8."""
+    rng = random.Random(seed)
+    n, m = rng.randint(1, 4), rng.randint(0, 8)
+    number = rng.choice(
+        [
+            lambda: float(rng.randint(-2, 2)),
+            lambda: rng.randint(-8, 8) / 16,
+            lambda: rng.uniform(-1, 1),
+        ]
+    )
+    L = [[number() if j < i else 0.0 for j in range(n)] for i in range(n)]
+    H = np.array(L) @ np.array(L).T + np.diag([float(rng.choice([1, 1, 2])) for _ in range(n)])
+    H = np.tril(H) + np.tril(H, -1).T
+    if rng.random() < 0.4:
+        H = np.eye(n)
+    g = np.array([number() for _ in range(n)])
+    A = [[number() for _ in range(n)] for _ in range(m)]
+    b = [rng.choice([0.0, number(), -abs(number())]) for _ in range(m)]
+    for i in range(1, m):
+        kind = rng.random()
+        j = rng.randrange(i)
+        if kind < 0.15:  # a duplicate, scaled
+            A[i], b[i] = [2 * a for a in A[j]], 2 * b[j]
+        elif kind < 0.25:  # an equation, if both hold
+            A[i], b[i] = [-a for a in A[j]], -b[j]
+        elif kind < 0.3:  # the same direction, another offset: infeasible or idle
+            A[i], b[i] = [-a for a in A[j]], -b[j] + rng.choice([-1.0, 1.0])
+        elif kind < 0.4 and i >= 2:  # dependent on two rows
+            k = rng.randrange(i)
+            A[i] = [p + q for p, q in zip(A[j], A[k], strict=True)]
+            b[i] = b[j] + b[k]
+    return H, g, np.array(A).reshape(m, n), np.array(b)
+
+
+def fractions_of(array):
+    return [Fraction(float(v)) for v in array]
+
+
+def enumeration_of(H, g, A, b):
+    return Enumeration(
+        [fractions_of(r) for r in H], fractions_of(g), [fractions_of(r) for r in A], fractions_of(b)
+    )
+
+
+@pytest.mark.parametrize("block", range(8))
+def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets(block):
+    for seed in range(block, PROBLEMS, 8):
+        H, g, A, b = small_problem(seed)
+        form, truth = exact_form_of(H, g, A, b), enumeration_of(H, g, A, b)
+        rng = random.Random(seed)
+        warm = [[], list(range(len(b))), [rng.randrange(len(b)) for _ in b]]
+        for rows in warm:
+            found = exact_optimum(form, rows)
+            if truth.x is None:
+                assert isinstance(found, Farkas), seed
+                y = [Fraction(0)] * len(b)
+                for i, v in found.y.items():
+                    y[i] = Fraction(int(v.p), int(v.q))
+                assert all(v >= 0 for v in y), seed
+                assert all(dot(y, fractions_of(column)) == 0 for column in A.T), seed
+                assert dot(y, fractions_of(b)) > 0, seed
+                continue
+            assert not isinstance(found, Farkas), seed
+            assert found.delta_q.tolist() == [float(v) for v in truth.x], seed
+            assert found.slack.tolist() == [float(v) for v in truth.slack], seed
+            net = [dot(truth.vertices[0], fractions_of(column)) for column in A.T]
+            assert found.net.tolist() == [float(v) for v in net], seed
+            vertices = [[float(v) for v in lam] for lam in truth.vertices]
+            assert found.lam.tolist() in vertices, seed
+            assert found.multipliers_unique == truth.unique, seed
+            assert found.differentiable == truth.differentiable, seed
+            outside = [s for s in truth.slack if s] if truth.differentiable else [Fraction(0)]
+            assert found.smallest_inactive_slack == min(map(float, outside), default=None), seed
+            active = [v for v in found.lam.tolist() if v]
+            assert found.smallest_active_multiplier == min(active, default=None), seed
+            assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
+
+
+@pytest.mark.parametrize("bits", [2, 30])
+def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch, bits):
+    """With balls that decide next to nothing every sign is taken from rational numbers."""
+    problems = [small_problem(seed) for seed in range(0, PROBLEMS, 5)]
+    expected = [exact_optimum(exact_form_of(*problem)) for problem in problems]
+    for module in ("active_set", "balls", "exact"):
+        monkeypatch.setattr(f"quasistatic_ref.certify.{module}.PRECISION", bits)
+    for problem, right in zip(problems, expected, strict=True):
+        found = exact_optimum(exact_form_of(*problem))
+        assert isinstance(found, Farkas) == isinstance(right, Farkas)
+        if not isinstance(found, Farkas):
+            for name in ("delta_q", "net", "slack"):
+                assert getattr(found, name).tobytes() == getattr(right, name).tobytes()
+            assert found.multipliers_unique == right.multipliers_unique
+            assert found.differentiable == right.differentiable
+
+
+def test_the_family_holds_every_kind_of_problem():
+    infeasible = ambiguous = kinks = degenerate = 0
+    for seed in range(PROBLEMS):
+        truth = enumeration_of(*small_problem(seed))
+        if truth.x is None:
+            infeasible += 1
+            continue
+        ambiguous += not truth.unique
+        kinks += not truth.differentiable
+        degenerate += not truth.unique and truth.differentiable
+    assert min(infeasible, ambiguous, kinks, degenerate) >= 10
+    assert PROBLEMS - infeasible >= 150
+
+
+def test_thirty_digits_are_those_of_the_fraction():
+    H, g = np.diag([3.0, 7.0, 1.0]), np.array([1.0, -5.0, 0.0])
+    one_third, minus_five_sevenths, zero = decimal_strings(
+        exact_form_of(H, g, np.zeros((0, 3)), np.zeros(0)), ()
+    )
+    assert one_third == "3." + "3" * 29 + "e-01"
+    assert minus_five_sevenths == "-7.14285714285714285714285714286e-01"
+    assert zero == "0." + "0" * 29 + "e+00"

@@ -1,0 +1,112 @@
+"""Certificates are data, and verification believes nothing in them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import exact_certificate, verify
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.step.data import Extra
+from validation.random_steps import grasp_step
+
+
+@pytest.fixture(scope="module")
+def step():
+    step = grasp_step(np.random.default_rng(11))
+    row = np.zeros((2, step.n_v))
+    row[:, 6] = [1.0, -1.0]  # the gripper stays a little more open than it would
+    least = exact_step(step).delta_q[6] + 1e-6
+    return step.replace(extra=Extra(("close", "open"), row, np.array([least, -1.0])))
+
+
+@pytest.fixture(scope="module")
+def optimum(step):
+    return exact_step(step)
+
+
+def test_certificate_is_what_the_optimum_says(step, optimum):
+    claims = exact_certificate(step, optimum, {"primal": 1e-17})
+    assert claims.kind == "exact"
+    assert claims.error_bound == 0.0
+    assert claims.residuals == {"primal": 1e-17}
+    assert flat_rows(step, claims.active) == optimum.working_set
+    assert (15, 0) in claims.active  # the user's own row presses
+    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+
+
+def test_rows_have_a_contact_and_a_number_in_it(step):
+    rows = range(len(step.contacts.rows) and int(step.contacts.offsets[-1]) + 2)
+    pairs = contact_rows(step, rows)
+    assert pairs[0] == (0, 0)
+    assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each
+    assert pairs[-3:] == ((14, 3), (15, 0), (15, 1))
+    assert flat_rows(step, pairs) == tuple(rows)
+
+
+@pytest.mark.parametrize("pair", [(0, 6), (14, 4), (15, 2), (16, 0), (-1, 0), (0, -1)])
+def test_rows_that_do_not_exist_are_refused(step, optimum, pair):
+    verdict = verify(step, optimum.delta_q, [pair])
+    assert not verdict
+    assert "no row" in verdict.reason
+
+
+def test_wrong_working_sets_fail_a_sign(step, optimum):
+    active = exact_certificate(step, optimum).active
+    reasons = []
+    for left_out in range(len(active)):
+        verdict = verify(step, optimum.delta_q, active[:left_out] + active[left_out + 1 :])
+        assert not verdict
+        reasons.append(verdict.reason)
+    assert any("violated" in reason for reason in reasons)
+    inactive = int(np.argmax(optimum.slack))
+    wrong = verify(step, optimum.delta_q, contact_rows(step, [inactive]))
+    assert "multiplier" in wrong.reason
+    assert "negative" in wrong.reason
+
+
+def test_dependent_working_sets_are_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    assert "independent" in verify(step, optimum.delta_q, (*active, active[0])).reason
+    one_contact = [(0, row) for row in range(6)]
+    assert "independent" in verify(step, optimum.delta_q, one_contact).reason
+
+
+def test_one_ulp_of_a_multiplier_is_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    for i in (*optimum.working_set, 0):
+        lam = optimum.lam.copy()
+        lam[i] = np.nextafter(lam[i], 1)
+        verdict = verify(step, optimum.delta_q, active, lam)
+        assert f"lam[{i}]" in verdict.reason
+
+
+def test_shapes_nan_and_negative_zero_are_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    assert "shape" in verify(step, optimum.delta_q[:-1], active).reason
+    assert "shape" in verify(step, optimum.delta_q, active, optimum.lam[1:]).reason
+    nan = optimum.delta_q.copy()
+    nan[0] = np.nan
+    assert "delta_q[0]" in verify(step, nan, active).reason
+    zero = int(np.flatnonzero(optimum.lam == 0)[0])
+    lam = optimum.lam.copy()
+    lam[zero] = -0.0
+    assert f"lam[{zero}]" in verify(step, optimum.delta_q, active, lam).reason
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("kind", "residual"),
+        ("error_bound", 1e-16),
+        ("multipliers_unique", None),
+        ("differentiable", None),
+        ("smallest_inactive_slack", 1e-3),
+        ("smallest_active_multiplier", None),
+    ],
+)
+def test_false_claims_are_refused(step, optimum, field, value):
+    claims = replace(exact_certificate(step, optimum), **{field: value})
+    verdict = verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    assert field in verdict.reason

@@ -1,0 +1,203 @@
+"""The exact optimum where its value is known in closed form."""
+
+import itertools
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Contacts, StepData
+from validation.random_steps import grasp_step
+
+X, Y, Z = np.eye(3)
+ULP = 2.0**-52
+LEAST = 5e-324
+
+
+def resting_point(
+    tau_x=0.0, weight=2.0, phi=0.0, mu_v=0.5, mu_omega=0.25, contacts=1, mass=1.0, h=0.5
+):
+    """A body that moves along x, y, z and turns about z, on a floor below it, J = I."""
+    return StepData(
+        h=h,
+        K_q=np.zeros((0, 0)),
+        M_u=mass * np.eye(4),
+        tau_a=[],
+        tau_u=[tau_x, 0.0, -weight, 0.0],
+        delta_q_bar_a=[],
+        contacts=Contacts(
+            name=tuple(f"c{j}" for j in range(contacts)),
+            phi=np.full(contacts, phi),
+            n=np.tile(Z, (contacts, 1)),
+            d1=np.tile(X, (contacts, 1)),
+            d2=np.tile(Y, (contacts, 1)),
+            J=np.tile(np.eye(4), (contacts, 1, 1)),
+            mu_v=np.full(contacts, mu_v),
+            mu_omega=np.full(contacts, mu_omega),
+            rows=np.full(contacts, 6),
+        ),
+    )
+
+
+@pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])
+@pytest.mark.parametrize("contacts", [1, 2, 3])
+def test_sticking_body_stays_where_its_contact_is(phi, contacts):
+    """delta_q = (0, 0, -phi, 0): six rows of rank four for each contact, none of them split."""
+    step = resting_point(tau_x=0.1, weight=2.0, phi=phi, contacts=contacts, mass=0.125, h=0.01)
+    optimum = exact_step(step)
+    assert optimum.delta_q.tobytes() == np.array([0.0, 0.0, -phi + 0.0, 0.0]).tobytes()
+    assert not optimum.slack.any()
+    h = F(step.h)
+    net = [-h * F(0.1), F(0), F(0.125) * F(-phi) / h + h * 2, F(0)]  # H delta_q - g
+    assert optimum.net.tolist() == [float(v) for v in net]
+    assert not optimum.multipliers_unique
+    assert optimum.differentiable
+    assert optimum.smallest_inactive_slack is None
+
+
+@pytest.mark.parametrize(("tau_x", "slides"), [(0.75, False), (1.0, False), (1.25, True)])
+def test_limit_of_friction_is_a_kink(tau_x, slides):
+    """At |tau_x| = mu_v weight one row carries all and the others are idle."""
+    optimum = exact_step(resting_point(tau_x=tau_x))
+    # Sliding: H = 1/h, only the row -d1 presses: dz = mu dx, (dx + mu dz) / h = h (tau_x - mu w).
+    h, mu = F(1, 2), F(1, 2)
+    dx = h * h * (F(tau_x) - mu * 2) / (1 + mu * mu) if slides else F(0)
+    assert optimum.delta_q.tolist() == [float(dx), 0.0, float(mu * dx), 0.0]
+    at_limit = tau_x == 1.0
+    assert optimum.differentiable == (not at_limit)
+    assert optimum.multipliers_unique == (slides or at_limit)
+    if slides or at_limit:
+        assert optimum.working_set == (2,)
+    slack = {0: 2 * mu * dx, 1: mu * dx, 3: mu * dx, 4: mu * dx, 5: mu * dx}
+    if slides:
+        assert optimum.slack.tolist() == [float(slack.get(i, F(0))) for i in range(6)]
+        assert optimum.smallest_inactive_slack == float(mu * dx)
+    if at_limit:
+        assert optimum.smallest_inactive_slack == 0.0
+
+
+def test_frictionless_rows_are_one_row():
+    """With mu_v = mu_omega = 0 six rows say the same, and one of them is in the working set."""
+    step = resting_point(tau_x=0.5, mu_v=0.0, mu_omega=0.0)
+    optimum = exact_step(step, range(6))
+    assert optimum.delta_q.tolist() == [0.5 * 0.5 * 0.5, 0.0, 0.0, 0.0]  # h^2 tau_x / m
+    assert len(optimum.working_set) == 1
+    assert not optimum.multipliers_unique
+    assert optimum.differentiable
+
+
+def chain(b, H=None):
+    """Rows that force x = (1 + b, 1): x_2 >= 1 and x_1 - x_2 >= b, both pressing."""
+    A = np.array([[0.0, 1.0], [1.0, -1.0]])
+    return exact_form_of(np.eye(2) if H is None else H, np.zeros(2), A, np.array([1.0, b]))
+
+
+@pytest.mark.parametrize(
+    ("b", "rounded"),
+    [
+        (ULP / 2, 1.0),  # half-way between 1 and 1 + ULP: even
+        (3 * ULP / 2, 1 + 2 * ULP),
+        (np.nextafter(ULP / 2, 1), 1 + ULP),
+        (np.nextafter(ULP / 2, 0), 1.0),
+    ],
+)
+def test_half_way_values_round_to_even(b, rounded):
+    optimum = exact_optimum(chain(b))
+    assert optimum.delta_q.tolist() == [rounded, 1.0]
+
+
+@pytest.mark.parametrize(("units", "rounded"), [(1, 0.0), (3, 2 * LEAST), (5, 2 * LEAST)])
+def test_subnormal_values_round_to_even(units, rounded):
+    """Solve 2 x >= units * 2^-1074."""
+    form = exact_form_of(np.eye(1), np.zeros(1), np.array([[2.0]]), np.array([units * LEAST]))
+    assert exact_optimum(form).delta_q.tolist() == [rounded]
+
+
+def test_negative_underflow_is_written_without_sign():
+    form = exact_form_of(np.eye(1), np.array([-1.0]), np.array([[4.0]]), np.array([-LEAST]))
+    assert exact_optimum(form).delta_q.tobytes() == np.zeros(1).tobytes()
+
+
+def test_tied_ratios_end_and_agree_for_every_order_of_rows():
+    """Three equal rows and two of their sums: each walk meets exactly tied ratios."""
+    base = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    rows = [*base, [1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]]
+    b = [1.0, 1.0, 1.0, 2.0, 3.0, 3.0]
+    for order in itertools.islice(itertools.permutations(range(6)), 0, 720, 7):
+        A, right = np.array(rows)[list(order)], np.array(b)[list(order)]
+        form = exact_form_of(np.eye(3), np.zeros(3), A, right)
+        optimum = exact_optimum(form)
+        assert optimum.delta_q.tolist() == [1.0, 1.0, 1.0]
+        assert optimum.net.tolist() == [1.0, 1.0, 1.0]
+        assert optimum.differentiable
+        assert not optimum.multipliers_unique
+
+
+def test_right_warm_start_needs_no_walk_and_a_wrong_one_only_walks():
+    step = grasp_step(np.random.default_rng(2))
+    form = exact_form(step)
+    cold = exact_optimum(form)
+    assert cold.walks > 0
+    again = exact_optimum(form, cold.working_set)
+    assert again.walks == 0
+    assert again.working_set == cold.working_set
+    assert again.lam.tobytes() == cold.lam.tobytes()
+    others = [i for i in range(form.m) if i not in cold.working_set]
+    assert exact_optimum(form, others).delta_q.tobytes() == cold.delta_q.tobytes()
+
+
+def test_step_without_contacts_is_the_unconstrained_one():
+    step = resting_point(tau_x=3.0, contacts=0)
+    optimum = exact_step(step)
+    assert optimum.delta_q.tolist() == [0.75, 0.0, -0.5, 0.0]  # h^2 tau / m
+    assert optimum.working_set == ()
+    assert optimum.smallest_active_multiplier is None
+    assert optimum.smallest_inactive_slack is None
+    assert optimum.multipliers_unique
+    assert optimum.differentiable
+
+
+def test_row_without_coefficients_is_idle_or_a_contradiction():
+    for b, feasible in ((-1.0, True), (0.0, True), (LEAST, False)):
+        form = exact_form_of(np.eye(2), np.ones(2), np.zeros((1, 2)), np.array([b]))
+        found = exact_optimum(form)
+        assert isinstance(found, Farkas) != feasible
+        if feasible:
+            assert found.delta_q.tolist() == [1.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    "H",
+    [
+        [[1.0, 1.0], [1.0, 1.0]],  # singular: no ball shows the sign of its last pivot
+        [[1.0, 2.0], [2.0, 1.0]],
+        [[0.0, 0.0], [0.0, 1.0]],
+        [[1.0, 1.0 + ULP], [1.0 + ULP, 1.0 + ULP]],
+    ],
+)
+def test_matrix_that_is_not_positive_definite_is_refused(H):
+    form = exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
+    with pytest.raises(StepDataError, match="positive definite"):
+        exact_optimum(form)
+
+
+def test_barely_positive_definite_matrix_is_solved():
+    """Det H = 2^-52: x = H^-1 g with g = (0, 1) is (-2^52, 2^52)."""
+    H = np.array([[1.0, 1.0], [1.0, 1.0 + ULP]])
+    form = exact_form_of(H, np.array([0.0, 1.0]), np.zeros((0, 2)), np.zeros(0))
+    assert exact_optimum(form).delta_q.tolist() == [-(2.0**52), 2.0**52]
+
+
+def test_decimals_of_a_step_begin_with_its_float64():
+    step = grasp_step(np.random.default_rng(3))
+    form = exact_form(step)
+    optimum = exact_optimum(form)
+    for text, value in zip(
+        decimal_strings(form, optimum.working_set), optimum.delta_q, strict=True
+    ):
+        assert float(text) == value

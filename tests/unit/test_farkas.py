@@ -1,0 +1,135 @@
+"""Contradictory steps: the proof, its words, and steps that are only nearly contradictory."""
+
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.step.data import Contacts, Extra, StepData
+from quasistatic_ref.tolerances import ILL_POSED
+
+
+def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
+    """A point mass of 1 kg, free along x, y, z, between frictionless walls."""
+    n = np.array(normals)
+    d1 = np.cross(n, [0.0, 0.0, 1.0])
+    J = np.zeros((len(n), 4, 3))
+    J[:, :3] = np.eye(3)
+    return StepData(
+        h=0.01,
+        K_q=np.zeros((0, 0)),
+        M_u=np.eye(3),
+        tau_a=[],
+        tau_u=force,
+        delta_q_bar_a=[],
+        contacts=Contacts(
+            name=tuple(f"wall/{j}" for j in range(len(n))),
+            phi=np.broadcast_to(phi, len(n)),
+            n=n,
+            d1=d1,
+            d2=np.cross(n, d1),
+            J=J,
+            mu_v=np.zeros(len(n)),
+            mu_omega=np.zeros(len(n)),
+            rows=np.full(len(n), 4),
+        ),
+    )
+
+
+EAST, NORTH = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]
+WEST = [-1.0, 0.0, 0.0]
+
+
+def test_walls_that_overlap_are_infeasible_and_named():
+    """X >= 1 mm and -x >= 3 mm add up to 0 >= 4 mm."""
+    step = point_between_walls([NORTH, EAST, WEST], [1.0, -1e-3, -3e-3])
+    with pytest.raises(StepInfeasible) as failure:
+        exact_step(step)
+    error = failure.value
+    assert isinstance(error, StepNotSolved)
+    assert error.step is step
+    assert error.status == "infeasible"
+    assert set(error.farkas.owners) == {"wall/1", "wall/2"}
+    assert "wall/1" in str(error)
+    assert "wall/2" in str(error)
+    assert "contradict" in str(error)
+    y = [F(text) for text in error.farkas.exact]
+    assert max(y) == 1
+    assert error.farkas.y.tolist() == [float(v) for v in y]
+    assert error.farkas.contradiction == float(F(1e-3) + F(3e-3))
+    assert farkas_refutation(step, error.farkas.exact) is None
+
+
+def test_single_row_that_nothing_satisfies_is_named_alone():
+    extra = Extra(("my limit",), np.zeros((1, 3)), np.array([1.0]))
+    step = point_between_walls([EAST], [1.0]).replace(extra=extra)
+    with pytest.raises(StepInfeasible, match=r"extra \(my limit\) cannot be satisfied"):
+        exact_step(step)
+
+
+@pytest.mark.parametrize("factor", [0.25, 4.0])
+def test_largest_entry_of_a_proof_is_one(factor):
+    """Of x >= 1 and -f x >= 0, the proof is y = (f, 1) but for a factor."""
+    extra = Extra(("one", "two"), np.array([[1.0, 0, 0], [-factor, 0, 0]]), np.array([1.0, 0.0]))
+    step = point_between_walls([NORTH], [1.0]).replace(extra=extra)
+    with pytest.raises(StepInfeasible) as failure:
+        exact_step(step)
+    y = [F(text) for text in failure.value.farkas.exact[-2:]]
+    assert max(y) == 1
+    assert y[0] == F(factor) * y[1]
+    assert failure.value.farkas.contradiction == float(y[0])
+
+
+def test_false_proofs_are_refused_with_a_reason():
+    step = point_between_walls([EAST, WEST], [-1e-3, -3e-3])
+    right = ["1", "0", "0", "0", "1", "0", "0", "0"]
+    assert farkas_refutation(step, right) is None
+    assert farkas_refutation(step, ["1/3", "0", "0", "0", "1/6", "1/6", "0", "0"]) is None
+    for wrong, reason in (
+        (right[:-1], "entries"),
+        (["1", "0", "0", "0", "2", "0", "0", "0"], "A'y"),
+        (["1", "0", "0", "0", "1", "0", "-1", "1"], "negative"),
+        (["0"] * 8, "b'y"),
+        (["x", *right[1:]], "fractions"),
+        (["1/0", *right[1:]], "fractions"),
+    ):
+        assert reason in farkas_refutation(step, wrong)
+    apart = point_between_walls([EAST, WEST], [1e-3, -1e-3])  # x >= -1 mm, -x >= 1 mm: x = -1 mm
+    assert "b'y" in farkas_refutation(apart, right)
+    assert exact_step(apart).delta_q.tolist() == [-1e-3, 0.0, 0.0]
+
+
+def test_nearly_contradictory_walls_are_ill_posed():
+    """n_2 = -n_1 but for one unit in the last place: the way out is 1e13 m away."""
+    n_1 = np.array([0.6, 0.8, 0.0])
+    n_2 = -n_1
+    n_2[1] = np.nextafter(n_2[1], 0)
+    step = point_between_walls([n_1, n_2], -1e-3, force=(0.0, 0.0, -9.81))
+    with pytest.raises(StepIllPosed) as failure:
+        exact_step(step)
+    # (n_1 + n_2) x >= 2 mm with |n_1 + n_2| = 2^-53
+    least = 2e-3 * 2.0**53
+    assert np.linalg.norm(failure.value.delta_q) >= least * (1 - 1e-9)
+    assert failure.value.length > ILL_POSED
+    assert "contradict" in str(failure.value)
+
+
+@pytest.mark.parametrize("force", [0.0, 1e-12, 1e-300])
+def test_push_out_is_not_ill_posed_however_small_the_forces(force):
+    step = point_between_walls([EAST], [-1e-3], force=(0.0, 0.0, force))
+    optimum = exact_step(step)
+    assert optimum.delta_q[0] == 1e-3
+    assert relative_length(step, optimum.delta_q) == pytest.approx(1, abs=1e-8)
+
+
+def test_length_is_relative_to_the_unconstrained_step():
+    """M = 1, h = 0.01: H^-1 g = h^2 f; twice as long is 2."""
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 0.0))
+    free = 0.01**2 * np.array([0.0, 3.0, 0.0])
+    assert relative_length(step, 2 * free) == pytest.approx(2, rel=1e-12)
+    idle = point_between_walls([EAST], [1.0])
+    assert relative_length(idle, np.zeros(3)) == 0.0
+    assert relative_length(idle, np.ones(3)) == np.inf

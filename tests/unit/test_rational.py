@@ -1,0 +1,122 @@
+"""H, g, A, b without rounding, against the formulas in plain loops of fractions."""
+
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.dyadic import dyadic, joined
+from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Extra
+from validation.random_steps import grasp_step, random_step
+
+
+def fraction(q):
+    return F(int(q.p), int(q.q))
+
+
+def in_si(form):
+    """H, g, A, b of a form in SI units, as fractions."""
+    x, s, net = (fraction(u) for u in (form.x_unit, form.slack_unit, form.net_unit))
+    n, m = range(form.n), range(form.m)
+    H = [[int(form.H[i, j]) * net / x for j in n] for i in n]
+    g = [int(form.g[i, 0]) * net for i in n]
+    A = [[int(form.A[i, j]) * s / x for j in n] for i in m]
+    b = [int(form.b[i, 0]) * s for i in m]
+    return H, g, A, b
+
+
+def by_loops(step):
+    """Eqs. (1), (4)-(8), (13) in fractions."""
+    h, n_a, n_u, contacts = F(step.h), step.n_a, step.n_u, step.contacts
+    H = [[F(0)] * (n_a + n_u) for _ in range(n_a + n_u)]
+    g = [F(0)] * (n_a + n_u)
+    for i in range(n_a):
+        tau_k = F(0)
+        for j in range(n_a):
+            H[i][j] = h * F(step.K_q[i, j])
+            tau_k += F(step.K_q[i, j]) * F(step.delta_q_bar_a[j])
+        g[i] = h * (tau_k + F(step.tau_a[i]))
+    for i in range(n_u):
+        for j in range(n_u):
+            H[n_a + i][n_a + j] = F(step.M_u[i, j]) / h
+        g[n_a + i] = h * F(step.tau_u[i])
+    A, b = [], []
+    for c in range(contacts.n_c):
+        mu, mu_w = F(contacts.mu_v[c]), F(contacts.mu_omega[c])
+        n, d1, d2 = ([*map(F, getattr(contacts, k)[c]), F(0)] for k in ("n", "d1", "d2"))
+        spin = [F(0), F(0), F(0), F(1)]
+        ways = [(d1, mu), (d2, mu), (d1, -mu), (d2, -mu), (spin, mu_w), (spin, -mu_w)]
+        for d, size in ways[: contacts.rows[c]]:
+            direction = [n[k] + size * d[k] for k in range(4)]
+            J = [[F(v) for v in row] for row in contacts.J[c]]
+            A.append([sum(direction[k] * J[k][v] for k in range(4)) for v in range(n_a + n_u)])
+            b.append(-F(contacts.phi[c]))
+    A += [[F(v) for v in row] for row in step.extra.A]
+    b += [F(v) for v in step.extra.b]
+    return H, g, A, b
+
+
+def with_extra(step, rng):
+    A, b = rng.standard_normal((2, step.n_v)), np.array([1e-9, -3.0])
+    return step.replace(extra=Extra(("one", "two"), A, b))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_step_is_formed_without_rounding(seed):
+    rng = np.random.default_rng(seed)
+    n_a, n_u = [(3, 4), (0, 6), (5, 0), (2, 2), (7, 6), (1, 0)][seed]
+    step = with_extra(random_step(rng, n_a, n_u, 3 * (seed % 3), 1e9), rng)
+    assert in_si(exact_form(step)) == by_loops(step)
+
+
+def test_grasp_step_has_the_size_of_the_paper():
+    form = exact_form(grasp_step(np.random.default_rng(0)))
+    assert (form.m, form.n) == (80, 13)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-300, 1e300, 5e-324])
+def test_given_matrices_are_taken_as_they_are(scale):
+    H, g = np.array([[2.0, 0.1], [0.1, 1e-5]]), np.array([0.3, -1e-12])
+    A, b = np.array([[1.0, 1e-17], [0.0, -7.0]]), scale * np.array([1.0, 0.0])
+    expected = tuple([F(v) for v in part] if part.ndim == 1 else None for part in (g, b))
+    found = in_si(exact_form_of(H, g, A, b))
+    assert (found[1], found[3]) == expected
+    assert found[0] == [[F(v) for v in row] for row in H]
+    assert found[2] == [[F(v) for v in row] for row in A]
+
+
+def test_multipliers_and_slacks_have_consistent_units():
+    """A'lam is lam_unit times the rows in SI: net = (slack / x) * lam."""
+    form = exact_form(grasp_step(np.random.default_rng(1)))
+    assert form.net_unit == form.lam_unit * form.slack_unit / form.x_unit
+
+
+def test_matrices_that_are_not_symmetric_or_finite_are_refused():
+    one, none = np.ones(2), np.zeros((0, 2))
+    with pytest.raises(StepDataError, match="symmetric"):
+        exact_form_of(np.array([[1.0, 1e-17], [0.0, 1.0]]), one, none, np.zeros(0))
+    with pytest.raises(StepDataError, match="finite"):
+        exact_form_of(np.eye(2), np.array([np.nan, 0]), none, np.zeros(0))
+
+
+def test_dyadic_arithmetic_is_that_of_fractions():
+    rng = np.random.default_rng(3)
+    a = rng.standard_normal((3, 4)) * 2.0 ** rng.integers(-300, 300, (3, 4))
+    c = rng.standard_normal((3, 4))
+    fractions = [[F(v) for v in row] for row in a], [[F(v) for v in row] for row in c]
+
+    def value(d):
+        return [[int(m) * F(2) ** d.e for m in row] for row in d.m]
+
+    pairs = [list(zip(p, q, strict=True)) for p, q in zip(*fractions, strict=True)]
+    assert value(dyadic(a) + dyadic(c)) == [[p + q for p, q in row] for row in pairs]
+    assert value(dyadic(a) - dyadic(c)) == [[p - q for p, q in row] for row in pairs]
+    assert value(dyadic(a) * dyadic(c)) == [[p * q for p, q in row] for row in pairs]
+    product = [
+        [sum(p * q for p, q in zip(row, other, strict=True)) for other in fractions[1]]
+        for row in fractions[0]
+    ]
+    assert value(dyadic(a) @ dyadic(c.T)) == product
+    assert value(joined([dyadic(a), dyadic(np.zeros((1, 4)))])) == [*fractions[0], [0] * 4]

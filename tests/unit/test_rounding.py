@@ -1,0 +1,98 @@
+"""Correct rounding, checked by its definition in fractions."""
+
+import math
+from decimal import ROUND_HALF_EVEN, Context, Decimal
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpq
+
+from quasistatic_ref.certify.rounding import (
+    decimal_string,
+    nearest,
+    nearest_above,
+    nearest_fraction,
+    nearest_in,
+)
+
+LEAST = F(5e-324)
+ULP = F(2) ** -52
+
+
+@pytest.mark.parametrize(
+    ("exact", "rounded"),
+    [
+        (F(0), 0.0),
+        (LEAST / 2, 0.0),  # half-way, even is zero
+        (LEAST / 2 + LEAST / 2**80, 5e-324),
+        (3 * LEAST / 2, 1e-323),  # half-way, even is two units
+        (1 + ULP / 2, 1.0),
+        (1 + 3 * ULP / 2, 1 + 2 * 2.0**-52),
+        (1 + ULP / 2 + F(1, 10**60), 1 + 2.0**-52),
+        (F(2) ** 1024, math.inf),
+        (F(1, 3), 1 / 3),
+    ],
+)
+def test_nearest_rounds_half_to_even_and_never_to_minus_zero(exact, rounded):
+    for sign in (1, -1):
+        found = nearest(sign * exact.numerator, exact.denominator)
+        assert found == sign * rounded
+        assert found != 0 or math.copysign(1, found) == 1
+
+
+def test_nearest_is_no_farther_than_its_neighbours():
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        p, q = int(rng.integers(1, 2**62)) ** 7, int(rng.integers(1, 2**62)) ** 8
+        found = nearest_fraction(fmpq(p, q))
+        exact = F(p, q)
+        for side in (-math.inf, math.inf):
+            neighbour = math.nextafter(found, side)
+            assert abs(F(found) - exact) <= abs(F(neighbour) - exact)
+
+
+def test_ball_is_rounded_only_where_all_its_numbers_agree():
+    with ctx.workprec(200):
+        third = arb(1) / 3
+        assert nearest_in(third) == 1 / 3
+        assert nearest_in(third - third) is None  # a hidden zero
+        assert nearest_in(arb(0)) == 0.0
+        half_way = 1 + arb(2) ** -53
+        assert nearest_in(half_way) == 1.0
+        assert nearest_in(half_way + third - third) is None
+        assert nearest_in(arb.nan()) is None
+        assert nearest_in(arb(1) / arb(0)) is None
+
+
+def test_nearest_above_is_above():
+    with ctx.workprec(200):
+        assert F(nearest_above(arb(1) / 3)) > F(1, 3)
+        assert nearest_above(arb(0)) == 0.0
+        assert nearest_above(arb.pos_inf()) == math.inf
+
+
+def test_decimal_strings_are_those_of_the_decimal_module():
+    context = Context(prec=30, rounding=ROUND_HALF_EVEN)
+    rng = np.random.default_rng(1)
+    for _ in range(300):
+        p = int(rng.integers(-(2**62), 2**62)) * 10 ** int(rng.integers(0, 40))
+        q = int(rng.integers(1, 2**62)) * 10 ** int(rng.integers(0, 40))
+        text = decimal_string(F(p, q), 30)
+        assert len(text.lstrip("-").split("e")[0]) == 31
+        assert Decimal(text) == context.divide(Decimal(p), Decimal(q))
+
+
+@pytest.mark.parametrize(
+    ("exact", "text"),
+    [
+        (F(99996, 10000), "1.000e+01"),
+        (F(10005, 10), "1.000e+03"),  # half-way, even
+        (F(10015, 10), "1.002e+03"),
+        (F(1, 1000), "1.000e-03"),
+        (F(-12), "-1.200e+01"),
+        (F(0), "0.000e+00"),
+    ],
+)
+def test_decimal_strings_round_half_to_even(exact, text):
+    assert decimal_string(exact, 4) == text
