@@ -62,14 +62,6 @@ BRUTE_FORCE: Final = 2e-3
 """A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
 above it by at most the spacing."""
 
-HELD: Final = 1e-10
-"""Motion of a sphere held by friction with 1 % in hand, relative to the free motion at the limit:
-a product of slack and multiplier of 1e-12, over a slack of 1e-2."""
-
-SLIDING: Final = 1e-9
-"""A run of a hundred steps, each solved to 1e-12 in natural units, against its recurrence,
-relative to the largest value: rounding and residuals add up."""
-
 FORCE_BALANCE: Final = 1e-8
 """H delta_q - g - A' lam in SI units against the largest entry of g: 1e-12 in natural units, whose
 lengths and angles differ by up to a thousand."""

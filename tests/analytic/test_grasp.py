@@ -93,11 +93,12 @@ def test_13_is_a_bunny_and_a_gripper_with_a_floating_base_and_one_width(scenario
 @pytest.mark.parametrize("case", CASES)
 def test_every_step_holds_its_optimality_conditions(runs, case):
     run = runs[case]
-    assert (run["worst_residual"] < ROUNDING * 100).all()
+    assert set(run["certificate"]) == {"exact"}
+    assert (run["worst_residual"] < ROUNDING).all()
     for k in range(0, 300, 10):
         A, b, lam, delta_q = run["A"][k], run["b"][k], run["lam"][k], run["delta_q"][k]
         force = np.abs(run["g"][k]).max()
-        assert lam.min() >= -MULTIPLIERS * max(lam.max(), force)
+        assert lam.min() >= 0
         balance = run["H"][k] @ delta_q - run["g"][k] - A.T @ lam
         np.testing.assert_allclose(balance, np.zeros(13), rtol=0, atol=FORCE_BALANCE * force)
         assert (A @ delta_q - b).min() >= -NO_PENETRATION

@@ -45,7 +45,9 @@ def one_sentence(errors):
 def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert main(["run", scene, "--out", str(out)]) == 0
     told = capsys.readouterr().out
-    assert told.startswith("5 steps of 8 variables x 10 rows\nbackend clarabel, worst residual ")
+    assert told.startswith(
+        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, "
+    )
     assert told.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
 
@@ -89,7 +91,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
     captured = capsys.readouterr()
     assert captured.out == ""
     said = one_sentence(captured.err)
-    assert said.startswith("step 3: clarabel did not solve the step (infeasible")
+    assert said.startswith("step 3: the step has no solution: floor(floor, post/club#0)/0 ")
     step_file = out / "swing_failed_step.json"
     assert f"the first 3 steps are in {out / 'swing.npz'}" in said
     assert f"the failing step in {step_file}" in said
@@ -98,7 +100,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
     assert trajectory.failed is not None
     np.testing.assert_allclose(step_read(step_file).contacts.phi, [-0.11], rtol=MULTIPLIERS)
     assert main(["solve", str(step_file)]) == 3  # replayed by itself, it fails again
-    assert one_sentence(capsys.readouterr().err).startswith("clarabel did not solve the step")
+    assert one_sentence(capsys.readouterr().err).startswith("the step has no solution")
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
@@ -134,7 +136,7 @@ def test_a_step_taken_from_a_run_solves_to_what_the_run_did(scene, out, capsys):
     assert main(["extract", str(out / "scene.npz"), "--step", "4", "-o", str(step)]) == 0
     assert main(["solve", str(step), "-o", str(solution)]) == 0
     told = capsys.readouterr()
-    assert told.err.startswith("clarabel: optimal; worst residual ")
+    assert told.err.startswith("exact: the optimum of the step, correctly rounded; ")
     read, run = json.loads(solution.read_text()), trajectory_read(out / "scene.npz")
     np.testing.assert_allclose(read["delta_q"], run["delta_q"][4], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(np.concatenate(read["lam"]), run["lam"][4], rtol=EXACT, atol=EXACT)
@@ -152,7 +154,33 @@ def test_extract_and_solve_write_to_standard_output(scene, out, tmp_path, capsys
     captured = capsys.readouterr()
     solution = json.loads(captured.out)
     assert (solution["backend"], solution["certificate"]["kind"]) == ("osqp", "none")
-    assert captured.err == "osqp: optimal; nothing was certified\n"
+    assert captured.err == "nothing is certified\n"
+
+
+def test_verify_tells_a_true_answer_from_a_false_one(tmp_path, capsys):
+    step = str(step_written(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
+    true, false = tmp_path / "true.json", tmp_path / "false.json"
+    assert main(["solve", step, "-o", str(true)]) == 0
+    capsys.readouterr()
+    assert main(["verify", step, str(true)]) == 0
+    assert capsys.readouterr().out.startswith("verified: exact")
+    record = json.loads(true.read_text())
+    record["delta_q"][0] = np.nextafter(record["delta_q"][0], 1.0)
+    false.write_text(json.dumps(record))
+    assert main(["verify", step, str(false)]) == 1
+    assert capsys.readouterr().out.startswith("refuted: ")
+    assert main(["verify", step, str(false), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["verified"] is False
+    assert main(["verify", step, str(tmp_path / "none.json")]) == 2
+    assert one_sentence(capsys.readouterr().err).endswith("none.json: no such file")
+
+
+def test_a_step_without_solution_is_proved_so_in_its_file(swing, out, tmp_path, capsys):
+    assert main(["run", swing, "--out", str(out)]) == 3
+    step, proof = str(out / "swing_failed_step.json"), str(tmp_path / "proof.json")
+    assert main(["solve", step, "-o", proof]) == 3
+    assert main(["verify", step, proof]) == 0
+    assert "the step has no solution" in capsys.readouterr().out
 
 
 def test_inspect_shows_a_urdf(tmp_path, capsys):

@@ -229,6 +229,25 @@ def test_a_bad_answer_of_coal_is_an_error(monkeypatch, spoil, gap):
         found_for(placed(box), placed(box, 1), kinematics)
 
 
+UNFIT = ("normal too long", "no normal", "normal NaN")
+
+
+@pytest.mark.parametrize("spoil", [PLANTED[name] for name in UNFIT], ids=UNFIT)
+def test_a_normal_that_is_no_unit_vector_is_an_error_where_bodies_touch(monkeypatch, spoil):
+    honest = coal.distance
+
+    def spoilt(*arguments):
+        honest(*arguments)
+        spoil(arguments[-1])
+        return 0.0
+
+    monkeypatch.setattr(coal, "distance", spoilt)
+    box = Box(np.array([0.1, 0.15, 0.2]))
+    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4])))
+    with pytest.raises(ContactError):
+        found_for(placed(box), placed(box, 1), kinematics)
+
+
 @pytest.mark.xfail(reason="beta - alpha = phi n says nothing of n where phi is below WITNESS")
 def test_a_bad_normal_of_coal_is_an_error_where_bodies_touch(monkeypatch):
     honest = coal.distance

@@ -164,8 +164,18 @@ def test_a_compensated_joint_does_not_feel_gravity(lift):
     np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
 
 
-def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(lift):
-    simulator = Simulator(lift, [], h=0.01, K_q=np.array([[400.0]]), feels_gravity=np.array([True]))
+CANCELS = (
+    "tau_k + tau_a is rounded to 0 in relative_length, but is not 0 without rounding: StepIllPosed"
+)
+
+
+@pytest.mark.parametrize(
+    "certify", ["residual", pytest.param("full", marks=pytest.mark.xfail(reason=CANCELS))]
+)
+def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(lift, certify):
+    feels = np.array([True])
+    K_q = np.array([[400.0]])
+    simulator = Simulator(lift, [], h=0.01, K_q=K_q, feels_gravity=feels, certify=certify)
     run = simulate(simulator, lift.q_start, lift.q_start, 3, progress=False)
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)

@@ -12,14 +12,13 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.files import (
-    solution_record,
-    solution_text,
     step_from_record,
     step_read,
     step_sha256,
     step_text,
     step_written,
 )
+from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.helpers import no_contacts, point_on_floor, random_step
 from tests.tolerances import EXACT
 
@@ -212,12 +211,11 @@ def test_the_solution_has_the_documented_fields():
         extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0))
     )
     solution = solve_step(step)
-    record = solution_record(step, solution)
-    assert list(record) == [
+    read = json.loads(solution_text(step, solution))
+    assert list(read) == [
         "format", "version", "status", "cone", "backend", "step_sha256", "delta_q", "lam",
         "lam_extra", "wrench", "certificate",
     ]  # fmt: skip
-    read = json.loads(solution_text(step, solution))
     assert (read["format"], read["version"]) == ("quasistatic-ref/solution", 1)
     assert (read["status"], read["cone"], read["backend"]) == ("optimal", "pyramid", "clarabel")
     assert read["step_sha256"] == step_sha256(step)
@@ -226,8 +224,69 @@ def test_the_solution_has_the_documented_fields():
     assert len(read["lam_extra"]) == 2
     np.testing.assert_allclose(read["delta_q"], solution.delta_q, rtol=EXACT)
     np.testing.assert_allclose(np.concatenate(read["lam"]), solution.lam, rtol=EXACT)
-    assert read["certificate"]["kind"] == "residual"
+    assert set(read["certificate"]) == {
+        "kind", "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound", "residuals",
+    }  # fmt: skip
     assert set(read["certificate"]["residuals"]) == set(Residuals.__dataclass_fields__)
+
+
+@pytest.mark.parametrize(
+    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
+)
+def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
+    step = STEPS["with rows of one's own"].replace(
+        extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0))
+    )
+    solution, path = solve_step(step, certify=certify), tmp_path / "solution.json"
+    path.write_text(solution_text(step, solution))
+    back = solution_read(path, step)
+    assert back.step_sha256 == step_sha256(step)
+    assert back.certificate == solution.certificate
+    assert back.certificate.kind == kind
+    np.testing.assert_allclose(back.delta_q, solution.delta_q, rtol=EXACT, atol=EXACT)
+    lam = np.concatenate([solution.lam, solution.lam_extra])
+    np.testing.assert_allclose(back.lam, lam, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(back.wrench, solution.wrench, rtol=EXACT, atol=EXACT)
+
+
+SOLUTION_REFUSED = {
+    "an unknown field": (["note"], "x", "note: is unknown"),
+    "a step": (["format"], "quasistatic-ref/step", "format: is not a choice"),
+    "a later version": (["version"], 2, "version: is not known here"),
+    "another status": (["status"], "solved", "status: is not a choice"),
+    "delta_q too long": (["delta_q"], [0.0] * 6, "delta_q: must be 5 numbers"),
+    "delta_q NaN": (["delta_q"], [float("nan")] * 5, "delta_q: must hold finite"),
+    "lam flat": (["lam"], [0.0] * 10, "lam: must have one list for each of 2 contacts"),
+    "lam of a wrong contact": (["lam", 1], [0.0] * 6, "lam[1]: must be 4 numbers"),
+    "wrench too narrow": (["wrench"], [[0.0] * 3] * 2, "wrench: must be 2 x 4"),
+    "an unknown kind": (["certificate", "kind"], "sure", "certificate.kind: is not a choice"),
+    "an unknown claim": (["certificate", "sure"], 1, "certificate.sure: is unknown"),
+    "active flat": (["certificate", "active"], [1], "certificate.active: must be a list of"),
+}
+
+
+@pytest.mark.parametrize(("path", "value", "says"), SOLUTION_REFUSED.values(), ids=SOLUTION_REFUSED)
+def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
+    record = json.loads(solution_text(PLAIN, solve_step(PLAIN)))
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(changed(record, path, value)))
+    with pytest.raises(InputError) as caught:
+        solution_read(file, PLAIN)
+    assert str(caught.value).startswith(f"{file}: {says}")
+
+
+def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path):
+    text = infeasible_text(PLAIN, "clarabel", ["1/3", "0"])
+    assert list(json.loads(text)) == [
+        "format", "version", "status", "cone", "backend", "step_sha256", "farkas",
+    ]  # fmt: skip
+    path = tmp_path / "solution.json"
+    path.write_text(text)
+    back = solution_read(path, PLAIN)
+    assert back.farkas == ("1/3", "0")
+    assert back.delta_q is None
+    assert back.certificate is None
 
 
 def test_no_timing_enters_the_solution():
