@@ -80,5 +80,6 @@ def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
     }
     rows: list[tuple[str, ...]] = [("", *report)]
     for key, (label, style) in labels.items():
-        rows.append((label, *(style.format(case[key]) for case in report.values())))
+        values = [case[key] for case in report.values()]
+        rows.append((label, *("-" if v is None else style.format(v) for v in values)))
     return rows
