@@ -7,7 +7,6 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
-from quasistatic_ref.figures import boundary_layer as boundary_layer_module
 from quasistatic_ref.figures.boundary_layer import boundary_layer
 from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
 from quasistatic_ref.figures.scene import Camera, surface_points
@@ -48,11 +47,16 @@ def spin():
 
 
 @pytest.fixture(scope="module")
-def figures(grasp, runs, spin):
+def spun(spin):
+    return spin.run(progress=False)
+
+
+@pytest.fixture(scope="module")
+def figures(grasp, runs, spin, spun):
     made = {
         "strip": grasp_strip(grasp, runs, INSTANTS),
         "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
-        "boundary layer": boundary_layer(spin, spin.run(progress=False), 0.05),
+        "boundary layer": boundary_layer(spin, spun, 0.05),
     }
     yield made
     for figure in made.values():
@@ -136,9 +140,9 @@ def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
     )
 
 
-def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path, spin):
+def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path, spin, spun):
     before = plt.get_fignums()
-    figure = boundary_layer(spin, spin.run(progress=False), 0.05)
+    figure = boundary_layer(spin, spun, 0.05)
     paths = figure_written(figure, tmp_path / "new", "layer")
     assert [p.name for p in paths] == ["layer.png", "layer.pdf"]
     assert paths[0].read_bytes().startswith(b"\x89PNG")
@@ -147,17 +151,16 @@ def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path, spin):
     assert plt.get_fignums() == before
 
 
-def test_equal_runs_draw_equal_files(tmp_path, spin):
-    run = spin.run(progress=False)
+def test_equal_runs_draw_equal_files(tmp_path, spin, spun):
     for folder in ("a", "b"):
-        figure_written(boundary_layer(spin, run, 0.05), tmp_path / folder, "layer")
+        figure_written(boundary_layer(spin, spun, 0.05), tmp_path / folder, "layer")
     for name in ("layer.png", "layer.pdf"):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
-def test_drawing_leaves_the_settings_of_matplotlib_alone(spin):
+def test_drawing_leaves_the_settings_of_matplotlib_alone(spin, spun):
     before = dict(plt.rcParams)
-    plt.close(boundary_layer_module.boundary_layer(spin, spin.run(progress=False), 0.05))
+    plt.close(boundary_layer(spin, spun, 0.05))
     assert dict(plt.rcParams) == before
 
 
