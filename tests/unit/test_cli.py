@@ -354,3 +354,12 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stderr == "loaded: []\n"
     assert done.stdout
+
+
+def test_figures_are_made_by_name(out, capsys):
+    assert main(["figures", "sphere_spin", "--out", str(out)]) == 0
+    paths = [out / "sphere_spin.png", out / "sphere_spin.pdf"]
+    assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
+    assert all(path.stat().st_size > 1000 for path in paths)
+    assert main(["figures", "sphere_spn", "--out", str(out)]) == 2
+    assert "did you mean 'sphere_spin'?" in one_sentence(capsys.readouterr().err)
