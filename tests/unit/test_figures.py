@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
 from quasistatic_ref.figures.boundary_layer import boundary_layer
-from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
+from quasistatic_ref.figures.grasp import CAMERA, grasp_strip, rotation_plot
 from quasistatic_ref.figures.scene import Camera, surface_points
 from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.model.rotation import rotation_angle
@@ -105,12 +105,14 @@ def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, run
         assert sum(dots[:-1]) == 15
 
 
-def test_filled_dots_bear_load(figures, runs):
+def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, runs):
     for row, run in enumerate(runs.values()):
         for column, t in enumerate(INSTANTS):
-            axes = figures["strip"].axes[row * len(INSTANTS) + column]
-            bearing = int((run["wrench"][round(t / 0.01) - 1][:, 2] > 1e-3).sum())
-            assert len(axes.collections[-1].get_offsets()) == bearing
+            axes, k = figures["strip"].axes[row * len(INSTANTS) + column], round(t / 0.01) - 1
+            bearing = run["wrench"][k][:, 2] > 1e-3
+            expected = CAMERA.seen(run["beta"][k][bearing])[:, :2]
+            found = axes.collections[-1].get_offsets()
+            np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_the_rotation_plot_shows_the_trajectories(figures, grasp, runs):
