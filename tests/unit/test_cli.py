@@ -306,7 +306,6 @@ def test_a_matrix_that_is_no_stiffness_is_refused_before_the_run(tmp_path, out, 
     assert not out.exists()
 
 
-@pytest.mark.xfail(reason="the file's name becomes the body's, which may not be any name")
 @pytest.mark.parametrize("name", ["my robot.urdf", "world.urdf"])
 def test_inspect_takes_a_urdf_of_any_file_name(tmp_path, capsys, name):
     assert main(["inspect", str(written(tmp_path, RAIL, name))]) == 0

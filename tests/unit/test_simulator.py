@@ -117,7 +117,6 @@ def test_a_target_of_another_shape_or_not_finite_is_refused(scenario, target):
         simulate(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
 
 
-@pytest.mark.xfail(reason="targets are not checked as q is: length-two (cos, sin) passes silently")
 def test_a_target_that_is_no_configuration_is_refused(scenario):
     goal = np.array([0.0, 2 * np.cos(0.3), 2 * np.sin(0.3)])  # taken for 0, not 0.3
     with pytest.raises(InputError):
@@ -164,14 +163,7 @@ def test_a_compensated_joint_does_not_feel_gravity(lift):
     np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
 
 
-CANCELS = (
-    "tau_k + tau_a is rounded to 0 in relative_length, but is not 0 without rounding: StepIllPosed"
-)
-
-
-@pytest.mark.parametrize(
-    "certify", ["residual", pytest.param("full", marks=pytest.mark.xfail(reason=CANCELS))]
-)
+@pytest.mark.parametrize("certify", ["residual", "full"])
 def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(lift, certify):
     feels = np.array([True])
     K_q = np.array([[400.0]])
