@@ -70,7 +70,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/dyadic.py": ordered("rational"),
     "certify/rational.py": ordered("rational"),
     "certify/kkt.py": ordered("exact"),
-    "certify/dependence.py": ordered("exact"),
+    "certify/dependence.py": ordered("dependence"),
     "certify/balls.py": ordered("exact"),
     "certify/point.py": ordered("exact"),
     "certify/active_set.py": ordered("active_set"),

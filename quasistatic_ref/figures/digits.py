@@ -47,13 +47,15 @@ class BackendDigits:
     best: float
 
 
-def digits_of_backends(records: Sequence[BackendDigits]) -> Figure:
+def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure:
     """Correct digits against the setting; one panel for each kind of units.
 
     Parameters
     ----------
     records : sequence of BackendDigits
         Panels, ticks and the legend are in the order in which they come.
+    subject : str
+        Which steps these are, with their time step and cone.
     """
     panels = list(dict.fromkeys(r.units for r in records))
     backends = list(dict.fromkeys(r.backend for r in records))
@@ -69,19 +71,19 @@ def digits_of_backends(records: Sequence[BackendDigits]) -> Figure:
                 aside = SPREAD * (k - (len(backends) - 1) / 2)
                 _draw(axes, own, [settings.index(r.accuracy) + aside for r in own], k)
             axes.set_title(units)
-            axes.set_xlabel("accuracy asked of the backend")
+            axes.set_xlabel("accuracy asked of the backend [-]")
             axes.set_xticks(range(len(settings)), settings)
             axes.grid(visible=False, axis="x")
         grid[0].set_ylim(-0.6, 16.6)
         grid[0].set_yticks(range(0, 17, 4))
-        grid[0].set_ylabel(r"correct digits of $\delta q$")
+        grid[0].set_ylabel(r"correct digits of $\delta q$ [-]")
         handles, labels = grid[0].get_legend_handles_labels()
-        unsolved = sum(r.unsolved for r in records)
-        told = f"{unsolved} of {sum(r.steps for r in records)} answers missing" if unsolved else ""
+        unsolved = any(r.unsolved for r in records)
+        told = "some steps unsolved" if unsolved else "no step unsolved"
         figure.legend(
             handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(backends),
             title="marker: median step; bar: first percentile; line: worst step to best; "
-            + (told or "no step unsolved"),
+            f"{told}\n{subject}",
             title_fontsize=8,
         )  # fmt: skip
     return figure
@@ -103,4 +105,4 @@ def _draw(axes: Axes, own: Sequence[BackendDigits], at: Sequence[float], k: int)
     for p, r in zip(at, own, strict=True):
         if r.unsolved:
             text = f"{100 * r.unsolved / r.steps:.1f} % unsolved"
-            axes.text(p, -0.4, text, rotation=90, fontsize=6, ha="center", va="bottom")
+            axes.text(p, -0.4, text, rotation=90, fontsize=7, ha="center", va="bottom")
