@@ -5,7 +5,7 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref.certify import dependence
-from quasistatic_ref.certify.dependence import combination, implied, independent_rows
+from quasistatic_ref.certify.dependence import SMALL, combination, implied, independent_rows
 from quasistatic_ref.certify.rational import exact_form_of
 
 UNLUCKY = 101
@@ -82,3 +82,15 @@ def test_zero_row_is_the_empty_combination():
     form = rows([0, 0], [1, 0])
     assert combination(form, [], 0) == []
     assert combination(form, [1], 0) == [0]
+
+
+@pytest.mark.parametrize(
+    ("c", "eliminations"),
+    [((1, -1), 1), ((0, 1 - SMALL), 1), ((SMALL, 0), 2), ((-SMALL, 1), 2)],
+)
+def test_small_coefficients_are_read_from_their_residues(monkeypatch, c, eliminations):
+    """One elimination modulo the prime shows them; others take a second one, and fractions."""
+    calls, echelon = [], dependence._echelon
+    monkeypatch.setattr(dependence, "_echelon", lambda *a: calls.append(a) or echelon(*a))
+    assert combination(rows([3, 0], [0, 7], [3 * c[0], 7 * c[1]]), [0, 1], 2) == list(c)
+    assert len(calls) == eliminations
