@@ -185,7 +185,7 @@ def family_checked(
         f"  {certificates} different certificates accepted, {refusals} answers moved by one ulp "
         f"refused, {len(faults)} faults",
         f"  fewest correct digits of a backend's own answer (steps not solved): {backends}",
-        "  with " + ", ".join(f"{trait} {n}" for trait, n in sorted(met.items())),
+        *(["  with " + ", ".join(f"{t} {n}" for t, n in sorted(met.items()))] if met else []),
         *(f"  FAULT {fault}" for fault in faults[:10]),
     ]
     return "\n".join(lines), len(faults)
