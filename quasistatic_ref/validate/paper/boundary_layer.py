@@ -13,7 +13,7 @@ from quasistatic_ref.validate.claim import Claim, Evidence, comparison, within
 M, INERTIA, RADIUS, MU_V, MU_OMEGA = 0.3, 3e-4, 0.05, 0.5, 0.01
 LIMIT = MU_OMEGA * M * GRAVITY
 STEP_SIZES = np.geomspace(1e-3, 3e-2, 7)
-SPIN, STIFFNESS = 2.0, 10.0
+SPIN, STIFFNESS = 2.0, 1000.0
 """Imposed spin rate [rad/s], through an impedance [N m/rad]."""
 
 SETTLED = 40

@@ -25,7 +25,7 @@ POSES = 20
 SPREAD = np.tile([0.07, 0.07, 0.07, 1.0, 1.0, 1.0], 2)
 """How far each body is moved and turned at random [m, rad]."""
 
-IDENTITY_TOLERANCE = 1e-15
+IDENTITY_TOLERANCE = 1e-14
 """beta - alpha = phi n and orthonormality, in metres and in ones: sums of a few products."""
 
 DIFFERENCE = 1e-6

@@ -38,7 +38,7 @@ def evidence() -> Evidence:
         with np.errstate(divide="ignore", invalid="ignore"):
             spent = abs(f1) / run["mu_v"] + abs(f2) / run["mu_v"]
             spent = spent + np.where(tau == 0, 0.0, abs(tau) / run["mu_omega"])
-        use.append((spent / force)[loaded])
+        use.append(spent[loaded] / force[loaded])
     scale = np.concatenate(terms)
     return Evidence(
         (
