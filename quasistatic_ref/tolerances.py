@@ -73,7 +73,7 @@ larger of the unconstrained step and the longest push-out of a single row.
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
 CLOSED_FORM: Final = 1e-12
-"""Largest difference of an exactly certified step from its closed form, relative to the largest term.
+"""Largest difference of a certified step from its closed form, relative to the largest term.
 
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 

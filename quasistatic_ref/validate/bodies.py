@@ -129,7 +129,7 @@ def sphere_step(
     )  # fmt: skip
 
 
-def grid(*axes: Sequence[float]) -> Array:
+def grid(*axes: Sequence[float] | Array) -> Array:
     """All combinations of some values, shape (N, number of axes)."""
     return np.array(np.meshgrid(*axes, indexing="ij"), dtype=np.float64).reshape(len(axes), -1).T
 

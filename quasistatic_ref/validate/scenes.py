@@ -22,7 +22,11 @@ DOWN = (0.0, 0.0, -GRAVITY)
 
 
 def link_text(
-    name: str, mass: float, inertia: Sequence[float], shape: str = "", com: Sequence[float] = (0, 0, 0)
+    name: str,
+    mass: float,
+    inertia: Sequence[float],
+    shape: str = "",
+    com: Sequence[float] | Array = (0, 0, 0),
 ) -> str:
     """One link of a URDF.
 

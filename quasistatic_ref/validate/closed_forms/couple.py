@@ -46,15 +46,20 @@ def evidence() -> Evidence:
     scale, size = np.array(sizes)[:, None], np.array(forces)[:, None]
     return Evidence(
         (
-            comparison("spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale),
-            comparison("impulse of the pair [N s]", balance, np.zeros_like(balance), CLOSED_FORM, size),
+            comparison(
+                "spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale
+            ),
+            comparison(
+                "impulse of the pair [N s]", balance, np.zeros_like(balance), CLOSED_FORM, size
+            ),
         )
     )
 
 
 CLAIM = Claim(
     name="spurious_couple",
-    sentence="The two forces of a contact act at alpha and at beta: while phi != 0 they are a couple "
+    sentence="The two forces of a contact act at alpha and at beta: while phi != 0 they are a "
+    "couple "
     "phi n x f on the pair, though their sum is zero.",
     where="docs/derivations.md (R18)",
     sweep="five gaps from -1 mm to 0.2 mm, six random normals and loads each",

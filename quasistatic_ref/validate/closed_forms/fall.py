@@ -19,7 +19,9 @@ def fall_evidence() -> Evidence:
     for h in (1e-3, 1e-2, 1e-1):
         for _ in range(4):
             com, rpy = rng.uniform(-0.1, 0.1, 3), tuple(rng.uniform(-1.5, 1.5, 3))
-            text = robot_text(link_text("body", float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com))
+            text = robot_text(
+                link_text("body", float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com)
+            )
             system = system_of({"body": text}, body={"rpy": rpy})
             results = steps_of(simulator_of(system, (), h), STEPS)
             q = np.array([r.q for r in results])
@@ -31,7 +33,9 @@ def fall_evidence() -> Evidence:
     return Evidence(
         (
             comparison("height after k steps [m]", heights, fallen, CLOSED_FORM, fallen),
-            comparison("sideways, in steps of fall [-]", np.array(sideways), 0.0, STEPS * CLOSED_FORM),
+            comparison(
+                "sideways, in steps of fall [-]", np.array(sideways), 0.0, STEPS * CLOSED_FORM
+            ),
             comparison("turned, in steps of fall [-]", np.array(turned), 0.0, STEPS * CLOSED_FORM),
         )
     )
@@ -49,7 +53,9 @@ def approach_evidence() -> Evidence:
     bears = weight + push > 0
     return Evidence(
         (
-            comparison("rise [m]", rises, np.maximum(-(h**2) * GRAVITY, -phi), CLOSED_FORM, h**2 * GRAVITY),
+            comparison(
+                "rise [m]", rises, np.maximum(-(h**2) * GRAVITY, -phi), CLOSED_FORM, h**2 * GRAVITY
+            ),
             sum_of_terms("N [N]", forces, [weight * bears, push * bears], CLOSED_FORM),
         )
     )
@@ -60,7 +66,8 @@ FALL = Claim(
     sentence="A free body falls by h^2 g in every step, without acceleration and without turning, "
     "wherever its centre of mass is.",
     where="docs/derivations.md (R3)",
-    sweep="12 bodies: masses, centres of mass and orientations at random, three time steps, ten steps",
+    sweep="12 bodies: masses, centres of mass and orientations at random, three time steps, ten "
+    "steps",
     reason="CLOSED_FORM, of the height fallen, and for each of the steps.",
     measure=fall_evidence,
 )

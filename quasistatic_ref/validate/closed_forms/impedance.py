@@ -26,7 +26,9 @@ def free_evidence() -> Evidence:
             wanted.append(target)
             sagged.append(np.linalg.solve(step.K_q, tau_a))
     terms = [np.concatenate(wanted), np.concatenate(sagged)]
-    return Evidence((sum_of_terms("delta_q_a [m]", np.concatenate(moved), list(terms), CLOSED_FORM),))
+    return Evidence(
+        (sum_of_terms("delta_q_a [m]", np.concatenate(moved), list(terms), CLOSED_FORM),)
+    )
 
 
 def pressed_evidence() -> Evidence:
@@ -38,7 +40,9 @@ def pressed_evidence() -> Evidence:
         frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
         none, target = np.zeros(0), np.array([phi + beyond])
         wall = contacts_of(phi, frame, J, 0.5)
-        step = StepData(0.01, [[K]], np.zeros((0, 0)), np.array([tau]), none, target, wall)
+        step = StepData(
+            0.01, np.array([[K]]), np.zeros((0, 0)), np.array([tau]), none, target, wall
+        )
         answer = exact(step)
         load = K * beyond + tau
         moved.append(answer.delta_q[0])
@@ -56,7 +60,8 @@ def pressed_evidence() -> Evidence:
 
 FREE = Claim(
     name="free_impedance",
-    sentence="Without contact an actuated coordinate reaches its target, plus what its load bends it.",
+    sentence="Without contact an actuated coordinate reaches its target, plus what its load bends "
+    "it.",
     where="docs/derivations.md (R1)",
     sweep="1 to 7 coordinates, 28 random stiffnesses, three time steps",
     reason="CLOSED_FORM: relative to the larger of target and sag.",
@@ -68,6 +73,7 @@ PRESSED = Claim(
     sentence="A target beyond a wall presses with K times the depth of the target in the wall.",
     where="docs/derivations.md (R2)",
     sweep="K from 10 to 1e5 N/m, gaps of 0 to 2 mm, targets in front of, at and in the wall, loads",
-    reason="CLOSED_FORM; the depth is a difference of a target and a gap, rounded before the step is made.",
+    reason="CLOSED_FORM; the depth is a difference of a target and a gap, rounded before the step "
+    "is made.",
     measure=pressed_evidence,
 )

@@ -61,7 +61,9 @@ def slide_evidence() -> Evidence:
     return Evidence(
         (
             comparison("stuck: motion, in h^2 g [-]", np.array(stuck), 0.0, CLOSED_FORM),
-            sum_of_terms("slip of step k [m]", slips, [np.array(fixed), np.array(left)], 4 * CLOSED_FORM),
+            sum_of_terms(
+                "slip of step k [m]", slips, [np.array(fixed), np.array(left)], 4 * CLOSED_FORM
+            ),
             comparison("sliding: sideways and turns [-]", np.array(sideways), 0.0, 4 * CLOSED_FORM),
         )
     )
@@ -84,7 +86,12 @@ def tip_evidence() -> Evidence:
     return Evidence(
         (
             comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
-            sum_of_terms("turn about the lower edge [rad]", turns, [np.array(down), np.array(up)], CLOSED_FORM),
+            sum_of_terms(
+                "turn about the lower edge [rad]",
+                turns,
+                [np.array(down), np.array(up)],
+                CLOSED_FORM,
+            ),
         )
     )
 

@@ -10,7 +10,7 @@ from quasistatic_ref.validate.claim import Claim, Evidence, comparison
 
 M, INERTIA, MU_V, MU_OMEGA = 0.3, 3e-4, 0.4, 0.015
 RADIUS = 1 / 16
-"""A power of two, so that the torque of the force is not rounded: a rounded one makes it roll [m]."""
+"""A power of two: the torque of the force, were it rounded, would make the sphere roll [m]."""
 PRECISION = 1e-13
 """Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
@@ -35,7 +35,9 @@ def evidence() -> Evidence:
         limit = 1 / np.abs(direction).sum()
         found.append(threshold(moves, 0.1 * limit, 3 * limit, PRECISION) / limit)
         expected.append(1.0)
-    return Evidence((comparison("load that moves it, over the limit [-]", found, expected, CLOSED_FORM),))
+    return Evidence(
+        (comparison("load that moves it, over the limit [-]", found, expected, CLOSED_FORM),)
+    )
 
 
 CLAIM = Claim(

@@ -45,7 +45,7 @@ def patch(r: Array, N: Array, tau: float) -> StepData:
     J[np.arange(n_c), 2, np.arange(n_c)] = 1.0  # along n
     J[:, 0, n_c] = r  # along d1, the direction of slip
     return StepData(
-        H, STIFFNESS * np.eye(n_c), [[INERTIA]], -N, np.array([tau]), np.zeros(n_c),
+        H, STIFFNESS * np.eye(n_c), np.array([[INERTIA]]), -N, np.array([tau]), np.zeros(n_c),
         contacts_of(0.0, np.tile(np.eye(3), (n_c, 1, 1)), J, MU),
     )  # fmt: skip
 
@@ -72,7 +72,9 @@ def evidence() -> Evidence:
         for name, (pressure, _) in PRESSURES.items()
     }
     unit = MU * RADIUS
-    comparisons = [comparison("ring: mu_omega / (mu a) [-]", np.array(ring) / unit, 1.0, 2 * PRECISION)]
+    comparisons = [
+        comparison("ring: mu_omega / (mu a) [-]", np.array(ring) / unit, 1.0, 2 * PRECISION)
+    ]
     for name, (_, limit) in PRESSURES.items():
         ratio = np.array(found[name]) / unit
         comparisons += [

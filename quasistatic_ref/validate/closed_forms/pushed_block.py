@@ -63,15 +63,16 @@ def evidence() -> Evidence:
     friction, drag = mu * M * GRAVITY, M * v / h
     force = STIFFNESS * found[:, 0]
     picture = {"v": v, "mu": mu, "h": h, "force": force, "m": M}
+    gap, ride = found[:, 1:3], np.repeat((mu * v * h)[:, None], 2, axis=1)
+    load, weight = found[:, 3], M * GRAVITY
     return Evidence(
         (
-            sum_of_terms("force of the finger, K times its lag [N]", force, [friction, drag], CLOSED_FORM),
-            comparison("gap under the block [m]", found[:, 1:3], (mu * v * h)[:, None] * [1, 1],
-                       CLOSED_FORM, C),
-            comparison("load of the base [N]", found[:, 3], M * GRAVITY, 10 * CLOSED_FORM, M * GRAVITY),
+            sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
+            comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),
+            comparison("load of the base [N]", load, weight, 10 * CLOSED_FORM, weight),
         ),
         picture,
-    )  # fmt: skip
+    )
 
 
 CLAIM = Claim(

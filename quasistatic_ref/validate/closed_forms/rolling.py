@@ -60,7 +60,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="rolling_sphere",
-    sentence="A rolling sphere sticks: x = h^2 F / (m + I / r^2) without lift-off; the screw takes its "
+    sentence="A rolling sphere sticks: x = h^2 F / (m + I / r^2) without lift-off; the screw takes "
+    "its "
     "centre along an arc, r (1 - cos theta) into the floor, and the next step pushes it out.",
     where="docs/derivations.md (R12)",
     sweep="three forces, three directions, two time steps; 12 steps each",

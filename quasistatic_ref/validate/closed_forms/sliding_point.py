@@ -55,7 +55,9 @@ def threshold_evidence() -> Evidence:
 def slip_evidence() -> Evidence:
     """One step in all regimes; then the sequence of steps along an axis."""
     solved, formula, scale = [], [], []
-    sweep = grid([0, 0.5, 0.9, 1.1, 2.0], [0, 0.1, 0.45], [0.2, 0.5, 1.0], [-1e-5, 0, 1e-4], [1e-3, H])
+    sweep = grid(
+        [0, 0.5, 0.9, 1.1, 2.0], [0, 0.1, 0.45], [0.2, 0.5, 1.0], [-1e-5, 0, 1e-4], [1e-3, H]
+    )
     for share, side, mu, phi, h in sweep:
         fx = share * mu * M * GRAVITY
         solved.append(pulled(fx, side * fx, mu, phi, h))
@@ -91,7 +93,8 @@ THRESHOLD = Claim(
 
 SLIP = Claim(
     name="sliding_point",
-    sentence="A pulled point slides by its closed form, off the floor, stuck, or with one row or two at their limits, and its "
+    sentence="A pulled point slides by its closed form, off the floor, stuck, or with one row or "
+    "two at their limits, and its "
     "gap goes to mu_v times the slip at the rate mu_v^2 / (1 + mu_v^2).",
     where="docs/derivations.md (R8)",
     sweep="forces, directions, mu_v, gaps and time steps: 270 steps; six sequences of 15 steps",

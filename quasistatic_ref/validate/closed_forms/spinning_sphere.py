@@ -39,7 +39,9 @@ def step_evidence() -> Evidence:
     return Evidence(
         (
             comparison("delta_theta [rad]", solved[:, 1], theta, CLOSED_FORM, largest),
-            comparison("delta_z [m]", solved[:, 0], rise, CLOSED_FORM, np.maximum(mu * largest, abs(phi))),
+            comparison(
+                "delta_z [m]", solved[:, 0], rise, CLOSED_FORM, np.maximum(mu * largest, abs(phi))
+            ),
         )
     )
 
@@ -74,7 +76,9 @@ def recurrence_evidence() -> Evidence:
         rates.append(ratio)
     return Evidence(
         (
-            sum_of_terms("phi_k [m]", np.array(gaps), [np.array(fixed), np.array(left)], CLOSED_FORM),
+            sum_of_terms(
+                "phi_k [m]", np.array(gaps), [np.array(fixed), np.array(left)], CLOSED_FORM
+            ),
             comparison("rate [-]", ratios, rates, RATE_TOLERANCE, rates),
             comparison(
                 "last gap over the fixed point [-]",
@@ -88,7 +92,8 @@ def recurrence_evidence() -> Evidence:
 
 STEP = Claim(
     name="spinning_sphere_step",
-    sentence="A torque about the normal turns a sphere only beyond mu_omega N, and then lifts it by "
+    sentence="A torque about the normal turns a sphere only beyond mu_omega N, and then lifts it "
+    "by "
     "mu_omega times the turn.",
     where="docs/derivations.md (R5)",
     sweep="six torques, four gaps, three time steps, two mu_omega",
@@ -98,7 +103,8 @@ STEP = Claim(
 
 RECURRENCE = Claim(
     name="spinning_sphere_recurrence",
-    sentence="The gap of a spun sphere goes to mu_omega h^2 (tau - mu_omega m g) / I geometrically, "
+    sentence="The gap of a spun sphere goes to mu_omega h^2 (tau - mu_omega m g) / I "
+    "geometrically, "
     "at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap.",
     where="docs/derivations.md (R6)",
     sweep="gaps, torques, time steps and mu_omega, 20 steps each",

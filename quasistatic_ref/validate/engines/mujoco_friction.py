@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.validate.bodies import GRAVITY, exact, point_step, sphere_step
-from quasistatic_ref.validate.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.validate.claim import Claim, Comparison, Evidence, comparison, within
 
 M, INERTIA, RADIUS, MU_V, MU_OMEGA, H = 0.3, 3e-4, 0.05, 0.5, 0.01, 1e-3
 SHARES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 1.05, 1.2, 1.5, 2.0])
@@ -73,12 +73,15 @@ def our_rates(torsion: bool, limit: float) -> Array:
 def evidence() -> Evidence:
     """Torsion and tangent, both cones."""
     kinds = {"torsion": (SPIN, MU_OMEGA, INERTIA), "tangent": (SLIDE, MU_V, M)}
-    comparisons, picture = [], {"shares": SHARES, "h": H, "creep": {}, "ours": {}}
+    comparisons: list[Comparison] = []
+    picture: dict[str, Any] = {"shares": SHARES, "h": H, "creep": {}, "ours": {}}
     below = SHARES < 1
     for kind, (joints, mu, inertia) in kinds.items():
         limit = mu * M * GRAVITY
         ours = our_rates(kind == "torsion", limit)
-        comparisons.append(comparison(f"{kind}: our velocity below the threshold", ours[below], 0.0, 0.0))
+        comparisons.append(
+            comparison(f"{kind}: our velocity below the threshold", ours[below], 0.0, 0.0)
+        )
         comparisons.append(within(f"{kind}: our velocity beyond it", ours[~below], 1e-9, np.inf))
         picture["ours"][kind] = ours
         for cone in CONES:
@@ -86,8 +89,18 @@ def evidence() -> Evidence:
             # Beyond the threshold a = (F - F_0) / I: F_0 from each acceleration.
             held = SHARES[~below] - gains[~below] * inertia / limit
             comparisons += [
-                comparison(f"{kind}, {cone}: MuJoCo's threshold over mu N [-]", held, 1.0, THRESHOLD_TOLERANCE),
-                within(f"{kind}, {cone}: MuJoCo's creep below it [rad/s, m/s]", finals[below], 1e-12, 0.5),
+                comparison(
+                    f"{kind}, {cone}: MuJoCo's threshold over mu N [-]",
+                    held,
+                    1.0,
+                    THRESHOLD_TOLERANCE,
+                ),
+                within(
+                    f"{kind}, {cone}: MuJoCo's creep below it [rad/s, m/s]",
+                    finals[below],
+                    1e-12,
+                    0.5,
+                ),
             ]
             picture["creep"][kind, cone] = finals
     return Evidence(tuple(comparisons), picture)
@@ -95,11 +108,13 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="mujoco_friction",
-    sentence="Below the same thresholds at which MuJoCo's bodies begin to slide and spin freely, where "
+    sentence="Below the same thresholds at which MuJoCo's bodies begin to slide and spin freely, "
+    "where "
     "they creep, ours do not move at all.",
     where="MuJoCo, soft contacts with default parameters; docs/derivations.md (R5), (R7)",
     sweep="ten loads from 0.1 to 2 times the limit, torsion and tangent, both cones, 0.5 s",
-    reason="Zero, bit for bit, for ours. Creep and soft contact are MuJoCo's by design: shown in the "
+    reason="Zero, bit for bit, for ours. Creep and soft contact are MuJoCo's by design: shown in "
+    "the "
     "figure, not a disagreement; THRESHOLD_TOLERANCE for where it begins to accelerate.",
     measure=evidence,
     engine="mujoco",

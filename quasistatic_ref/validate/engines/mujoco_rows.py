@@ -63,8 +63,8 @@ def rows_of(scene: Heap) -> dict[str, Array]:
         points.append(contact.pos.copy())
         phi.append(contact.dist)
         mu.append(contact.friction[[0, 1, 2]])
-        names = [model.geom(g).name for g in (contact.geom1, contact.geom2)]
-        links.append([0 if n == "floor" else system.link(f"{n}/{n}") for n in names])
+        geoms = [model.geom(g).name for g in (contact.geom1, contact.geom2)]
+        links.append([0 if n == "floor" else system.link(f"{n}/{n}") for n in geoms])
         for geom in (contact.geom1, contact.geom2):
             jacr = np.zeros((3, model.nv))
             mujoco.mj_jacBody(model, data, None, jacr, model.geom_bodyid[geom])
@@ -78,7 +78,7 @@ def rows_of(scene: Heap) -> dict[str, Array]:
     ours_J = contact_jacobian(kinematics, link[:, 0], link[:, 1], p - half, p + half, n)
     names = tuple(str(i) for i in range(len(gap)))
     found = Contacts(names, gap, n, d1, d2, ours_J, m[:, 0], m[:, 2], np.full(len(gap), 6))
-    # (R20): what one contact point instead of two makes, +- mu_k (phi / 2) (n x t_k) . (omega_1 + omega_2).
+    # (R20), one contact point instead of two: +- mu_k (phi/2) (n x t_k).(omega_1 + omega_2).
     lever = [np.einsum("cr,crv->cv", np.cross(n, t), np.array(spins)) for t in (d1, d2)]
     shift = np.stack([lever[0], -lever[0], lever[1], -lever[1], 0 * lever[0], 0 * lever[0]], axis=1)
     shift *= (m[:, :1] * gap[:, None] / 2)[:, :, None]
@@ -102,24 +102,26 @@ def evidence() -> Evidence:
         return np.concatenate([scene[key][:, part].ravel() for scene in scenes])
 
     tangential, spin = slice(0, 4), slice(4, 6)
-    shift = all_of("shift", tangential)
-    inertia = [np.concatenate([s[key].ravel() for s in scenes]) for key in ("ours M", "theirs M")]
-    largest = float(np.abs(inertia[1]).max())
+    ours, shift = all_of("ours", tangential), all_of("shift", tangential)
+    moved = all_of("theirs", tangential) + shift
+    spins = all_of("ours", spin), all_of("theirs", spin)
+    M, theirs_M = (np.concatenate([s[k].ravel() for s in scenes]) for k in ("ours M", "theirs M"))
+    largest = float(np.abs(theirs_M).max())
     return Evidence(
         (
-            comparison("normal and spin rows [-, m]", all_of("ours", spin), all_of("theirs", spin), ROWS_TOLERANCE),
-            comparison("tangential rows, with the shift of the contact point [-, m]",
-                       all_of("ours", tangential), all_of("theirs", tangential) + shift, ROWS_TOLERANCE),
-            within("largest shift of an entry [m]", np.abs(shift).max(), 1e-4, np.inf),
-            comparison("mass matrices [kg, kg m, kg m^2]", *inertia, ROWS_TOLERANCE, largest),
+            comparison("torsional rows [-, m]", *spins, tolerance=ROWS_TOLERANCE),
+            comparison("tangential rows, their point moved [-, m]", ours, moved, ROWS_TOLERANCE),
+            within("largest entry of that move [m]", np.abs(shift).max(), 1e-4, np.inf),
+            comparison("mass matrices [kg, kg m, kg m^2]", M, theirs_M, ROWS_TOLERANCE, largest),
             within("contacts", sum(len(s["ours"]) for s in scenes), 2 * SCENES, np.inf),
         ),
-    )  # fmt: skip
+    )
 
 
 CLAIM = Claim(
     name="mujoco_rows",
-    sentence="Our rows are MuJoCo's efc_J (condim 4, pyramidal), after a permutation, the tangent map, "
+    sentence="Our rows are MuJoCo's efc_J (condim 4, pyramidal), after a permutation, the tangent "
+    "map, "
     "and +- mu_k (phi/2) (n x t_k).(omega_1 + omega_2) for its one contact point midway.",
     where="docs/derivations.md (R20); MuJoCo's own contact points and frames",
     sweep="12 heaps of 3 to 6 bodies, one of them on a hinge: spheres, boxes, capsules, cylinders",

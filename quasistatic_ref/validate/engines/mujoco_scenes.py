@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -47,7 +48,9 @@ def heap(seed: int) -> Heap:
     free = tuple(rng.permutation(FREE)[: 2 + seed % 4])
     axis = rng.normal(size=3)
     axis /= np.linalg.norm(axis)
-    texts, settings, bodies = {}, {}, []
+    texts: dict[str, str] = {}
+    settings: dict[str, dict[str, Any]] = {}
+    bodies: list[str] = []
     for name in (*free, "arm"):
         spread = 0.12 * np.sqrt(len(free))
         xyz, rpy = rng.uniform(-0.5, 0.5, 3) * spread + [0, 0, 0.1], rng.uniform(-1.5, 1.5, 3)

@@ -38,7 +38,7 @@ def spun(phi: float, lag: float, h: float) -> StepData:
     J = np.zeros((1, 4, 4))
     J[0, :3, 1:], J[0, 3, 0] = np.eye(3), 1.0
     return StepData(
-        h, [[STIFFNESS]], M * np.eye(3), np.zeros(1), np.array([0, 0, -M * GRAVITY]),
+        h, np.array([[STIFFNESS]]), M * np.eye(3), np.zeros(1), np.array([0, 0, -M * GRAVITY]),
         np.array([lag + SPIN * h]), contacts_of(phi, np.eye(3), J, MU_V, MU_OMEGA, rows=6),
     )  # fmt: skip
 
@@ -71,9 +71,15 @@ def evidence() -> Evidence:
         (
             comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
             within("spin beyond it [rad/s]", run["delta_q"][turning, 5] / scenario.h, 1e-3, np.inf),
-            within("lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], 0.001, 10),
-            comparison("exponent of h at a fixed rate [-]", slope(STEP_SIZES, at_rate), 1.0, FITTED),
-            comparison("exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED),
+            within(
+                "lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], 0.001, 10
+            ),
+            comparison(
+                "exponent of h at a fixed rate [-]", slope(STEP_SIZES, at_rate), 1.0, FITTED
+            ),
+            comparison(
+                "exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED
+            ),
         ),
         picture,
     )
@@ -81,7 +87,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="boundary_layer",
-    sentence="A spun sphere sticks without any motion up to mu_omega m g; beyond, it lifts off by a "
+    sentence="A spun sphere sticks without any motion up to mu_omega m g; beyond, it lifts off by "
+    "a "
     "boundary layer in proportion to h at a fixed rate, and to h^2 at a fixed torque.",
     where="the paper, Fig. 3 and section III-A, which say h only; docs/derivations.md (R6)",
     sweep="sphere_spin, 200 torques; seven time steps from 1 to 30 ms",

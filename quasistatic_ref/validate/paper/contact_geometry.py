@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import contacts
@@ -71,19 +72,22 @@ def evidence() -> Evidence:
     ordinary = [np.isfinite(s).all(axis=1) for s in slopes]
     measured = np.concatenate([s[o] for s, o in zip(slopes, ordinary, strict=True)])
     expected = np.concatenate([r[o] for r, o in zip(rows, ordinary, strict=True)])
+    defect, excess = np.concatenate(defects), np.concatenate(lengths)
+    frame = np.concatenate([f.ravel() for f in frames])
     return Evidence(
         (
-            comparison("beta - alpha - phi n [m]", np.concatenate(defects), 0.0, IDENTITY_TOLERANCE),
-            comparison("|phi| against |beta - alpha| [m]", np.concatenate(lengths), 0.0, IDENTITY_TOLERANCE),
-            comparison("{d1, d2, n} against a dextral triad [-]",
-                       np.concatenate([f.ravel() for f in frames]), 0.0, IDENTITY_TOLERANCE),
+            comparison("beta - alpha - phi n [m]", defect, 0.0, IDENTITY_TOLERANCE),
+            comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
+            comparison(
+                "{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE
+            ),
             comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
         ),
-        {"outline": _outline(), "h": None},
-    )  # fmt: skip
+        {"outline": _outline()},
+    )
 
 
-def _differences(system: System, pair: ContactPair, q: Array, chosen: Array) -> Array:
+def _differences(system: System, pair: ContactPair, q: Array, chosen: NDArray[np.int64]) -> Array:
     """Central differences of phi of the chosen points; NaN where the k closest changed."""
     columns = []
     for e in DIFFERENCE * np.eye(system.n_v):
@@ -106,7 +110,9 @@ def _outline() -> dict[str, Array]:
     points, found = geometry(system, ContactPair("draw", alpha, beta, 0.5, 0, 4, 1), q)
     at = system.kinematics(q)
     t = np.linspace(0, 2 * np.pi, 200)
-    capsule = np.stack([0.03 * np.cos(t), 0 * t, 0.03 * np.sin(t) + 0.05 * np.sign(np.sin(t))], axis=1)
+    capsule = np.stack(
+        [0.03 * np.cos(t), 0 * t, 0.03 * np.sin(t) + 0.05 * np.sign(np.sin(t))], axis=1
+    )
     box = corners[[0, 1, 3, 2, 0]]
     one, two = system.link("one"), system.link("two")
     return {
@@ -123,11 +129,14 @@ def _outline() -> dict[str, Array]:
 
 CLAIM = Claim(
     name="contact_geometry",
-    sentence="alpha and beta are the closest points, beta - alpha = phi n with phi signed, n points "
+    sentence="alpha and beta are the closest points, beta - alpha = phi n with phi signed, n "
+    "points "
     "from alpha's body to beta's also in penetration, {d1, d2, n} is dextral, and n'J is the "
     "derivative of phi.",
     where="the paper, Fig. 2 and Eqs. (2)-(4)",
-    sweep="points against sphere, box, capsule and cylinder, 20 random poses each, gaps of both signs",
-    reason="IDENTITY_TOLERANCE: a few sums and products; DIFFERENCE_TOLERANCE: central differences.",
+    sweep="points against sphere, box, capsule and cylinder, 20 random poses each, gaps of both "
+    "signs",
+    reason="IDENTITY_TOLERANCE: a few sums and products; DIFFERENCE_TOLERANCE: central "
+    "differences.",
     measure=evidence,
 )

@@ -28,7 +28,9 @@ def evidence() -> Evidence:
     return Evidence(
         (
             within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
-            within("rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf),
+            within(
+                "rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf
+            ),
             within("lift [m]", lifts[0], LIFTED, np.inf),
             comparison("share of steps certified exactly [-]", exact, 1.0, 0.0),
         ),
@@ -38,7 +40,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="grasp",
-    sentence="Without torsional friction the grasped bunny rotates about its contact points; with it, "
+    sentence="Without torsional friction the grasped bunny rotates about its contact points; with "
+    "it, "
     "it does not.",
     where="the paper, Fig. 1 and section III-B",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers",

@@ -26,6 +26,7 @@ CLAIM = Claim(
     "3,000 signed distances are evaluated.",
     where="the paper, Fig. 4",
     sweep="bunny_grasp, mean of 300 steps on the machine at hand",
-    reason="'Most' is more than half; the paper's 90 us are those of a compiled solver without proof.",
+    reason="'Most' is more than half; the paper's 90 us are those of a compiled solver without "
+    "proof.",
     measure=evidence,
 )

@@ -1,4 +1,4 @@
-"""'Exact when objects are sticking': the only error of the relaxation is a gap, and it has a formula."""
+"""'Exact when objects are sticking': the relaxation's only error is a gap, which has a formula."""
 
 from __future__ import annotations
 
@@ -39,20 +39,22 @@ def evidence() -> Evidence:
             spent = abs(f1) / run["mu_v"] + abs(f2) / run["mu_v"]
             spent = spent + np.where(tau == 0, 0.0, abs(tau) / run["mu_omega"])
         use.append(spent[loaded] / force[loaded])
-    scale = np.concatenate(terms)
+    scale, after_step = np.concatenate(terms), np.concatenate(gaps)
+    held, share = np.concatenate(stuck), np.concatenate(use)
     return Evidence(
         (
-            comparison("gap of a loaded contact after the step [m]", np.concatenate(gaps),
+            comparison("gap of a loaded contact after the step [m]", after_step,
                        np.concatenate(layers), CLOSED_FORM, scale),
-            comparison("gap of one that sticks [m]", np.concatenate(stuck), 0.0, 2 * STICKS),
-            within("friction used, of what the cone allows [-]", np.concatenate(use), 0.0, 1 + CLOSED_FORM),
+            comparison("gap of one that sticks [m]", held, 0.0, 2 * STICKS),
+            within("friction used, of what the cone allows [-]", share, 0.0, 1 + CLOSED_FORM),
         )
     )  # fmt: skip
 
 
 CLAIM = Claim(
     name="exact_when_sticking",
-    sentence="A contact that bears load ends the step with the gap max(mu_v |slip_1|, mu_v |slip_2|, "
+    sentence="A contact that bears load ends the step with the gap max(mu_v |slip_1|, mu_v "
+    "|slip_2|, "
     "mu_omega |spin|): nothing when it sticks, where Coulomb's law then holds exactly.",
     where="the paper, section II-A, after Anitescu; docs/derivations.md (R19)",
     sweep="every loaded contact of bunny_grasp with and without torsion, 600 steps",

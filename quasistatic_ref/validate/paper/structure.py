@@ -12,7 +12,9 @@ from quasistatic_ref.validate.paper.runs import grasp
 def evidence() -> Evidence:
     """Numbers that the paper gives, from the scenario and its run."""
     scenario, run = grasp("with torsion")
-    sizes = {len(p.beta.shape.points) for p in scenario.pairs if isinstance(p.beta.shape, PointCloud)}
+    sizes = {
+        len(p.beta.shape.points) for p in scenario.pairs if isinstance(p.beta.shape, PointCloud)
+    }
     torsional = run["rows"] == 6
     numbers = {
         "points of the cloud": (max(sizes), 992),
@@ -32,7 +34,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="structure",
-    sentence="The grasp's quadratic program has 13 variables and 80 rows in every step: 10 contacts of "
+    sentence="The grasp's quadratic program has 13 variables and 80 rows in every step: 10 "
+    "contacts of "
     "the gripper with torsion, 5 of the floor without.",
     where="the paper, section III-B; how 13 and 80 come about is an inference",
     sweep="bunny_grasp, 300 steps",
