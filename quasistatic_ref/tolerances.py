@@ -77,5 +77,13 @@ CLOSED_FORM: Final = 1e-12
 
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 
+BEARS: Final = 1e-9
+"""Least normal force of a contact that bears load, over the largest of its step: solvers leave
+1e-12 of it on contacts that do not touch."""
+
+SLOW: Final = 0.1
+"""Largest quasi-dynamic number Pi = v / (mu g h) that passes without a word: forces on moving
+bodies are then wrong by a tenth of friction."""
+
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""

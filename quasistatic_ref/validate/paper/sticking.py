@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.simulate.grasp import CASES
-from quasistatic_ref.tolerances import CLOSED_FORM
+from quasistatic_ref.tolerances import BEARS, CLOSED_FORM
 from quasistatic_ref.validate.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.validate.paper.runs import grasp
-
-LOADED = 1e-9
-"""A contact bears load above this share of the largest normal force of its step [-]."""
 
 STICKS = 1e-12
 """Slip below which a contact sticks [m]: displacements of a step are 1e-4, rounded to 1e-20."""
@@ -28,7 +25,7 @@ def evidence() -> Evidence:
         spin = np.where(run["rows"] == 6, run["mu_omega"] * abs(motion[..., 3]), 0.0)
         after = run["phi"] + np.sum(motion[..., :3] * run["n"], axis=2)
         force = run["wrench"][..., 2]
-        loaded = force > LOADED * force.max(axis=1, keepdims=True)
+        loaded = force > BEARS * force.max(axis=1, keepdims=True)
         layer = np.maximum.reduce([slip1, slip2, spin])
         gaps.append(after[loaded])
         layers.append(layer[loaded])
