@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import resource
 import sys
 
 from quasistatic_ref.cli import options as shared
@@ -39,6 +38,8 @@ def run(options: argparse.Namespace) -> int:
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:
+        import resource  # not on Windows, whose users may still ask for --help
+
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (
             2**20 if sys.platform == "darwin" else 2**10  # bytes there, KiB elsewhere
         )
