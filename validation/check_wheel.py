@@ -60,6 +60,7 @@ def main() -> None:
             ["verify", "step.json", "solution.json"],
             ["inspect", "bunny_grasp"],
             ["backends"],
+            ["validate"],
         ):
             output([binary / "quasistatic-ref", *command], empty)
             print(f"{command[0]}: good")
