@@ -189,7 +189,9 @@ def mujoco_friction(picture: Picture) -> Figure:
             if what == kind:
                 mark = MARKS[len(axes.lines)]
                 axes.plot(picture["shares"], np.abs(final), marker=mark, label=f"MuJoCo, {cone}")
-        axes.plot(picture["shares"], picture["ours"][kind], marker="D", label="ours, one step")
+        axes.plot(
+            picture["shares"], picture["ours"][kind], marker="D", label="ours, pyramid, one step"
+        )
         axes.set_yscale("symlog", linthresh=1e-5)
         axes.axvline(1, color="black", linestyle=":", linewidth=1)
         axes.set(xlabel="load / what friction can hold", ylabel=unit)

@@ -82,7 +82,9 @@ def evidence() -> Evidence:
         comparisons.append(
             comparison(f"{kind}: our velocity below the threshold", ours[below], 0.0, 0.0)
         )
-        comparisons.append(within(f"{kind}: our velocity beyond it", ours[~below], 1e-9, np.inf))
+        comparisons.append(
+            within(f"{kind}: our least velocity beyond it", ours[~below].min(), 1e-9, np.inf)
+        )
         picture["ours"][kind] = ours
         for cone in CONES:
             finals, gains = mujoco_rates(joints, cone, limit)
@@ -96,8 +98,8 @@ def evidence() -> Evidence:
                     THRESHOLD_TOLERANCE,
                 ),
                 within(
-                    f"{kind}, {cone}: MuJoCo's creep below it [rad/s, m/s]",
-                    finals[below],
+                    f"{kind}, {cone}: MuJoCo's least creep below it [rad/s, m/s]",
+                    finals[below].min(),
                     1e-12,
                     0.5,
                 ),

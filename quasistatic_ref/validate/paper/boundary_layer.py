@@ -60,17 +60,17 @@ def evidence() -> Evidence:
     torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
     share = torque / LIMIT
     stuck, turning = share < 1 - NEAR, share > 1 + NEAR
-    lift = run["q"][1:, 2] - RADIUS
+    lift, spin = run["q"][1:, 2] - RADIUS, run["delta_q"][:, 5] / scenario.h
     at_torque = np.array([layer_at_torque(h, 2 * LIMIT) for h in STEP_SIZES])
     at_rate = np.array([layer_at_rate(h) for h in STEP_SIZES])
     picture: dict[str, Array | float] = {
-        "torque": torque, "spin": run["delta_q"][:, 5] / scenario.h, "lift": lift, "limit": LIMIT,
+        "torque": torque, "spin": spin, "lift": lift, "limit": LIMIT,
         "h": float(scenario.h), "sizes": STEP_SIZES, "at_torque": at_torque, "at_rate": at_rate,
     }  # fmt: skip
     return Evidence(
         (
             comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
-            within("spin beyond it [rad/s]", run["delta_q"][turning, 5] / scenario.h, 1e-3, np.inf),
+            within("least spin beyond it [rad/s]", spin[turning].min(), 1e-3, np.inf),
             within(
                 "lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], 0.001, 10
             ),
