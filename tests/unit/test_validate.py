@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli import validate as command
 from quasistatic_ref.cli.main import main
@@ -179,3 +180,15 @@ def test_a_record_holds_what_the_page_shows():
             "tolerance": 0.1, "holds": False,
         }
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["flat_patch", "pushed_block", "mujoco_friction"])
+def test_a_figure_says_its_quantities_its_time_step_and_the_cone(name):
+    figure = PICTURES[name](BY_NAME[name].measure().picture)
+    titles = [axes.get_title(loc="right") for axes in figure.axes]
+    labels = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]
+    said = " ".join(titles + labels)
+    plt.close(figure)
+    assert "h = " in said
+    assert "pyramid" in said
+    assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)

@@ -59,8 +59,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="spurious_couple",
     sentence="The two forces of a contact act at alpha and at beta: while phi != 0 they are a "
-    "couple "
-    "phi n x f on the pair, though their sum is zero.",
+    "couple phi n x f on the pair, though their sum is zero.",
     where="docs/derivations.md (R18)",
     sweep="five gaps from -1 mm to 0.2 mm, six random normals and loads each",
     reason="CLOSED_FORM, relative to the moment of the force about a centre.",

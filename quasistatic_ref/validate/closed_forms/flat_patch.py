@@ -69,8 +69,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="flat_patch",
     sentence="When a rigid flat patch turns, its whole load goes to the points farthest out: it "
-    "holds "
-    "mu m g a, where a uniform load on a disk would hold 2/3 of that.",
+    "holds mu m g a, where a uniform load on a disk would hold 2/3 of that.",
     where="docs/derivations.md (R16)",
     sweep="24 points of equal area on a disk; one bisection and three torques beyond the threshold",
     reason="CLOSED_FORM; a torque is held if the turn is below 1e-14 rad, which rounded points "

@@ -98,8 +98,8 @@ def tip_evidence() -> Evidence:
 
 SLIDE = Claim(
     name="incline_sliding",
-    sentence="A block on an incline stays while tan a <= mu_v; beyond, its slip goes to "
-    "h^2 g (sin a - mu_v cos a) a step at the rate mu_v^2 / (1 + mu_v^2), and it does not turn.",
+    sentence="A block on an incline stays while tan a <= mu_v; beyond, its slip goes to h^2 g "
+    "(sin a - mu_v cos a) a step at the rate mu_v^2 / (1 + mu_v^2), and it does not turn.",
     where="docs/derivations.md (R10)",
     sweep="five slopes, three mu_v, two heights of the centre of mass; eight steps each",
     reason="4 CLOSED_FORM: gaps are differences of world coordinates a thousand times larger.",
@@ -108,8 +108,8 @@ SLIDE = Claim(
 
 TIP = Claim(
     name="incline_tipping",
-    sentence="A block that friction holds tips over its lower edge when tan a > L / c, by "
-    "h^2 m g (c sin a - L cos a) / (I + m (L^2 + c^2)) in the first step.",
+    sentence="A block that friction holds tips over its lower edge when tan a > L / c, by h^2 m g "
+    "(c sin a - L cos a) / (I + m (L^2 + c^2)) in the first step.",
     where="docs/derivations.md (R11)",
     sweep="three heights of the centre of mass, five slopes from 0.9 to 1.4 times the limit",
     reason="CLOSED_FORM, relative to the larger of the two torques.",

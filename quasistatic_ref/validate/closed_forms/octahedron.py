@@ -42,8 +42,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="octahedron",
-    sentence="Tangential and torsional friction share one normal force: "
-    "|f_1|/mu_v + |f_2|/mu_v + |tau_n|/mu_omega <= f_n.",
+    sentence="Tangential and torsional friction share one normal force: |f_1|/mu_v + |f_2|/mu_v + "
+    "|tau_n|/mu_omega <= f_n.",
     where="docs/derivations.md (R9); the paper, Eqs. (4)-(7)",
     sweep="24 random directions of (f_1, f_2, tau_n); each threshold by bisection on exact answers",
     reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",

@@ -93,8 +93,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="patch_torsion",
-    sentence="Point contacts without torsion, loaded as a patch is, resist a turn like one contact "
-    "with mu_omega = mu a (ring), 2/3 mu a (uniform disk), 3 pi/16 mu a (Hertz).",
+    sentence="Point contacts without torsion, loaded as a patch is, resist a turn like one "
+    "contact with mu_omega = mu a (ring), 2/3 mu a (uniform disk), 3 pi/16 mu a (Hertz).",
     where="docs/derivations.md (R15)",
     sweep="one ring of 1, 3, 6 points; 4 to 32 rings under two pressures; thresholds by bisection",
     reason="PRECISION of the bisection; CONTINUUM for a finite number of rings; FITTED.",

@@ -63,9 +63,8 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="peg_wedging",
-    sentence="A peg that touches its hole on both sides wedges at depths l < mu d, however hard it "
-    "is "
-    "pushed; deeper, it slides in, turning by 2 mu / l for each unit of descent.",
+    sentence="A peg that touches its hole on both sides wedges at depths l < mu d, however hard "
+    "it is pushed; deeper, it slides in, turning by 2 mu / l for each unit of descent.",
     where="docs/derivations.md (R17); D. E. Whitney, J. Dyn. Sys. Meas. Control 104 (1982), 65-77",
     sweep="two widths, three mu, pushes of 1 mN to 1 MN, three depths beyond the limit",
     reason="CLOSED_FORM; a wedged peg does not move at all, bit for bit.",

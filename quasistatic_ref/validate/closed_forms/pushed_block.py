@@ -81,7 +81,7 @@ CLAIM = Claim(
     "spurious, and rides on a gap of mu_v v h.",
     where="docs/derivations.md (R13)",
     sweep="three speeds, two mu_v, two time steps; the steady state after 40 steps",
-    reason="CLOSED_FORM, of the larger of friction and drag, and of the height from which gaps are "
-    "taken; ten times that for the load, which is inertia over h^2 times rounded gaps.",
+    reason="CLOSED_FORM, of the larger of friction and drag, and of the height from which gaps "
+    "are taken; ten times that for the load, which is inertia over h^2 times rounded gaps.",
     measure=evidence,
 )

@@ -60,9 +60,9 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="rolling_sphere",
-    sentence="A rolling sphere sticks: x = h^2 F / (m + I / r^2) without lift-off; the screw takes "
-    "its "
-    "centre along an arc, r (1 - cos theta) into the floor, and the next step pushes it out.",
+    sentence="A rolling sphere sticks: x = h^2 F / (m + I / r^2) without lift-off; the screw "
+    "takes its centre along an arc, r (1 - cos theta) into the floor, and the next step pushes it "
+    "out.",
     where="docs/derivations.md (R12)",
     sweep="three forces, three directions, two time steps; 12 steps each",
     reason="CLOSED_FORM; ten times that for turn and way, thousand times smaller than the "

@@ -83,8 +83,8 @@ def slip_evidence() -> Evidence:
 
 THRESHOLD = Claim(
     name="sliding_threshold",
-    sentence="The pyramid holds mu_v N along its axes and mu_v N / sqrt 2 between them: "
-    "(|cos| + |sin|) F <= mu_v N.",
+    sentence="The pyramid holds mu_v N along its axes and mu_v N / sqrt 2 between them: (|cos| + "
+    "|sin|) F <= mu_v N.",
     where="docs/derivations.md (R7)",
     sweep="13 directions, two mu_v; each threshold by bisection on exact answers",
     reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",
@@ -94,8 +94,8 @@ THRESHOLD = Claim(
 SLIP = Claim(
     name="sliding_point",
     sentence="A pulled point slides by its closed form, off the floor, stuck, or with one row or "
-    "two at their limits, and its "
-    "gap goes to mu_v times the slip at the rate mu_v^2 / (1 + mu_v^2).",
+    "two at their limits, and its gap goes to mu_v times the slip at the rate mu_v^2 / (1 + "
+    "mu_v^2).",
     where="docs/derivations.md (R8)",
     sweep="forces, directions, mu_v, gaps and time steps: 270 steps; six sequences of 15 steps",
     reason="CLOSED_FORM, relative to the largest term of the slip.",

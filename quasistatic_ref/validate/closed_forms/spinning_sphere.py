@@ -93,8 +93,7 @@ def recurrence_evidence() -> Evidence:
 STEP = Claim(
     name="spinning_sphere_step",
     sentence="A torque about the normal turns a sphere only beyond mu_omega N, and then lifts it "
-    "by "
-    "mu_omega times the turn.",
+    "by mu_omega times the turn.",
     where="docs/derivations.md (R5)",
     sweep="six torques, four gaps, three time steps, two mu_omega",
     reason="CLOSED_FORM, relative to the largest of the three terms of the turn.",
@@ -104,8 +103,7 @@ STEP = Claim(
 RECURRENCE = Claim(
     name="spinning_sphere_recurrence",
     sentence="The gap of a spun sphere goes to mu_omega h^2 (tau - mu_omega m g) / I "
-    "geometrically, "
-    "at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap.",
+    "geometrically, at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap.",
     where="docs/derivations.md (R6)",
     sweep="gaps, torques, time steps and mu_omega, 20 steps each",
     reason="CLOSED_FORM for gaps; RATE_TOLERANCE for ratios of differences.",

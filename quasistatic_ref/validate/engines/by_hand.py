@@ -146,8 +146,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="by_hand",
     sentence="A simulator of one scene, assembled by hand in NumPy without any robotics stack and "
-    "solved "
-    "through qpsolvers, goes the same way.",
+    "solved through qpsolvers, goes the same way.",
     where="the paper, Eqs. (2)-(8), (13)",
     sweep="a finger pushes a sphere that is also spun by a torque, 60 steps",
     reason="QP_TOLERANCE, relative to the way of the sphere.",

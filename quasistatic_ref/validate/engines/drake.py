@@ -159,12 +159,10 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="drake",
     sentence="Drake computes the same signed distances, nearest points, mass matrices and "
-    "Jacobians from "
-    "the same URDFs.",
+    "Jacobians from the same URDFs.",
     where="Drake (pydrake), after the map of its velocities [omega; v] in world axes to our twists",
     sweep="a sphere against sphere, box and cylinder, 12 poses each; a floating arm of three "
-    "joints, "
-    "12 configurations",
+    "joints, 12 configurations",
     reason="DISTANCE_TOLERANCE and MATRIX_TOLERANCE: closed forms and short recursions, rounded.",
     measure=evidence,
     engine="pydrake",

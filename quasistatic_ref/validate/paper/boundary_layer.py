@@ -88,8 +88,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="boundary_layer",
     sentence="A spun sphere sticks without any motion up to mu_omega m g; beyond, it lifts off by "
-    "a "
-    "boundary layer in proportion to h at a fixed rate, and to h^2 at a fixed torque.",
+    "a boundary layer in proportion to h at a fixed rate, and to h^2 at a fixed torque.",
     where="the paper, Fig. 3 and section III-A, which say h only; docs/derivations.md (R6)",
     sweep="sphere_spin, 200 torques; seven time steps from 1 to 30 ms",
     reason="Stuck is zero, bit for bit; FITTED for exponents.",

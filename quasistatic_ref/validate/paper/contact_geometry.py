@@ -130,9 +130,8 @@ def _outline() -> dict[str, Array]:
 CLAIM = Claim(
     name="contact_geometry",
     sentence="alpha and beta are the closest points, beta - alpha = phi n with phi signed, n "
-    "points "
-    "from alpha's body to beta's also in penetration, {d1, d2, n} is dextral, and n'J is the "
-    "derivative of phi.",
+    "points from alpha's body to beta's also in penetration, {d1, d2, n} is dextral, and n'J is "
+    "the derivative of phi.",
     where="the paper, Fig. 2 and Eqs. (2)-(4)",
     sweep="points against sphere, box, capsule and cylinder, 20 random poses each, gaps of both "
     "signs",

@@ -41,8 +41,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="grasp",
     sentence="Without torsional friction the grasped bunny rotates about its contact points; with "
-    "it, "
-    "it does not.",
+    "it, it does not.",
     where="the paper, Fig. 1 and section III-B",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers",
     reason="The paper gives no numbers and the scene is ours: 1 degree and 30 degrees are what an "

@@ -51,8 +51,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="exact_when_sticking",
     sentence="A contact that bears load ends the step with the gap max(mu_v |slip_1|, mu_v "
-    "|slip_2|, "
-    "mu_omega |spin|): nothing when it sticks, where Coulomb's law then holds exactly.",
+    "|slip_2|, mu_omega |spin|): nothing when it sticks, where Coulomb's law then holds exactly.",
     where="the paper, section II-A, after Anitescu; docs/derivations.md (R19)",
     sweep="every loaded contact of bunny_grasp with and without torsion, 600 steps",
     reason="CLOSED_FORM, relative to the largest product in the sum of the gap.",

@@ -35,8 +35,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="structure",
     sentence="The grasp's quadratic program has 13 variables and 80 rows in every step: 10 "
-    "contacts of "
-    "the gripper with torsion, 5 of the floor without.",
+    "contacts of the gripper with torsion, 5 of the floor without.",
     where="the paper, section III-B; how 13 and 80 come about is an inference",
     sweep="bunny_grasp, 300 steps",
     reason="Whole numbers, and h as it is written.",
