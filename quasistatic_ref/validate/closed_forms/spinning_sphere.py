@@ -11,6 +11,9 @@ from quasistatic_ref.validate.claim import Claim, Evidence, comparison, sum_of_t
 
 M, INERTIA, RADIUS = 0.3, 3e-4, 0.05
 STEPS = 20
+STARTS = (-1e-6, 0.0, 1e-6, 2e-4)
+"""Gaps to start from [m]: so little penetration that the sphere turns in the first step already."""
+
 RATE_TOLERANCE = 1e-9
 """Of a ratio of differences: each is some 1e-3 of what is subtracted, known to CLOSED_FORM."""
 
@@ -60,13 +63,13 @@ def sequence(tau: float, phi: float, h: float, mu: float) -> tuple[Array, Array]
 def recurrence_evidence() -> Evidence:
     """Gap and turn, step after step, from several gaps."""
     gaps, fixed, left, rates, ratios = [], [], [], [], []
-    for start, share, h, mu in grid([0, 1e-6, 2e-4], [1.2, 3.0], [1e-3, 1e-2], [0.01, 0.05]):
+    for start, share, h, mu in grid(STARTS, [1.2, 3.0], [1e-3, 1e-2], [0.01, 0.05]):
+        if start > h**2 * GRAVITY:  # it would fall first
+            continue
         limit = mu * M * GRAVITY
         phi, turns = sequence(share * limit, start, h, mu)
         ratio = M * mu**2 / (INERTIA + M * mu**2)
         layer = mu * h**2 * (share - 1) * limit / INERTIA
-        if start > h**2 * GRAVITY:  # it would fall first
-            continue
         k = np.arange(STEPS)
         gaps.append(phi)
         fixed.append(np.full(STEPS, layer))
@@ -102,8 +105,8 @@ STEP = Claim(
 
 RECURRENCE = Claim(
     name="spinning_sphere_recurrence",
-    sentence="The gap of a spun sphere goes to mu_omega h^2 (tau - mu_omega m g) / I "
-    "geometrically, at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap.",
+    sentence="The gap of a spun sphere goes geometrically to mu_omega h^2 (tau - mu_omega m g) / I, "
+    "at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap at which it turns in contact.",
     where="docs/derivations.md (R6)",
     sweep="gaps, torques, time steps and mu_omega, 20 steps each",
     reason="CLOSED_FORM for gaps; RATE_TOLERANCE for ratios of differences.",
