@@ -71,3 +71,19 @@ ILL_POSED: Final = 1e6
 larger of the unconstrained step and the longest push-out of a single row.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
+
+CLOSED_FORM: Final = 1e-12
+"""Largest difference of a certified step from its closed form, relative to the largest term.
+
+The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
+
+BEARS: Final = 1e-9
+"""Least normal force of a contact that bears load, over the largest of its step: solvers leave
+1e-12 of it on contacts that do not touch."""
+
+SLOW: Final = 0.1
+"""Largest quasi-dynamic number Pi = v / (mu g h) that passes without a word: forces on moving
+bodies are then wrong by a tenth of friction."""
+
+FITTED: Final = 0.02
+"""Largest difference of a fitted exponent from the exponent of the law it is to show."""

@@ -68,3 +68,7 @@ lengths and angles differ by up to a thousand."""
 
 NO_PENETRATION: Final = 1e-10
 """A delta_q - b of a solved step [m]: 1e-12 in natural units of about a centimetre, with room."""
+
+SCENE: Final = 1e-9
+"""One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
+are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""

@@ -190,7 +190,8 @@ def simulate(
     """
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
-    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q)
+    g = float(np.linalg.norm(simulator.gravity))
+    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q, g)
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )

@@ -18,6 +18,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_text, written_whole
 from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.artifacts import boundary_layer, quasi_dynamic_number
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -44,7 +45,9 @@ class Trajectory:
     ----------
     header : mapping
         format, version, h, backend, record, n_a, n_u, coordinates, contacts (names by step),
-        steps, and ``failed``: the reason, or None for a complete run.
+        steps; ``quasi_dynamic_number`` (the largest Pi of a step, or None) and
+        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`; and
+        ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
         ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
@@ -168,13 +171,19 @@ class Recorder:
         ``"full"`` or ``"light"``.
     q : ndarray, shape (n_q,)
         Where the run starts.
+    g : float
+        Length of gravity [m/s^2].
     """
 
-    def __init__(self, system: System, h: float, backend: str, record: str, q: Array) -> None:
+    def __init__(
+        self, system: System, h: float, backend: str, record: str, q: Array, g: float = 0.0
+    ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.system, self.h, self.backend, self.record = system, h, backend, record
-        self.q = [q]
+        self.q, self.g = [q], g
+        self.Pi: float | None = None
+        self.layer = 0.0
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
         self.seconds: list[dict[str, float]] = []
@@ -183,6 +192,9 @@ class Recorder:
     def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded."""
         step, solution, points = result.step, result.solution, result.points
+        Pi = quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
+        self.Pi = Pi if self.Pi is None or Pi is None else max(Pi, self.Pi)
+        self.layer = max(self.layer, boundary_layer(step, solution))
         row: dict[str, Any] = {
             "t": t,
             "delta_q": solution.delta_q,
@@ -224,6 +236,8 @@ class Recorder:
             "coordinates": [c.name for c in self.system.coordinates],
             "steps": len(self.rows),
             "failed": failed,
+            "quasi_dynamic_number": self.Pi,
+            "largest_boundary_layer": self.layer,
             "contacts": self.names if self.record == "full" else [],
         }
         keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
