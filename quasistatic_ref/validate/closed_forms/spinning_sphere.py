@@ -105,8 +105,9 @@ STEP = Claim(
 
 RECURRENCE = Claim(
     name="spinning_sphere_recurrence",
-    sentence="The gap of a spun sphere goes geometrically to mu_omega h^2 (tau - mu_omega m g) / I, "
-    "at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap at which it turns in contact.",
+    sentence="The gap of a spun sphere goes to mu_omega h^2 (tau - mu_omega m g) / I, "
+    "geometrically, at the rate m mu_omega^2 / (I + m mu_omega^2), from any gap at which it turns "
+    "in contact.",
     where="docs/derivations.md (R6)",
     sweep="gaps, torques, time steps and mu_omega, 20 steps each",
     reason="CLOSED_FORM for gaps; RATE_TOLERANCE for ratios of differences.",
