@@ -135,7 +135,9 @@ class StepInfeasible(StepNotSolved):
         self.backend, self.status, self.step = "exact", "infeasible", step
         self.accuracy, self.residuals, self.farkas = 0.0, None, farkas
         QuasistaticError.__init__(
-            self, f"the step has no solution: {farkas.in_words} (proved without rounding)"
+            self,
+            f"the step has no solution: {farkas.in_words} (proved without rounding); "
+            "widen these gaps, or let one of the bodies give way",
         )
 
 
@@ -159,8 +161,25 @@ class StepIllPosed(StepNotSolved):
         QuasistaticError.__init__(
             self,
             f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
-            "its contacts contradict each other but for rounding",
+            "its contacts contradict each other but for rounding; look for opposite normals",
         )
+
+
+class LimitExceeded(StepNotSolved):
+    """A run has gone where no step should be taken from.
+
+    Parameters
+    ----------
+    problem : str
+        What is beyond which limit, and the remedy.
+    step : StepData
+        The step that was not taken.
+    """
+
+    def __init__(self, problem: str, step: StepData) -> None:
+        self.backend, self.status, self.step = "none", "limit exceeded", step
+        self.accuracy, self.residuals = 0.0, None
+        QuasistaticError.__init__(self, problem)
 
 
 class RunFailed(QuasistaticError):
@@ -200,5 +219,8 @@ def _rebuilt(
 
 
 def _short(value: Any, limit: int = 80) -> str:
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join(repr(value).split())
+    except (RecursionError, ValueError):  # nested without end; an integer of too many digits
+        return f"a {type(value).__name__} too long to show"
     return text if len(text) <= limit else text[: limit - 3] + "..."

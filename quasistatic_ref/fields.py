@@ -90,8 +90,15 @@ class Fields:
             raise self.fail(field, f"must be at least {least:g}", value)
         return number
 
-    def integer(self, field: str, default: Any = REQUIRED, *, least: int | None = None) -> int:
-        """Return a whole number, at least `least`."""
+    def integer(
+        self,
+        field: str,
+        default: Any = REQUIRED,
+        *,
+        least: int | None = None,
+        most: int | None = None,
+    ) -> int:
+        """Return a whole number, at least `least` and at most `most`."""
         value = self.take(field, default)
         if value is default and default is not REQUIRED:
             return value  # type: ignore[no-any-return]  # the caller's own default
@@ -99,6 +106,8 @@ class Fields:
             raise self.fail(field, "must be a whole number", value)
         if least is not None and value < least:
             raise self.fail(field, f"must be at least {least}", value)
+        if most is not None and value > most:
+            raise self.fail(field, f"must be at most {most}", value)
         return value
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:

@@ -57,6 +57,11 @@ LOADED: Final = 1e-9
 Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
 misread differs by far more."""
 
+WELDED: Final = 1e-12
+"""Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
+
+Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
+
 UNIT_QUATERNION: Final = 1e-6
 """Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
 

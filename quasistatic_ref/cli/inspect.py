@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        record = system_record(System([Body(name=path.stem, urdf=path)]))
+        record = system_record(System([Body(name=_body_name(path.stem), urdf=path)]))
     else:
         record = scenario_record(load_scenario(options.file, options.settings))
     if options.json:
@@ -39,6 +40,12 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print(record)
     return 0
+
+
+def _body_name(stem: str) -> str:
+    """A file's name as a body's, which may not hold just any character."""
+    name = re.sub(r"[\s/#*]", "_", stem)
+    return "robot" if name == "world" else name
 
 
 def system_record(system: System) -> dict[str, Any]:

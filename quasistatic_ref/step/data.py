@@ -185,7 +185,7 @@ class StepData:
         _freeze(self, "tau_u", (n_u,))
         _freeze(self, "delta_q_bar_a", (n_a,))
         for key in ("K_q", "M_u"):
-            object.__setattr__(self, key, _positive_definite(key, getattr(self, key)))
+            object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
         for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
             if wide.shape[-1] != self.n_v:
                 raise StepDataError(
@@ -259,8 +259,14 @@ def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> N
     object.__setattr__(owner, key, _read_only(array))
 
 
-def _positive_definite(key: str, S: Array) -> Array:
-    """Return S made exactly symmetric from its lower triangle, or refuse it."""
+def positive_definite(key: str, S: Array) -> Array:
+    """Return S made exactly symmetric from its lower triangle, or refuse it.
+
+    Raises
+    ------
+    StepDataError
+        About the field `key`, if S is not symmetric or not positive definite.
+    """
     scale = np.abs(S).max(initial=0.0)
     if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())
