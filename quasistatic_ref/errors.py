@@ -222,5 +222,5 @@ def _short(value: Any, limit: int = 80) -> str:
     try:
         text = " ".join(repr(value).split())
     except (RecursionError, ValueError):  # nested without end; an integer of too many digits
-        return f"a {type(value).__name__} too long to show"
+        return f"of type {type(value).__name__}, too long to show"
     return text if len(text) <= limit else text[: limit - 3] + "..."

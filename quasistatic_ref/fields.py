@@ -142,6 +142,8 @@ class Fields:
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
         try:
             array = np.array(value, dtype=object)
+            if any(isinstance(v, list) for v in array.flat):
+                raise self.fail(field, f"must be {wanted} numbers, in lists of equal length", value)
             if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
                 raise self.fail(field, f"must hold numbers only ({wanted})", value)
             numbers = array.astype(np.float64)

@@ -31,9 +31,10 @@ def run(options: argparse.Namespace) -> int:
     An infeasible step gets a solution file too, with the proof, and exit status 3.
     """
     step = step_read(options.step)
-    backend = options.backend or DEFAULT
+    backend = DEFAULT if options.backend is None else options.backend
+    certify = CERTIFY[0] if options.certify is None else options.certify
     try:
-        solution = solve_step(step, backend, certify=options.certify or CERTIFY[0])
+        solution = solve_step(step, backend, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
         raise

@@ -62,6 +62,11 @@ def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     members = archive.infolist()
     if len(members) > MOST_ARRAYS:
         raise InputError(f"holds more than {MOST_ARRAYS} arrays", value=len(members))
+    seen: set[str] = set()
+    for member in members:
+        if member.filename in seen:
+            raise InputError("is given twice", field=member.filename)
+        seen.add(member.filename)
     unpacked = sum(member.file_size for member in members)
     if unpacked > LARGEST_UNPACKED:
         most = LARGEST_UNPACKED / 2**30
