@@ -71,6 +71,11 @@ UNIT_ROUNDING: Final = 1e-15
 """Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
 in the length as computed, so that what was normalised once is not touched again."""
 
+LARGE: Final = 1e15
+"""Largest number in a scenario, a URDF or a point cloud, in whatever unit.
+
+Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
+
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the
 larger of the unconstrained step and the longest push-out of a single row.

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.tolerances import LARGE
 
 Array = NDArray[np.float64]
-LARGEST = 1e15
-"""Largest mass, moment, length or angle in a URDF: nothing that is simulated is larger."""
 DEEPEST = 100
 """Most elements in one another; other readers of XML recurse, and end the process."""
 
@@ -88,7 +87,7 @@ def numbers(
     name: str,
     count: int,
     default: float | None = None,
-    most: float = LARGEST,
+    most: float = LARGE,
 ) -> Array:
     """Finite numbers in one attribute, shape (count,).
 

@@ -1,15 +1,40 @@
-"""Scenarios that contradict themselves: pairs that can never act, or act twice."""
+"""Scenarios that cannot be meant: numbers out of this world, pairs that never act, or act twice."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.model.system import System
-from quasistatic_ref.tolerances import WELDED
+from quasistatic_ref.tolerances import LARGE, WELDED
+
+
+def check_sizes(value: Any, name: str = "") -> None:
+    """Refuse numbers so large that their products leave the range of float64.
+
+    Parameters
+    ----------
+    value : object
+        As parsed. What is not finite is left to the field's own reader.
+    name : str
+        Dotted name of the value.
+
+    Raises
+    ------
+    ScenarioError
+    """
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            check_sizes(inner, f"{name}.{key}" if name else key)
+    elif isinstance(value, list):
+        for i, inner in enumerate(value):
+            check_sizes(inner, name if isinstance(inner, int | float) else f"{name}[{i}]")
+    elif isinstance(value, int | float) and LARGE < abs(value) < float("inf"):
+        raise ScenarioError(f"must be at most {LARGE:g}", field=name, value=value)
 
 
 def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:

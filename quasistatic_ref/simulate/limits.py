@@ -22,7 +22,7 @@ class Limits:
         order, and push it out at once, with a force of m |phi| / h^2: bodies that start in each
         other, or pass through each other in one step, are thrown apart. 0.05 by default.
     reach : float
-        Farthest that the origin of a link may be from that of the world [m]; 100 by default.
+        Farthest that the origin of a link may come from that of the world [m]; 100 by default.
 
     Raises
     ------
@@ -40,30 +40,36 @@ class Limits:
                     "must be greater than 0", field=f"limits.{name}", value=getattr(self, name)
                 )
 
-    def check_reach(self, step: StepData, links: Sequence[str], t: Array) -> None:
-        """Refuse a step from where a link has left the scene.
+    def out_of_reach(self, links: Sequence[str], t: Array) -> str | None:
+        """Which link is out of the scene, in words; None if none is.
 
         Parameters
         ----------
-        step : StepData
         links : sequence of str
         t : ndarray, shape (L, 3)
             Origins of the links [m], world frame.
+        """
+        distance = np.hypot.reduce(t, axis=1)
+        beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too
+        if not beyond.size:
+            return None
+        i = beyond[0]
+        return (
+            f"link {links[i]} is {distance[i]:.3g} m from the origin, farther than "
+            f"limits.reach = {self.reach:g} m; hold or support it, look at its wrenches and "
+            "targets, or raise the limit"
+        )
+
+    def check_reach(self, step: StepData, links: Sequence[str], t: Array) -> None:
+        """Refuse a step after which a link is out of the scene.
 
         Raises
         ------
         LimitExceeded
         """
-        distance = np.hypot.reduce(t, axis=1)
-        beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too
-        if beyond.size:
-            i = beyond[0]
-            raise LimitExceeded(
-                f"link {links[i]} is {distance[i]:.3g} m from the origin, farther than "
-                f"limits.reach = {self.reach:g} m; hold or support it, look at its wrenches and "
-                "targets, or raise the limit",
-                step,
-            )
+        problem = self.out_of_reach(links, t)
+        if problem is not None:
+            raise LimitExceeded(problem, step)
 
     def check_penetration(self, step: StepData) -> None:
         """Refuse a step that starts deeper in penetration than any step should.

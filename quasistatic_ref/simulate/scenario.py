@@ -18,7 +18,7 @@ from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
-from quasistatic_ref.simulate.checks import check_motion, check_twice
+from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.paths import OwnWord
@@ -36,7 +36,9 @@ VERSION = 1
 LARGEST = 2**20
 """Largest scenario file [bytes]."""
 MOST_STEPS = 10_000_000
-_DEEP_KEY = re.compile(r"""((?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){32}""")
+MOST_PARTS = 32
+"""Most parts of a dotted key."""
+_DEEP_KEY = re.compile(rf"""((?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){{{MOST_PARTS}}}""")
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,6 +147,7 @@ def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
             raise ScenarioError("is nested too deeply, or holds an unusable number") from None
         for setting in settings:
             _apply(tables, setting)
+        check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
     except InputError as error:
         raise error.in_file(path) from None
@@ -177,6 +180,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     top.close()
     check_motion(system, pairs)
     check_twice(pairs)
+    if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
+        raise ScenarioError(f"at the start, {far}", field="bodies")
 
     K_q, feels_gravity = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
     tracks, wrenches = [], []
@@ -235,7 +240,7 @@ def _tables(text: str) -> dict[str, Any]:
     # tomllib's time is quadratic in the number of parts of a dotted key.
     if deep := _DEEP_KEY.search(text):
         line = text[: deep.start()].count("\n") + 1
-        raise ScenarioError("holds a name of more than 32 parts", field=f"line {line}")
+        raise ScenarioError(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
     return tomllib.loads(text)
 
 
@@ -245,6 +250,9 @@ def _apply(tables: dict[str, Any], setting: str) -> None:
     parts = [part.strip() for part in key.split(".")]
     if not equals or not all(parts):
         raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
+    if len(parts) > MOST_PARTS:
+        problem = f"names a key of more than {MOST_PARTS} parts"
+        raise ScenarioError(problem, field="--set", value=setting)
     try:
         parsed = _tables(f"value = {text}")
     except (ValueError, RecursionError):

@@ -114,20 +114,20 @@ class Simulator:
         Raises
         ------
         StepNotSolved
-            If the backend's answer cannot be trusted, the step has no solution, or q is beyond
-            the limits.
+            If the backend's answer cannot be trusted, the step has no solution, or it
+            starts or ends beyond the limits.
         """
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
         points = closest_points(self.pairs, kinematics)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
-        self.limits.check_reach(step, self.system.links, kinematics.t)
         lap("rows")
         solution = self.solved(step)
         self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 

@@ -78,9 +78,11 @@ class Contacts:
                 at, value = self.name[bad[0]], float(getattr(self, key)[bad[0]])
                 raise StepDataError("must be >= 0", field=f"contacts[{at}].{key}", value=value)
         frame = np.stack([self.d1, self.d2, self.n], axis=2)
-        defect = np.abs(np.swapaxes(frame, 1, 2) @ frame - np.eye(3)).max(axis=(1, 2), initial=0)
-        dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
-        bad = np.flatnonzero((defect > ORTHONORMAL) | ~dextral)
+        with np.errstate(over="ignore", invalid="ignore"):  # what overflows is no unit vector
+            product = np.swapaxes(frame, 1, 2) @ frame
+            defect = np.abs(product - np.eye(3)).max(axis=(1, 2), initial=0)
+            dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
+        bad = np.flatnonzero(~(defect <= ORTHONORMAL) | ~dextral)
         if bad.size:
             raise StepDataError(
                 "d1, d2, n must be a right-handed orthonormal frame",

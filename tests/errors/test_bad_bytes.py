@@ -42,7 +42,7 @@ CAUSES = {
     "half of a JSON": ("step.json", b'{"format": "quasi', "is not JSON: Unterminated string"),
     "half of an XML": ("ball.urdf", BALL.encode()[:-20], XML),
     "TOML without end": ("scene.toml", b"a = " + b"[" * DEEP, "is nested too deeply"),
-    "a key without end": ("scene.toml", b"a" + b".a" * DEEP + b" = 1", "line 1: holds a name"),
+    "a key without end": ("scene.toml", b"a" + b".a" * DEEP + b" = 1", "line 1: holds a key of"),
     "deep TOML": ("scene.toml", b"h = " + b"{a=" * 200 + b"1" + b"}" * 200, "format: is missing"),
     "JSON without end": ("step.json", b"[" * DEEP + b"]" * DEEP, "is not usable JSON: too deep"),
     "deep JSON": ("step.json", b'{"a":' * 900 + b"1" + b"}" * 900, "format: is missing"),
@@ -64,6 +64,7 @@ CAUSES = {
     "an array alone": ("run.npz", b"\x93NUMPY\x01\x00", NO_TRAJECTORY),
     "words in a cloud": ("cloud.xyz", b"1 2 3\n1 2 x\n", "line 2: must be a finite decimal number"),
     "two numbers a point": ("cloud.xyz", b"1 2 3\n1 2\n", "line 2: must be three numbers, x y z"),
+    "a point out of this world": ("cloud.xyz", b"1 2 3\n0 0 1e154\n", "point 1: its coordinates"),
     "NaN in a cloud": ("cloud.xyz", b"1 2 nan\n", "line 1: must be a finite decimal number"),
 }  # fmt: skip
 

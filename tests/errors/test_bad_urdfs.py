@@ -63,7 +63,7 @@ CAUSES = {
     "no limit": ("<limit", "<limits", "joint[j].limit", "is missing: URDF asks for"),
     "an effort of words": ('effort="1"', 'effort="max"', "joint[j].limit.effort", "(got 'max')"),
     "a damping of words": (
-        "<limit", "<dynamics damping='low'/><limit", "", "cannot load it: its URDF parser refuses it",
+        "<limit", "<dynamics damping='low'/><limit", "", "its URDF parser refuses it",
     ),
 }  # fmt: skip
 
