@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 class QuasistaticError(Exception):
     """Root of every error that this package raises on purpose."""
 
+    def __str__(self) -> str:
+        return one_line(super().__str__())
+
     def __reduce__(self) -> tuple[Any, ...]:
         # Exceptions are rebuilt from `args`, which here hold the message only.
         return _rebuilt, (type(self), self.args, self.__dict__)
@@ -56,7 +59,7 @@ class InputError(QuasistaticError):
         where = f"{self.file}: " if self.file is not None else ""
         what = f"{self.field}: " if self.field is not None else ""
         got = f" (got {_short(self.value)})" if self.value is not None else ""
-        return f"{where}{what}{self.problem}{got}"
+        return one_line(f"{where}{what}{self.problem}{got}")
 
     def in_file(self, file: str | Path) -> InputError:
         """Return the same error, saying which file it is about (unless it says so already)."""
@@ -198,6 +201,13 @@ class RunFailed(QuasistaticError):
     def __init__(self, reason: str, trajectory: Any, step: StepData | None = None) -> None:
         self.reason, self.trajectory, self.step = reason, trajectory, step
         super().__init__(reason)
+
+
+def one_line(text: str) -> str:
+    """Text whose line ends and control characters are escaped: names come from any file."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:

@@ -155,13 +155,24 @@ def json_read(path: str | Path) -> Any:
     """The value in a JSON file; InputError if it does not parse, or names a field twice."""
     try:
         text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
-        return json.loads(text, object_pairs_hook=unique_fields)
+        value = json.loads(text, object_pairs_hook=unique_fields)
+        _check_characters(text, value)
     except InputError as error:
         raise error.in_file(path) from None
     except json.JSONDecodeError as error:
         raise InputError(f"is not JSON: {error}", file=path) from None
     except (RecursionError, ValueError):  # nested too deeply, or an integer of too many digits
         raise InputError("is not usable JSON: too deep, or a number too long", file=path) from None
+    return value
+
+
+def _check_characters(text: str, value: Any) -> None:
+    r"""Refuse half of a surrogate pair, ``"\ud800"``, which no file in UTF-8 can hold."""
+    if "\\ud" in text.lower():
+        try:
+            json.dumps(value, ensure_ascii=False).encode()
+        except UnicodeEncodeError:
+            raise InputError("is not usable JSON: a string holds half of a character") from None
 
 
 def unique_fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

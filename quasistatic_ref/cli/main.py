@@ -6,6 +6,7 @@ Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 1
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import sys
@@ -51,6 +52,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status.
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
+            stream.reconfigure(errors="backslashreplace")
     parser = Parser(
         prog="quasistatic-ref",
         description="Convex quasi-dynamic simulation with torsional friction: the reference.",

@@ -58,6 +58,7 @@ CAUSES = {
     "a table twice in TOML": ("scene.toml", b"[solver]\n[solver]\n", "is not TOML: Cannot declare"),
     "a field twice in JSON": ("step.json", b'{"h": 1, "h": 2}', "h: is given twice (got 2)"),
     "an attribute twice in XML": ("ball.urdf", b'<robot name="a" name="b"/>', "duplicate attr"),
+    "half a character": ("step.json", b'{"format": "\\ud800"}', "holds half of a character"),
     "a list for a step": ("step.json", b"[]", "must be a table of named fields (got [])"),
     "a number for a step": ("step.json", b"1", "must be a table of named fields (got 1)"),
     "another XML": ("ball.urdf", b"<svg/>", "root element: must be <robot> (got 'svg')"),

@@ -171,7 +171,8 @@ def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     scene, (folder, words) = scene_written(tmp_path), FOLDERS[cause]
     path = folder(tmp_path)
     sentence = refused(command, *([scene] if command == "run" else []), "--out", path)
-    assert sentence.startswith(f"{path}: cannot be written: ")
+    shown = str(path).replace("\0", "\\x00")
+    assert sentence.startswith(f"{shown}: cannot be written: ")
     assert words in sentence
     assert sentence.endswith("; choose another folder")
 

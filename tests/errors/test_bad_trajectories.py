@@ -97,6 +97,10 @@ CAUSES = {
         lambda run: rewritten(rewritten(run), {"readme.txt": b"hello"}),
         f"{NOT_ONE}: EOF: reading magic string",
     ),
+    "a name of several lines": (
+        lambda run: rewritten(run).replace(b"header.npy", b"he\n\x1b[2J.np"),
+        f"he\\n\\x1b[2J.np: {NOT_ONE}",
+    ),
     "encrypted": (lambda run: flagged(run, 8, 1), NOT_ONE),
     "another compression": (lambda run: flagged(run, 10, 77), NOT_ONE),
     "a pickle": (
