@@ -20,7 +20,7 @@ CAUSES = {
     "a flat gravity": (("gravity", [0, -9.81]), "gravity", "must be 3 numbers (got [0, -9.81])"),
     "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
     "an unknown field": (("setps", 3), "setps", "is unknown; did you mean 'steps'"),
-    "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown; known:"),
+    "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
     "an unknown record": (("record", "ful"), "record", "did you mean 'full'"),
     "an unknown backend": (("solver/backend", "clarable"), "solver.backend", "mean 'clarabel'"),
     "an unknown certificate": (("solver/certify", "fully"), "solver.certify", "mean 'full'"),
