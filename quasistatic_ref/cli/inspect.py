@@ -32,7 +32,8 @@ def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        record = system_record(System([Body(name=_body_name(path.stem), urdf=path)]))
+        name = re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
+        record = system_record(System([Body(name=name, urdf=path)]))
     else:
         record = scenario_record(load_scenario(options.file, options.settings))
     if options.json:
@@ -40,12 +41,6 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print(record)
     return 0
-
-
-def _body_name(stem: str) -> str:
-    """A file's name as a body's, which may not hold just any character."""
-    name = re.sub(r"[\s/#*]", "_", stem)
-    return "robot" if name == "world" else name
 
 
 def system_record(system: System) -> dict[str, Any]:
