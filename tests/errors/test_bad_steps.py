@@ -99,6 +99,44 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field, k
     assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
 
 
+BEYOND = {
+    # Found by fuzzing: products of these leave the range of float64, or come near its ends.
+    "J": ("contacts/1/J/0/0", 1.34e154),
+    "a normal": ("contacts/1/n/0", 1.34e154),
+    "a tiny J": ("contacts/1/J/2/2", 5e-324),
+    "friction": ("contacts/1/mu_v", 4.3e151),
+    "torsion": ("contacts/0/mu_omega", 5.6e306),
+    "a force": ("tau_u/0", 7.4e156),
+    "a target": ("delta_q_bar_a/1", 1e300),
+    "a stiffness": ("K_q/1/1", 1e300),
+    "a mass": ("M_u/2/2", 1e300),
+    "a gap": ("contacts/1/phi", 1.7e308),
+    "a long step": ("h", 2.7e307),
+    "a short step": ("h", 5e-324),
+}
+
+
+@pytest.mark.parametrize("certify", ["full", "residual", "off"])
+@pytest.mark.parametrize("cause", BEYOND)
+def test_numbers_out_of_range_are_refused_or_answered(tmp_path, capsys, cause, certify):
+    path, output = written(tmp_path, changed(STEP, BEYOND[cause])), tmp_path / "solution.json"
+    status = main(["solve", str(path), "-o", str(output), "--certify", certify])
+    said = capsys.readouterr().err
+    assert len(said.splitlines()) == 1
+    if status == 0:
+        assert np.isfinite(json.loads(output.read_text())["delta_q"]).all()
+    else:
+        assert status in (2, 3)
+        assert said.startswith("quasistatic-ref: ")
+        assert not output.exists()
+
+
+def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
+    path = written(tmp_path, changed(STEP, BEYOND["a force"]))
+    sentence = refused("solve", path)
+    assert "their products leave the range of float64; look for a wrong unit" in sentence
+
+
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     """The good step, in a folder with its true solution."""
