@@ -8,6 +8,7 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.files import writable_folder
 from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
@@ -28,6 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it; exit status 3 where a step has no solution, its steps so far being kept."""
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
+    writable_folder(options.out)  # known before the work, not after it
     stem = scenario.path.stem
     try:
         trajectory = scenario.run()

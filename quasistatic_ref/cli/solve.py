@@ -49,7 +49,8 @@ def run(options: argparse.Namespace) -> int:
             remedy = f"needs the exact optimum; leave out --certify {certify}"
             raise InputError(remedy, field="--digits", value=options.digits)
     step = step_read(options.step)
-    backend = options.backend or DEFAULT
+    backend = DEFAULT if options.backend is None else options.backend
+    certify = CERTIFY[0] if options.certify is None else options.certify
     try:
         solution = solve_step(step, backend, certify=certify)
     except StepInfeasible as proof:

@@ -292,13 +292,11 @@ def test_a_step_that_a_run_does_not_have_is_bad_input(scene, out, capsys, k):
     assert said == f"{out / 'scene.npz'}: step: must be 0 to 4 (got {k})"
 
 
-@pytest.mark.xfail(reason="the name is looked up in step 0: a run of 0 steps is written")
 def test_a_backend_that_does_not_exist_leaves_no_trajectory(scene, out, capsys):
     assert main(["run", scene, "--out", str(out), "--backend", "clarabell"]) == 2
     assert not out.exists()
 
 
-@pytest.mark.xfail(reason="K_q as a matrix is first checked in step 0: a run of 0 steps is written")
 def test_a_matrix_that_is_no_stiffness_is_refused_before_the_run(tmp_path, out, capsys):
     text = PUSH.replace("slide = 500", "slide = [[-500]]")
     path = written_scenario(tmp_path, text)
