@@ -262,13 +262,7 @@ def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> N
 
 
 def positive_definite(key: str, S: Array) -> Array:
-    """Return S made exactly symmetric from its lower triangle, or refuse it.
-
-    Raises
-    ------
-    StepDataError
-        About the field `key`, if S is not symmetric or not positive definite.
-    """
+    """S made exactly symmetric from its lower triangle; StepDataError about `key` otherwise."""
     scale = np.abs(S).max(initial=0.0)
     if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())
