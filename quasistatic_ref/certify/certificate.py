@@ -19,7 +19,8 @@ from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rows import ROW_NAMES, contact_rows, flat_rows
+from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
 
@@ -80,7 +81,7 @@ def in_words(step: StepData, certificate: Certificate) -> str:
         return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
     if certificate.kind != "exact":
         return "nothing is certified"
-    m = int(step.contacts.offsets[-1]) + len(step.extra.names)
+    m = int(step.offsets[-1]) + len(step.extra.names)
     words = [
         f"exact: the optimum of the step, correctly rounded; {len(certificate.active)} of {m} rows "
         "hold it",
@@ -195,4 +196,4 @@ def _row_name(step: StepData, i: int) -> str:
     ((contact, row),) = contact_rows(step, [i])
     if contact == step.contacts.n_c:
         return f"the extra row {step.extra.names[row]}"
-    return f"row {ROW_NAMES[row]} of contact {step.contacts.name[contact]}"
+    return f"row {cone(step.cone).row_names[row]} of contact {step.contacts.name[contact]}"

@@ -8,6 +8,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
+from quasistatic_ref.step.cones import cone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
         "steps": trajectory.steps,
         "backend": scenario.backend,
         "variables": scenario.system.n_v,
-        "rows": int(trajectory["rows"].sum()),
+        "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
         "milliseconds_per_step": milliseconds,

@@ -12,7 +12,6 @@ from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
-from quasistatic_ref.step.files import step_read
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 
 
@@ -30,7 +29,7 @@ def run(options: argparse.Namespace) -> int:
 
     An infeasible step gets a solution file too, with the proof, and exit status 3.
     """
-    step = step_read(options.step)
+    step = shared.step_given(options)
     backend = options.backend or DEFAULT
     try:
         solution = solve_step(step, backend, certify=options.certify or CERTIFY[0])

@@ -23,7 +23,8 @@ from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import CERTIFY
-from quasistatic_ref.step.data import CONES, Array
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
@@ -50,7 +51,7 @@ class Scenario:
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External, world frame, at centres of mass.
-    backend, accuracy, certify, record
+    backend, accuracy, certify, record, cone
         Settings.
     """
 
@@ -68,6 +69,7 @@ class Scenario:
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     record: str = "full"
+    cone: str = PYRAMID
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
 
     def simulator(self) -> Simulator:
@@ -82,6 +84,7 @@ class Scenario:
             backend=self.backend,
             accuracy=self.accuracy,
             certify=self.certify,
+            cone=self.cone,
         )
 
     @property
@@ -144,7 +147,11 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
     h, steps = top.number("h", above=0.0), top.integer("steps", least=0)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    top.text("cone", "pyramid", CONES)
+    named = top.text("cone", PYRAMID)
+    try:
+        cone(named)
+    except InputError as error:
+        raise top.fail("cone", error.problem, named) from None
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
     backend = solver.text("backend", DEFAULT)
@@ -186,6 +193,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         accuracy=accuracy,
         certify=certify,
         record=record,
+        cone=named,
         bodies=entries,
     )
 

@@ -17,6 +17,7 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
@@ -68,6 +69,8 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     backend, accuracy, certify
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    cone : str
+        Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     """
 
     def __init__(
@@ -82,12 +85,14 @@ class Simulator:
         backend: str = DEFAULT,
         accuracy: float = ACCURACY,
         certify: str = "full",
+        cone: str = PYRAMID,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.cone = cone
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -135,6 +140,7 @@ class Simulator:
             tau_u=tau[n_a:],
             delta_q_bar_a=system.difference(q, target)[:n_a],  # q_bar_a(t + h) (-) q_a
             contacts=at,
+            cone=self.cone,
         )
 
     def solved(self, step: StepData) -> StepSolution:
@@ -190,7 +196,9 @@ def simulate(
     """
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
-    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q)
+    recorder = Recorder(
+        simulator.system, simulator.h, simulator.backend, record, q, cone=simulator.cone
+    )
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )

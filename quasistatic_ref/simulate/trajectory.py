@@ -17,6 +17,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_text, written_whole
 from quasistatic_ref.model.system import System
+from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -37,7 +38,7 @@ class Trajectory:
     Parameters
     ----------
     header : mapping
-        format, version, h, backend, record, n_a, n_u, coordinates, contacts (names by step),
+        format, version, h, backend, cone, record, n_a, n_u, coordinates, contacts (names by step),
         steps, and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
@@ -90,7 +91,12 @@ class Trajectory:
             **{key: a[key] for key in CONSTANT},
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-        return StepData(h=self.header["h"], **{key: a[key][k] for key in parts}, contacts=contacts)
+        return StepData(
+            h=self.header["h"],
+            **{key: a[key][k] for key in parts},
+            contacts=contacts,
+            cone=self.header.get("cone", PYRAMID),
+        )
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""
@@ -162,12 +168,24 @@ class Recorder:
         ``"full"`` or ``"light"``.
     q : ndarray, shape (n_q,)
         Where the run starts.
+    cone : str
+        Friction cone.
     """
 
-    def __init__(self, system: System, h: float, backend: str, record: str, q: Array) -> None:
+    def __init__(
+        self,
+        system: System,
+        h: float,
+        backend: str,
+        record: str,
+        q: Array,
+        *,
+        cone: str = PYRAMID,
+    ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.system, self.h, self.backend, self.record = system, h, backend, record
+        self.cone = cone
         self.q = [q]
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
@@ -212,6 +230,7 @@ class Recorder:
             "version": VERSION,
             "h": self.h,
             "backend": self.backend,
+            "cone": self.cone,
             "record": self.record,
             "n_a": self.system.n_a,
             "n_u": self.system.n_u,

@@ -98,7 +98,7 @@ def solve_step(
 def _asked(natural: StepData, backend: str, accuracy: float, problem: StepProblem | None) -> Answer:
     """The backend's answer, the rows out of reach bearing no load."""
     answer = backend_answer(within_reach(natural), backend, accuracy, problem)
-    idle = np.repeat(out_of_reach(natural), natural.contacts.rows)
+    idle = np.repeat(out_of_reach(natural), natural.counts)
     answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
     return answer
 
@@ -159,12 +159,12 @@ def _solution(
     certificate: Certificate,
     statistics: SolverStatistics,
 ) -> StepSolution:
-    m = int(step.contacts.offsets[-1])
+    m = int(step.offsets[-1])
     return StepSolution(
         delta_q=delta_q,
         lam=lam[:m],
         lam_extra=lam[m:],
-        wrench=contact_wrenches(step.contacts, lam[:m], step.h),
+        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         backend=backend,
         certificate=certificate,
         statistics=statistics,

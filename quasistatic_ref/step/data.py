@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.tolerances import DEFINITE, ORTHONORMAL, SYMMETRIC
 
 Array = NDArray[np.float64]
-CONES = ("pyramid",)
 ROWS = (4, 6)
 
 
@@ -41,7 +41,7 @@ class Contacts:
     mu_omega : ndarray, shape (n_c,)
         Torsional friction coefficient, a length [m], >= 0.
     rows : ndarray of int, shape (n_c,)
-        6, or 4 for a contact without torsional rows.
+        6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
 
     Raises
     ------
@@ -93,16 +93,6 @@ class Contacts:
         """Number of contacts."""
         return len(self.name)
 
-    @cached_property
-    def mask(self) -> NDArray[np.bool_]:
-        """Which of the six rows of each contact exist, shape (n_c, 6)."""
-        return _read_only(np.arange(6) < self.rows[:, None])
-
-    @cached_property
-    def offsets(self) -> NDArray[np.int64]:
-        """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return _read_only(np.concatenate([[0], np.cumsum(self.rows)]))
-
 
 @dataclass(frozen=True, eq=False)
 class Extra:
@@ -147,7 +137,7 @@ class StepData:
     contacts : Contacts
         The contact points considered.
     cone : str
-        Friction cone; ``"pyramid"`` is the paper's.
+        Friction cone; ``"pyramid"`` is the paper's. See :mod:`~quasistatic_ref.step.cones`.
     extra : Extra
         Further rows; none by default.
 
@@ -164,7 +154,7 @@ class StepData:
     tau_u: Array
     delta_q_bar_a: Array
     contacts: Contacts
-    cone: str = "pyramid"
+    cone: str = PYRAMID
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
 
     def __post_init__(self) -> None:
@@ -174,8 +164,7 @@ class StepData:
         object.__setattr__(self, "h", float(h))
         if not isinstance(self.contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=self.contacts)
-        if self.cone not in CONES:
-            raise StepDataError(f"must be one of {CONES}", field="cone", value=self.cone)
+        cone(self.cone)  # refuses a name that it does not know
         n_a, n_u = np.size(self.tau_a), np.size(self.tau_u)
         if self.extra is None:
             object.__setattr__(self, "extra", Extra((), np.zeros((0, n_a + n_u)), np.zeros(0)))
@@ -206,6 +195,21 @@ class StepData:
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
+
+    @cached_property
+    def counts(self) -> NDArray[np.int64]:
+        """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
+        return _read_only(cone(self.cone).counts(self.contacts.rows))
+
+    @cached_property
+    def mask(self) -> NDArray[np.bool_]:
+        """Which of the cone's rows each contact has, shape (n_c, R)."""
+        return _read_only(np.arange(len(cone(self.cone).row_names)) < self.counts[:, None])
+
+    @cached_property
+    def offsets(self) -> NDArray[np.int64]:
+        """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
+        return _read_only(np.concatenate([[0], np.cumsum(self.counts)]))
 
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""

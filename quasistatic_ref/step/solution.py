@@ -81,7 +81,8 @@ class StepSolution:
     delta_q : ndarray, shape (n_v,)
         Displacement [m, rad] in the paper's order.
     lam : ndarray, shape (m,)
-        Multipliers of the contact rows, contact-major: impulses [N s].
+        Multipliers of the contact rows, contact-major: impulses [N s]. In the ellipsoid, each
+        contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
     lam_extra : ndarray
         Multipliers of the user's own rows.
     wrench : ndarray, shape (n_c, 4)
