@@ -51,7 +51,7 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     assert certificate is not None
     assert delta_q is not None
     assert lam is not None
-    if certificate.kind != "exact":
+    if certificate.kind not in ("exact", "enclosure"):
         return f"a certificate of kind {certificate.kind!r} proves nothing; solve with full"
     verdict = verify(step, delta_q, certificate.active, lam, certificate)
     if not verdict:

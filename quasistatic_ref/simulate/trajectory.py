@@ -139,9 +139,14 @@ def trajectory_read(path: str | Path) -> Trajectory:
 
 
 def certified(trajectory: Trajectory) -> str:
-    """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``."""
-    exact = int(np.sum(trajectory["certificate"] == "exact")) if trajectory.steps else 0
-    return f"{exact} of {trajectory.steps} steps exact"
+    """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``.
+
+    In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``.
+    """
+    kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
+    exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
+    told = f", {enclosed} enclosed" if enclosed else ""
+    return f"{exact} of {trajectory.steps} steps exact{told}"
 
 
 def _or_nan(value: float | None) -> float:
