@@ -122,6 +122,10 @@ def enclosure(step: StepData) -> Enclosure | None:
     """
     form = exact_form(step)
     balls = ball_form(form)
+    nothing = np.zeros(form.m)
+    if apex_refutation(step, form, (), nothing) is None:  # no contact bears load
+        delta_q, _, net, _ = rounded_solution(form, rational_solution(form, ()))
+        return Enclosure(delta_q, nothing, net, (), 0.0)
     with ctx.workprec(BITS):
         mu = _coefficients(step)
         guess = _interior(step, form, balls, mu)

@@ -16,10 +16,11 @@ from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, Step
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.problem import Extension, StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -71,6 +72,8 @@ class Simulator:
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
+    extension : callable, optional
+        q -> constraints and costs of the user's own at q, for every step.
     """
 
     def __init__(
@@ -86,13 +89,14 @@ class Simulator:
         accuracy: float = ACCURACY,
         certify: str = "full",
         cone: str = PYRAMID,
+        extension: Callable[[Array], Extension] | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
-        self.cone = cone
+        self.cone, self.extension = cone, extension
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -120,8 +124,11 @@ class Simulator:
         points = closest_points(self.pairs, kinematics)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
+        own = None if self.extension is None else self.extension(q)
+        if own is not None and (rows := extension_rows(step, own)) is not None:
+            step, own = with_rows(step, rows), None
         lap("rows")
-        solution = self.solved(step)
+        solution = self.solved(step, own)
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
         lap("integrate")
@@ -143,9 +150,9 @@ class Simulator:
             cone=self.cone,
         )
 
-    def solved(self, step: StepData) -> StepSolution:
+    def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a CVXPY problem that is built once."""
-        if self.problem is None:
+        if self.problem is None or not self.problem.fits(step):
             self.problem = StepProblem(step)
         return solve_step(
             step,
@@ -153,6 +160,7 @@ class Simulator:
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,
+            extension=own,
         )
 
 

@@ -18,7 +18,7 @@ from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_text, written_whole
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
@@ -38,8 +38,9 @@ class Trajectory:
     Parameters
     ----------
     header : mapping
-        format, version, h, backend, cone, record, n_a, n_u, coordinates, contacts (names by step),
-        steps, and ``failed``: the reason, or None for a complete run.
+        format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
+        coordinates, contacts (names by step), steps, and ``failed``: the reason, or None for a
+        complete run.
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
         ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
@@ -47,7 +48,8 @@ class Trajectory:
         certified), ``digits`` (correct ones of the backend; NaN where the exact answer is not
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
-        ``J``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
+        ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
+        ``extra_b``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step; kept in memory only, so that equal runs make equal
         files.
@@ -91,11 +93,15 @@ class Trajectory:
             **{key: a[key] for key in CONSTANT},
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
+        names = tuple(self.header.get("extra", ()))
+        none = np.zeros((0, a["delta_q"].shape[1])), np.zeros(0)
+        rows = (a["extra_A"][k], a["extra_b"][k]) if names else none
         return StepData(
             h=self.header["h"],
             **{key: a[key][k] for key in parts},
             contacts=contacts,
             cone=self.header.get("cone", PYRAMID),
+            extra=Extra(names, *rows),
         )
 
     def save(self, path: str | Path) -> Path:
@@ -191,6 +197,7 @@ class Recorder:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.system, self.h, self.backend, self.record = system, h, backend, record
         self.cone = cone
+        self.extra: tuple[str, ...] = ()
         self.q = [q]
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
@@ -222,6 +229,11 @@ class Recorder:
             row |= {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
             for key in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
                 row[key] = getattr(step, key)
+        if step.extra.names:
+            row["lam_extra"] = solution.lam_extra
+            if self.record == "full":
+                row |= {"extra_A": step.extra.A, "extra_b": step.extra.b}
+        self.extra = step.extra.names
         self.rows.append(row)
         self.q.append(result.q)
         self.names.append(step.contacts.name)
@@ -236,6 +248,7 @@ class Recorder:
             "h": self.h,
             "backend": self.backend,
             "cone": self.cone,
+            "extra": list(self.extra),
             "record": self.record,
             "n_a": self.system.n_a,
             "n_u": self.system.n_u,

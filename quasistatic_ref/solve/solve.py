@@ -18,6 +18,7 @@ from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.ask import Answer, backend_answer
 from quasistatic_ref.solve.backends import DEFAULT, NONE, cone_backend
+from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.units import (
     Units,
     from_natural,
@@ -29,7 +30,7 @@ from quasistatic_ref.solve.units import (
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.problem import Extension, StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
@@ -44,6 +45,7 @@ def solve_step(
     accuracy: float = ACCURACY,
     certify: str = "full",
     problem: StepProblem | None = None,
+    extension: Extension | None = None,
 ) -> StepSolution:
     """The optimum of Eq. (13).
 
@@ -63,6 +65,9 @@ def solve_step(
         rigorous bound of its error; ``"off"``: the backend's answer, on its own word.
     problem : StepProblem, optional
         A compiled problem of the same kind, kept by the caller between steps.
+    extension : Extension, optional
+        Constraints and costs of the caller's own. Linear constraints become rows of the step, and
+        are certified as such; any others need a backend that takes cones, and get residuals.
 
     Returns
     -------
@@ -83,6 +88,11 @@ def solve_step(
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
+    if extension is not None:
+        own = extension_rows(step, extension)
+        if own is None:
+            return extended_solution(step, extension, backend, accuracy, certify)
+        step = with_rows(step, own)
     units = natural_units(step)
     natural = to_natural(step, units)
     if step.cone == ELLIPSOID:

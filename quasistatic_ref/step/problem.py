@@ -132,7 +132,9 @@ class StepProblem:
         inertia = 1 / (2 * h) * cp.quad_form(delta_q_u, M_u) if n_u else 0
         work_a = h * ((tau_k + tau_a) if impedance else tau_a) @ delta_q_a if n_a else 0
         work_u = h * tau_u @ delta_q_u if n_u else 0
-        objective, further = stiffness + inertia - work_a - work_u, []
+        objective = stiffness + inertia - work_a - work_u
+        further: list[cp.Constraint] = []
+        costs: list[cp.Expression] = []
         if extension is not None:
             one = scale or Scale(np.ones(n_v), 1.0, 1.0)
             own = extension.terms(
@@ -153,6 +155,7 @@ class StepProblem:
         self.K_q, self.M_u, self.tau_k, self.tau_a, self.tau_u = K_q, M_u, tau_k, tau_a, tau_u
         self.delta_q_bar_a, self.phi, self.A, self.A_x, self.b_x = delta_q_bar_a, phi, A, A_x, b_x
         self.having, self.friction, self.extra = having, friction, extra
+        self.further, self.costs = further, costs
 
     def fits(self, step: StepData) -> bool:
         """Tell whether a step can be filled in without building another problem."""
