@@ -120,11 +120,16 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
     return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
 
 
-def _friction_rows(contacts: Contacts, name: str) -> Dyadic:
-    """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
+def contact_motion(contacts: Contacts) -> Dyadic:
+    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v)."""
     J = dyadic(contacts.J)
     axes = dyadic(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
-    motion = joined([axes @ J[:, :3], J[:, 3:]], axis=1)  # along n, d1, d2 and spin
+    return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
+
+
+def _friction_rows(contacts: Contacts, name: str) -> Dyadic:
+    """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
+    motion = contact_motion(contacts)
     if name == ELLIPSOID:
         return motion
     # Its cosines and sines are numbers of the step like all others; the pyramid's are 0 and 1.
