@@ -43,3 +43,7 @@ third derivative, below 100 for chains of a metre, so 2e-9; a wrong column is of
 
 FILE_FLOAT32: Final = 1e-7
 """A coordinate of size one that travelled through float32: half its unit of 1.2e-7."""
+
+THRESHOLD: Final = 1e-6
+"""How near to its threshold of slip a grasp is tried: the answers are exact or enclosed to
+1e-13, so what limits it is the rounding of the threshold itself, 1e-16."""
