@@ -47,3 +47,6 @@ FILE_FLOAT32: Final = 1e-7
 THRESHOLD: Final = 1e-6
 """How near to its threshold of slip a grasp is tried: the answers are exact or enclosed to
 1e-13, so what limits it is the rounding of the threshold itself, 1e-16."""
+
+ENCLOSED: Final = 1e-13
+"""Error of an enclosed answer, in the one definition: what the package itself promises."""
