@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,8 @@ def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        record = system_record(System([Body(name=path.stem, urdf=path)]))
+        name = re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
+        record = system_record(System([Body(name=name, urdf=path)]))
     else:
         record = scenario_record(load_scenario(options.file, options.settings))
     if options.json:

@@ -47,7 +47,7 @@ def limit_surfaces() -> Figure:
             axes.set_xlabel(r"$f_1/\mu_v$", labelpad=-6)
             axes.set_ylabel(r"$f_2/\mu_v$", labelpad=-6)
             axes.set_zlabel(r"$\tau/\mu_\omega$", labelpad=-8)
-            axes.tick_params(labelsize=6, pad=-3)
+            axes.tick_params(labelsize=7, pad=-3)
             axes.set_title(name)
         figure.subplots_adjust(left=0.0, right=0.95, bottom=0.06, top=0.92, wspace=0.12)
     return figure
