@@ -1,6 +1,6 @@
 """Joint limits: q_min <= q_a + delta_q_a <= q_max. Rows, hence certified exactly."""
 
-from quasistatic_ref.step.problem import Extension
+from quasistatic_ref.step.extension import Extension
 
 
 def joint_limits(q_a, q_min, q_max):

@@ -2,7 +2,7 @@
 
 import cvxpy as cp
 
-from quasistatic_ref.step.problem import Extension
+from quasistatic_ref.step.extension import Extension
 
 
 def smoothing(weight):

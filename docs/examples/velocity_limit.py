@@ -1,6 +1,6 @@
 """A velocity limit: |delta_q_a| <= h v_max. Rows, hence certified exactly."""
 
-from quasistatic_ref.step.problem import Extension
+from quasistatic_ref.step.extension import Extension
 
 
 def velocity_limit(h, v_max):

@@ -1,6 +1,6 @@
 """Two bodies welded: no point of one moves relative to the other. Equations, certified exactly."""
 
-from quasistatic_ref.step.problem import Extension
+from quasistatic_ref.step.extension import Extension
 
 
 def weld(J_1, J_2):

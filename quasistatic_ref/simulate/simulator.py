@@ -20,7 +20,8 @@ from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.problem import Extension, StepProblem
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 

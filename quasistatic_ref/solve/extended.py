@@ -18,8 +18,9 @@ from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.backends import backend, cone_backend
 from quasistatic_ref.solve.units import STANDSTILL, from_natural, natural_units, to_natural
 from quasistatic_ref.step.data import Array, Extra, StepData
+from quasistatic_ref.step.extension import Extension, Scale
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.problem import Extension, Scale, StepProblem
+from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
@@ -45,14 +46,14 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     """
     problem = StepProblem(step, extension)
     unknowns = (problem.delta_q_a, problem.delta_q_u)
-    if problem.costs or extension.without_stiffness:
+    if problem.own_costs or extension.without_stiffness:
         return None
     problem.fill(step)
     for x in unknowns:
         x.value = np.zeros(x.shape)
     names: list[str] = []
     A, b = [np.zeros((0, step.n_v))], [np.zeros(0)]
-    for k, constraint in enumerate(problem.further):
+    for k, constraint in enumerate(problem.own_constraints):
         equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
         plain = equation or isinstance(constraint, cp.constraints.Inequality)
         if not plain or not constraint.expr.is_affine():

@@ -29,8 +29,9 @@ from quasistatic_ref.solve.units import (
 )
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.problem import Extension, StepProblem
+from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
@@ -216,8 +217,6 @@ def _judged(
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         raise StepNotSolved(name, status, natural, accuracy, residuals)
-    if natural.cone == ELLIPSOID:
-        return Certificate("residual", asdict(residuals))  # the bound below is of polyhedra
     bound = error_bound(natural, answer.delta_q, answer.lam).error
     known = bound if math.isfinite(bound) else None
     return Certificate("residual", asdict(residuals), error_bound=known)

@@ -7,73 +7,14 @@ an ordinary :class:`cvxpy.Problem`: print it, inspect it, extend it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-
 import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.extension import Extension, Scale, Symbols
 from quasistatic_ref.step.friction import friction_coefficients, friction_rows
-
-
-@dataclass(frozen=True, eq=False)
-class Symbols:
-    """What an extension may speak of: CVXPY expressions in SI units, whatever the problem's are.
-
-    Parameters
-    ----------
-    delta_q, delta_q_a, delta_q_u : cvxpy.Expression
-        The unknowns [m, rad].
-    delta_q_bar_a : cvxpy.Expression
-        Desired change of the actuated coordinates [m, rad].
-    slack : tuple of cvxpy.Expression
-        phi + [J'(n~ + d~_i)]' delta_q [m] for each row index i, of the contacts that have it.
-    """
-
-    delta_q: cp.Expression
-    delta_q_a: cp.Expression
-    delta_q_u: cp.Expression
-    delta_q_bar_a: cp.Expression
-    slack: tuple[cp.Expression, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Extension:
-    """Constraints and costs of a user's own.
-
-    Parameters
-    ----------
-    terms : callable
-        Symbols -> constraints and scalar costs, in any order. A cost is added to (13), whose unit
-        is h times an energy [N m s]; parameters and further variables are the user's own.
-    without_stiffness : bool
-        Whether the costs take the place of the impedance (1), which is then left out.
-    """
-
-    terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]]
-    without_stiffness: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Scale:
-    """What the number one means in a problem, for extensions, which are written in SI units.
-
-    Parameters
-    ----------
-    coordinate : ndarray, shape (n_v,)
-        Of delta_q [m, rad].
-    length : float
-        Of phi [m].
-    cost : float
-        Of the objective [N m s].
-    """
-
-    coordinate: Array
-    length: float
-    cost: float
 
 
 class StepProblem:
@@ -123,21 +64,16 @@ class StepProblem:
         slack = [phi[j] + A[i] @ delta_q for i, j in enumerate(having)]
         friction = [slack_i >= 0 for slack_i in slack if slack_i.size]
         if like.cone == ELLIPSOID and n_c:  # no rows: phi + J_n dq >= ||mu o (J_1, J_2, J_w) dq||
+            slack = slack[:1]
             friction = [cp.SOC(slack[0], cp.vstack([A_i @ delta_q for A_i in A[1:]]))]
         extra = [A_x @ delta_q >= b_x] if like.extra.names else []
 
-        # Eq. (13); a term without coordinates is left out.
-        impedance = n_a and not (extension is not None and extension.without_stiffness)
-        stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if impedance else 0
-        inertia = 1 / (2 * h) * cp.quad_form(delta_q_u, M_u) if n_u else 0
-        work_a = h * ((tau_k + tau_a) if impedance else tau_a) @ delta_q_a if n_a else 0
-        work_u = h * tau_u @ delta_q_u if n_u else 0
-        objective = stiffness + inertia - work_a - work_u
-        further: list[cp.Constraint] = []
-        costs: list[cp.Expression] = []
-        if extension is not None:
-            one = scale or Scale(np.ones(n_v), 1.0, 1.0)
-            own = extension.terms(
+        # A user's own terms, in SI units.
+        one = scale or Scale(np.ones(n_v), 1.0, 1.0)
+        own = (
+            []
+            if extension is None
+            else extension.terms(
                 Symbols(
                     delta_q=cp.multiply(one.coordinate, delta_q),
                     delta_q_a=cp.multiply(one.coordinate[:n_a], delta_q_a),
@@ -146,16 +82,27 @@ class StepProblem:
                     slack=tuple(one.length * slack_i for slack_i in slack),
                 )
             )
-            further = [term for term in own if isinstance(term, cp.Constraint)]
-            costs = [term for term in own if not isinstance(term, cp.Constraint)]
-            objective = sum(costs, 0) / one.cost + objective
-        self.problem = cp.Problem(cp.Minimize(objective), friction + extra + further)
+        )
+        own_constraints = [term for term in own if isinstance(term, cp.Constraint)]
+        own_costs = [term for term in own if not isinstance(term, cp.Constraint)]
+        own_cost = sum(own_costs) / one.cost if own_costs else 0
+
+        # Eq. (13); a term without coordinates is left out.
+        impedance = n_a and not (extension is not None and extension.without_stiffness)
+        stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if impedance else 0
+        inertia = 1 / (2 * h) * cp.quad_form(delta_q_u, M_u) if n_u else 0
+        work_a = h * ((tau_k + tau_a) if impedance else tau_a) @ delta_q_a if n_a else 0
+        work_u = h * tau_u @ delta_q_u if n_u else 0
+        objective = stiffness + inertia - work_a - work_u
+        self.problem = cp.Problem(
+            cp.Minimize(objective + own_cost), friction + extra + own_constraints
+        )
 
         self.delta_q_a, self.delta_q_u, self.delta_q = delta_q_a, delta_q_u, delta_q
         self.K_q, self.M_u, self.tau_k, self.tau_a, self.tau_u = K_q, M_u, tau_k, tau_a, tau_u
         self.delta_q_bar_a, self.phi, self.A, self.A_x, self.b_x = delta_q_bar_a, phi, A, A_x, b_x
         self.having, self.friction, self.extra = having, friction, extra
-        self.further, self.costs = further, costs
+        self.own_constraints, self.own_costs = own_constraints, own_costs
 
     def fits(self, step: StepData) -> bool:
         """Tell whether a step can be filled in without building another problem."""

@@ -15,7 +15,8 @@ class Certificate:
     Parameters
     ----------
     kind : str
-        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"residual"``
+        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"enclosure"`` (in the
+        ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
         (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
         Residuals of Eqs. (9)-(12) in natural units [-].

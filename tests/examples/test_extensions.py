@@ -19,8 +19,8 @@ from quasistatic_ref.simulate.simulator import simulate
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.files import step_read, step_written
-from quasistatic_ref.step.problem import Extension
 from tests.helpers import REQUIRED, changed, error, pinch, random_step
 from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
 
