@@ -21,6 +21,7 @@ from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.files import step_read, step_written
+from quasistatic_ref.step.problem import StepProblem
 from tests.helpers import REQUIRED, changed, error, pinch, random_step
 from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
 
@@ -235,3 +236,19 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     assert len(step.extra.names) == 2 * n_a
     answer = solve_step(step, "osqp")
     np.testing.assert_allclose(answer.delta_q, read["delta_q"][7], rtol=EXACT, atol=EXACT)
+
+
+def test_a_step_problem_takes_an_extension_in_si_units_by_itself():
+    limit = Extension(lambda s: [s.delta_q_a <= 0.005])
+    problem = StepProblem(joint(), limit)
+    problem.fill(joint())
+    problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
+    np.testing.assert_allclose(problem.primal(), [0.005], rtol=OPTIMUM, atol=0.0)
+
+
+def test_a_parameter_of_the_user_s_own_can_change_between_steps():
+    limit = cp.Parameter(value=0.005)
+    extension = Extension(lambda s: [s.delta_q_a <= limit])
+    assert solve_step(joint(), extension=extension).delta_q[0] == 0.005
+    limit.value = 0.007
+    assert solve_step(joint(), extension=extension).delta_q[0] == 0.007

@@ -5,10 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.certificate import in_words, verify
 from quasistatic_ref.certify.enclosure import enclosure
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.optimality import ellipsoid_residuals
-from quasistatic_ref.errors import BackendError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Extra
@@ -148,9 +151,10 @@ def test_a_set_without_interior_is_reported_as_uncertified():
     walls = contacts_of(0.0, frames, J, 0.0, 0.0, (4, 4))
     step = round_step(step.replace(contacts=walls))
     answer = solve_step(step)
-    assert answer.certificate.kind in ("residual", "exact")
-    if answer.certificate.kind == "residual":
-        assert answer.certificate.error_bound is None
+    assert enclosure(step) is None
+    assert answer.certificate.kind == "residual"
+    assert answer.certificate.error_bound is None
+    assert "no error bound" in in_words(step, answer.certificate)
     np.testing.assert_allclose(answer.delta_q[0], 0.0, rtol=0.0, atol=1e-12)
 
 
@@ -220,3 +224,21 @@ def test_the_interior_point_gives_a_gap_below_what_was_asked():
         assert found is not None
         assert found.error < 1e-15
     assert cone("ellipsoid").table.shape == (0, 3)
+
+
+def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
+    step = round_step(pinch())
+    with pytest.raises(InputError, match="has no rational optimum"):
+        exact_step(step)
+    answer = solve_step(step)
+    assert error_bound(step, answer.delta_q, answer.lam).error == float("inf")
+    assert "proves nothing of a cone" in str(farkas_refutation(step, ["1"] * 8))
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1e3])
+def test_a_light_or_heavy_bar_is_enclosed_just_as_well(scale):
+    step = round_step(pinch(m=0.2 * scale, grip=5.0 * scale, offset=0.2, stiffness=1000.0 * scale))
+    heavy = step.replace(M_u=np.diag([0.2 * scale] * 3 + [1e-4 * scale] * 3))
+    answer, usual = solve_step(heavy), solve_step(round_step(pinch(grip=5.0, offset=0.2)))
+    assert answer.certificate.kind == "enclosure"
+    assert error(heavy, answer.delta_q, usual.delta_q) < ROUNDING
