@@ -79,3 +79,7 @@ NO_PENETRATION: Final = 1e-10
 DIFFCP: Final = 1e-5
 """Derivatives by diffcp against the largest of their kind: its solver stops at 1e-8, and the linear
 system behind a derivative is solved by iteration."""
+
+SCENE: Final = 1e-9
+"""One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
+are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""

@@ -14,7 +14,10 @@ from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
+from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
@@ -75,6 +78,8 @@ class Simulator:
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
         q -> constraints and costs of the user's own at q, for every step.
+    limits : Limits, optional
+        Beyond which no step is taken.
     """
 
     def __init__(
@@ -91,6 +96,7 @@ class Simulator:
         certify: str = "full",
         cone: str = PYRAMID,
         extension: Callable[[Array], Extension] | None = None,
+        limits: Limits = Limits(),  # noqa: B008 - it is frozen
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
@@ -98,6 +104,7 @@ class Simulator:
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
         self.cone, self.extension = cone, extension
+        self.limits = limits
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -118,7 +125,8 @@ class Simulator:
         Raises
         ------
         StepNotSolved
-            If the backend's answer cannot be trusted.
+            If the backend's answer cannot be trusted, the step has no solution, or it
+            starts or ends beyond the limits.
         """
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
@@ -130,8 +138,10 @@ class Simulator:
             step, own = with_rows(step, rows), None
         lap("rows")
         solution = self.solved(step, own)
+        self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
@@ -201,28 +211,32 @@ def simulate(
     Raises
     ------
     RunFailed
-        If a step fails or is interrupted; it holds the trajectory so far, and the failing step.
+        If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
+        trajectory so far, and the failing step.
     """
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
+    g = float(np.linalg.norm(simulator.gravity))
     recorder = Recorder(
-        simulator.system, simulator.h, simulator.backend, record, q, cone=simulator.cone
+        simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
     )
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )
-    for k in bar:
-        t = (k + 1) * simulator.h
-        try:
-            goal = q_bar_a(t)
-            result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
-        except (QuasistaticError, KeyboardInterrupt) as failure:
-            interrupted = isinstance(failure, KeyboardInterrupt)
-            reason = f"step {k}: {'interrupted' if interrupted else failure}"
-            step = failure.step if isinstance(failure, StepNotSolved) else None
-            raise RunFailed(reason, recorder.trajectory(reason), step) from failure
-        recorder.add(t, goal, result)
-        q = result.q
+    with Interrupt() as interrupt:
+        for k in bar:
+            t = (k + 1) * simulator.h
+            try:
+                interrupt.check()
+                goal = q_bar_a(t)
+                result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+            except (QuasistaticError, KeyboardInterrupt) as failure:
+                interrupted = isinstance(failure, KeyboardInterrupt)
+                reason = f"step {k}: {'interrupted' if interrupted else failure}"
+                step = failure.step if isinstance(failure, StepNotSolved) else None
+                raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+            recorder.add(t, goal, result)
+            q = result.q
     return recorder.trajectory()
 
 

@@ -15,7 +15,13 @@ from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
+from quasistatic_ref.errors import (
+    BackendError,
+    InputError,
+    StepDataError,
+    StepIllPosed,
+    StepNotSolved,
+)
 from quasistatic_ref.solve.ask import Answer, backend_answer
 from quasistatic_ref.solve.backends import DEFAULT, NONE, cone_backend
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
@@ -76,6 +82,8 @@ def solve_step(
 
     Raises
     ------
+    StepDataError
+        If products of its numbers leave the range of float64.
     StepInfeasible
         With ``"full"``, if no displacement satisfies the rows; with the proof.
     StepIllPosed
@@ -94,15 +102,55 @@ def solve_step(
         if own is None:
             return extended_solution(step, extension, backend, accuracy, certify)
         step = with_rows(step, own)
-    units = natural_units(step)
-    natural = to_natural(step, units)
     if step.cone == ELLIPSOID:
         cone_backend(backend, "the ellipsoid")
-    if certify == "full":
-        road = _enclosed if step.cone == ELLIPSOID else _exact
-        return road(step, natural, units, backend, accuracy, problem)
-    if backend == NONE:
+    if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
+    # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost
+    # between BLAS's threads.
+    with np.errstate(all="ignore"):
+        natural, units = _scaled(step)
+        if certify == "full":
+            road = _enclosed if step.cone == ELLIPSOID else _exact
+            solution = road(step, natural, units, backend, accuracy, problem)
+        else:
+            solution = _believed(step, natural, units, backend, accuracy, certify, problem)
+    numbers = (solution.delta_q, solution.lam, solution.lam_extra, solution.wrench.ravel())
+    residuals = np.array(list(solution.certificate.residuals.values()))
+    if not np.isfinite(np.concatenate([*numbers, residuals])).all():
+        raise _out_of_range()
+    return solution
+
+
+def _scaled(step: StepData) -> tuple[StepData, Units]:
+    """The step in its natural units."""
+    try:
+        units = natural_units(step)
+        sizes = np.array([*units.coordinate, units.length, units.size])
+        if (np.isfinite(sizes) & (sizes > 0)).all():
+            return to_natural(step, units), units
+    except (StepDataError, np.linalg.LinAlgError):
+        pass
+    raise _out_of_range()
+
+
+def _out_of_range() -> StepDataError:
+    return StepDataError(
+        "its numbers are too large, too small or too unlike each other: their products leave the "
+        "range of float64; look for a wrong unit"
+    )
+
+
+def _believed(
+    step: StepData,
+    natural: StepData,
+    units: Units,
+    backend: str,
+    accuracy: float,
+    certify: str,
+    problem: StepProblem | None,
+) -> StepSolution:
+    """The backend's own answer."""
     try:
         answer = _asked(natural, backend, accuracy, problem)
         certificate = _judged(natural, answer, backend, accuracy, certify)

@@ -31,7 +31,7 @@ class SolutionFile:
     step_sha256 : str
     backend : str
     delta_q : ndarray, shape (n_v,), or None
-        None of an infeasible step.
+        None of an infeasible step; nothing more is read where step_sha256 is another step's.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
@@ -98,6 +98,8 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
     if named != step.cone:
         raise top.fail("cone", f"must be that of the step, {step.cone!r}", named)
     backend, sha256 = top.text("backend"), top.text("step_sha256")
+    if sha256 != step_sha256(step):
+        return SolutionFile(sha256, backend)  # its shapes are another step's
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):
