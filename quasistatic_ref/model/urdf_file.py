@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.files import bytes_read, text_of
-from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Primitive, Sphere
+from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf_xml import (
     at_most_one,
@@ -44,7 +44,7 @@ class FileLink:
         Centre of mass in the link's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of (Primitive, R (3, 3), t (3,))
+    collisions : tuple of (Solid, R (3, 3), t (3,))
         Each shape and its frame in the link's.
     """
 
@@ -52,7 +52,7 @@ class FileLink:
     mass: float
     com: Array
     inertia: Array
-    collisions: tuple[tuple[Primitive, Array, Array], ...]
+    collisions: tuple[tuple[Solid, Array, Array], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +166,7 @@ def _inertial(link: Element, where: str, ignored: list[str]) -> tuple[float, Arr
     return mass, com, R @ inertia @ R.T
 
 
-def _geometry(element: Element, where: str) -> Primitive:
+def _geometry(element: Element, where: str) -> Solid:
     if len(element) != 1:
         tags = [child.tag for child in element]
         raise ModelError("must hold exactly one shape", field=f"{where}.geometry", value=tags)
