@@ -44,7 +44,7 @@ def support_point(shape: Shape, direction: Array) -> Array:
             return shape.radius * direction
         case Capsule():
             cap = np.array([0.0, 0.0, shape.half_length * np.sign(z)])
-            return shape.radius * direction + cap
+            return np.asarray(shape.radius * direction + cap)
         case Box():
             return np.asarray(shape.half_extents * np.sign(direction))
         case Cylinder():

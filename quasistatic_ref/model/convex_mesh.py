@@ -17,6 +17,8 @@ from quasistatic_ref.tolerances import CONVEX
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+BLOCK = 1 << 22
+"""Points times planes handled at once: some tens of megabytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,10 +112,10 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
 def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     """Hull of a triangle mesh, knowing how much more it holds.
 
-    ``excess`` is the larger of two measures: the part of the hull's volume that the mesh does
-    not enclose, and the depth of the mesh's deepest vertex below the hull's surface relative
-    to the hull's size. An open or inconsistently wound mesh encloses no volume worth the name,
-    and counts as not convex.
+    ``excess`` is the part of the hull's volume that the mesh does not enclose or, where that is
+    next to nothing, the depth of the mesh's deepest vertex below the hull's surface relative to
+    the hull's size, if larger. An open or inconsistently wound mesh encloses no volume worth the
+    name, and counts as not convex.
 
     Parameters
     ----------
@@ -129,12 +131,16 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     points = np.array(vertices, dtype=np.float64)
     used = np.unique(points[np.unique(triangles)], axis=0)
     hull = convex_hull(used)
-    planes, first = np.unique(hull.normals, axis=0, return_index=True)
-    depth = np.full(len(used), np.inf)
-    for normal, offset in zip(planes, hull.offsets[first], strict=True):
-        np.minimum(depth, offset - used @ normal, out=depth)
     a, b, c = (points[triangles] - hull.vertices.mean(axis=0)).transpose(1, 0, 2)
     enclosed = abs(float(np.sum(a * np.cross(b, c)))) / 6
-    size = float(np.ptp(hull.vertices, axis=0).max())
-    excess = max(float(depth.max()) / size, abs(hull.volume - enclosed) / hull.volume)
+    excess = abs(hull.volume - enclosed) / hull.volume
+    if excess <= CONVEX:
+        excess = max(excess, _deepest(hull, used) / float(np.ptp(used, axis=0).max()))
     return convex_hull(used, min(excess, 1.0))
+
+
+def _deepest(hull: ConvexMesh, points: Array) -> float:
+    """Depth of the deepest point below the hull's surface [m]."""
+    planes = np.unique(np.column_stack([hull.normals, hull.offsets]), axis=0)
+    blocks = np.array_split(points, 1 + len(points) * len(planes) // BLOCK)
+    return max(float((planes[:, 3] - some @ planes[:, :3].T).min(axis=1).max()) for some in blocks)
