@@ -14,6 +14,7 @@ import coal
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.ways_out import rival_directions
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.step.data import Array
@@ -22,11 +23,20 @@ from quasistatic_ref.tolerances import SUPPORT, WITNESS
 ACCURACIES = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6)
 """Tolerances asked of coal in turn: the tighter ones sometimes end without an answer."""
 
-CLEARANCE = 1.0
+CLEARANCE = 0.02
 """How far apart, relative to the depth, the solids are put to have a normal computed."""
 
-ROUNDS = 8
-"""Refinements of a normal in penetration; each gains a factor of about curvature times depth."""
+LEAST = 1e-5
+"""[m] added to that: where the solids just touch, relative is nothing."""
+
+OPEN = 1e-2
+"""By how much, relative to the solids' extent, a gap not refined to its end may still widen."""
+
+ENOUGH = 1e-11
+"""Defect [m] at which refining ends."""
+
+ROUNDS = 30
+"""Refinements of a normal in penetration; shallow ones settle in two or three."""
 
 
 class Judged(NamedTuple):
@@ -49,11 +59,11 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
         If coal has no answer that proves itself.
     """
     best = _asked(a, b)
-    if best.phi < 0:
-        best = _refined(a, b, best)
+    if not best.phi > 0:
+        best = _shallowest(a, b, best)
     if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
         raise ContactError(
-            "no trustworthy contact normal at this pose; move the bodies slightly, or use a box, "
+            "no trustworthy contact normal at this pose: move the bodies apart, or use a box, "
             "a capsule, a convex mesh or a cloud",
             field=name,
             value={"phi": best.phi, "n": best.n.tolist()},
@@ -92,30 +102,53 @@ def _judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Arra
     return Judged(phi, alpha, beta, n, float(max(abs(gap - phi), apart)))
 
 
-def _refined(a: Placed, b: Placed, first: Judged) -> Judged:
+def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
+    """The least depth: coal's way out made exact, and every other that may be shorter."""
+    n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
+    n = n / np.sqrt(n @ n)
+    known = _refined(a, b, n)
+    size = float(a.reach(n[None])[0] + a.reach(-n[None])[0])
+    size += float(b.reach(n[None])[0] + b.reach(-n[None])[0])
+    rivals = rival_directions(a, b, known.n, known.phi, size)
+    found = [known, *(_refined(a, b, way) for way in rivals)]
+    best = max(
+        (answer for answer in (first, *found) if answer.defect <= WITNESS),
+        key=lambda answer: answer.phi,
+        default=first,
+    )
+    # A way out that was not followed to its end, but may be the shorter one, decides nothing.
+    open_ends = [answer.phi for answer in found if not answer.defect <= WITNESS]
+    if any(phi > best.phi - OPEN * size for phi in open_ends):
+        return best._replace(defect=np.inf)
+    return best
+
+
+def _refined(a: Placed, b: Placed, n: Array) -> Judged:
     """A normal in penetration, made as good as one apart.
 
     Parted along n by a little more than the depth, the solids have a distance and a normal that
     coal is good at; that normal is the next n, until it stays.
     """
-    best, n = first, first.n
+    best = Judged(-np.inf, a.t, b.t, n, np.inf)
     for _ in range(ROUNDS):
-        if not np.isfinite(n).all():
-            break
         gap = float(n @ (b.farthest(-n) - a.farthest(n)))
-        shift = (CLEARANCE * abs(gap) - gap) * n
+        shift = (CLEARANCE * abs(gap) + LEAST - gap) * n
         parted = _asked(a, b._replace(t=b.t + shift))
         if not (np.isfinite(parted.defect) and parted.phi > 0):
             break
-        n = parted.n
+        before, n = n, parted.n
         phi = float(n @ (b.farthest(-n) - a.farthest(n)))
-        alpha, beta = parted.alpha, parted.beta - shift
+        alpha = parted.alpha
         found = _judged(a, b, phi, alpha, alpha + phi * n, n)
-        drift = float(np.abs(beta - found.beta).max())
+        drift = float(np.abs(parted.beta - shift - found.beta).max())
         found = found._replace(defect=max(found.defect, drift))
-        if not found.defect < best.defect:
+        if found.defect < best.defect:
+            best = found
+        if best.defect <= ENOUGH:
             break
-        best = found
+        # Steps that point the same way are steps of a slow approach: take twice as long a one.
+        n = n + (n - before)
+        n = n / np.sqrt(n @ n)
     return best
 
 

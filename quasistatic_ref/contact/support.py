@@ -63,6 +63,29 @@ def support_point(shape: Shape, direction: Array) -> Array:
             raise ContactError("has no farthest point", field="shape", value=kind)
 
 
+def support_value(shape: Shape, directions: Array) -> Array:
+    """How far the shape reaches along directions (N, 3) of its own frame: max n . x, shape (N,)."""
+    radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+    match shape:
+        case Box():
+            return np.asarray(np.abs(directions) @ shape.half_extents)
+        case Capsule():
+            return shape.radius + shape.half_length * np.abs(axial)
+        case Cylinder():
+            return shape.radius * radial + shape.half_length * np.abs(axial)
+        case Cone():
+            tip = shape.half_length * axial
+            return np.maximum(tip, shape.radius * radial - tip)
+        case Ellipsoid():
+            scaled = directions * shape.half_axes
+            return np.asarray(np.sqrt(np.sum(scaled * scaled, axis=1)))
+        case ConvexMesh():
+            return np.asarray((directions @ shape.vertices.T).max(axis=1))
+        case _:
+            kind = type(shape).__name__
+            raise ContactError("has no closed-form reach", field="shape", value=kind)
+
+
 def _rim(radius: float, x: float, y: float) -> tuple[float, float]:
     length = np.hypot(x, y)
     return (radius * x / length, radius * y / length) if length else (0.0, 0.0)

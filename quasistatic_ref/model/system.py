@@ -72,6 +72,8 @@ class System:
         ``"world"``, then ``"gripper/left_finger"``, ...
     masses : ndarray, shape (L,)
         Mass of each link as its file says [kg].
+    inertias : ndarray, shape (L, 3, 3)
+        About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -94,7 +96,9 @@ class System:
         self._roots = world.roots
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
-        self.masses.setflags(write=False)
+        self.inertias = world.inertias
+        for array in (self.masses, self.inertias):
+            array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates

@@ -65,7 +65,9 @@ def checked_inertias(file: UrdfFile, free: Collection[str]) -> tuple[str, ...]:
                 named = next(((link, d) for link, d in defects if d is not None), (first, defect))
                 raise _refusal(*named)
         notes += [
-            f"link[{link}].inertial.{defect[0]}: {defect[1]}" for link, defect in defects if defect
+            f"link[{link}].inertial.{defect[0]}: {defect[1]}; harmless here"
+            for link, defect in defects
+            if defect
         ]
     return tuple(notes)
 

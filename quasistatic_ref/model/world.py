@@ -36,6 +36,8 @@ class World:
         The pinocchio frame of each link but the world.
     masses : ndarray, shape (L,)
         Mass of each link as its file says; the world has none [kg].
+    inertias : ndarray, shape (L, 3, 3)
+        About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
     roots : dict of str to int
         Number of each body's root link.
@@ -53,6 +55,7 @@ class World:
     links: tuple[str, ...]
     frames: tuple[int, ...]
     masses: Array
+    inertias: Array
     shapes: tuple[PlacedShape, ...]
     roots: dict[str, int]
     start: Array
@@ -81,10 +84,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         urdfs[body.name] = urdf
         model = pin.appendModel(model, _prefixed(urdf.model, body.name), 0, _anchor(body))
     links, masses, roots, shapes = ["world"], [0.0], {}, []
+    inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
         masses += [urdf.file.links[link].mass for link in urdf.links]
+        inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
     joints, start = [], pin.neutral(model)
@@ -99,6 +104,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         links=tuple(links),
         frames=tuple(body_frame(model, link) for link in links[1:]),
         masses=np.array(masses),
+        inertias=np.array(inertias),
         shapes=tuple(shapes),
         roots=roots,
         start=start,

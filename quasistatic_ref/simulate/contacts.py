@@ -76,9 +76,8 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
 
 def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
     value = table.take(key)
-    names = value if isinstance(value, list) else [value]
     found: list[PlacedShape] = []
-    for name in names:
+    for name in value if isinstance(value, list) else [value]:
         if not isinstance(name, str):
             raise table.fail(key, "must be a name or a list of names", value)
         if any(c in name for c in "*?["):
@@ -91,6 +90,10 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
         found += shapes[name]
     if not found:
         raise table.fail(key, "must name at least one shape", value)
+    names = [shape.name for shape in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise table.fail(key, f"names {twice} twice: its friction would count twice", value)
     return found
 
 
