@@ -74,14 +74,11 @@ def pair_errors(a: Solid, b: Solid, count: int, seed: int = 0) -> tuple[dict[str
 def main() -> int:
     """Print the table."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    only = sys.argv[2:]
     solids = closest.solids()
     print(f"{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.\n")
     print("| pair | " + " | ".join(COLUMNS) + " | in penetration | refused | us |")
     print("|---" * (len(COLUMNS) + 4) + "|")
     for first, second in closest.pairs():
-        if only and not (first in only and second in only):
-            continue
         a, b = solids[first], solids[second]
         worst, inside, refused = pair_errors(a, b, count)
         poses = list(closest.poses(50, 1))

@@ -26,11 +26,11 @@ ACCURACIES = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6)
 CLEARANCE = 0.02
 """How far apart, relative to the depth, the solids are put to have a normal computed."""
 
-LEAST = 1e-5
-"""[m] added to that: where the solids just touch, relative is nothing."""
+LEAST = 1e-3
+"""Added to that, relative to the solids' extent: where they just touch, their depth is nothing."""
 
-OPEN = 1e-2
-"""By how much, relative to the solids' extent, a gap not refined to its end may still widen."""
+SAME = 1 - 1e-4
+"""Cosine above which two refined normals are the same way out."""
 
 ENOUGH = 1e-11
 """Defect [m] at which refining ends."""
@@ -106,33 +106,33 @@ def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
     """The least depth: coal's way out made exact, and every other that may be shorter."""
     n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
     n = n / np.sqrt(n @ n)
-    known = _refined(a, b, n)
-    size = float(a.reach(n[None])[0] + a.reach(-n[None])[0])
-    size += float(b.reach(n[None])[0] + b.reach(-n[None])[0])
-    rivals = rival_directions(a, b, known.n, known.phi, size)
-    found = [known, *(_refined(a, b, way) for way in rivals)]
-    best = max(
-        (answer for answer in (first, *found) if answer.defect <= WITNESS),
-        key=lambda answer: answer.phi,
-        default=first,
-    )
+    size = float(sum(solid.reach(np.stack([n, -n])).sum() for solid in (a, b)))
+    known = _refined(a, b, n, size)
+    best = max((first, known), key=lambda answer: (answer.defect <= WITNESS, answer.phi))
+    rivals = rival_directions(a, b, best.n if best.defect <= WITNESS else n, best.phi, size)
+    found = [_refined(a, b, way, size) for way in rivals]
+    for answer in found:
+        if answer.defect <= WITNESS and answer.phi > best.phi:
+            best = answer
     # A way out that was not followed to its end, but may be the shorter one, decides nothing.
-    open_ends = [answer.phi for answer in found if not answer.defect <= WITNESS]
-    if any(phi > best.phi - OPEN * size for phi in open_ends):
+    open_ends = [way for way in found if way.phi + way.defect > best.phi + WITNESS]
+    if any(way.n @ best.n < SAME for way in open_ends):
         return best._replace(defect=np.inf)
     return best
 
 
-def _refined(a: Placed, b: Placed, n: Array) -> Judged:
+def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
     """A normal in penetration, made as good as one apart.
 
     Parted along n by a little more than the depth, the solids have a distance and a normal that
     coal is good at; that normal is the next n, until it stays.
     """
     best = Judged(-np.inf, a.t, b.t, n, np.inf)
-    for _ in range(ROUNDS):
+    for k in range(ROUNDS):
         gap = float(n @ (b.farthest(-n) - a.farthest(n)))
-        shift = (CLEARANCE * abs(gap) + LEAST - gap) * n
+        # Round surfaces settle faster from afar, corners from close by: in turn.
+        clearance = CLEARANCE * abs(gap) + (LEAST * size if k % 2 == 0 else 0.0)
+        shift = (clearance - gap) * n
         parted = _asked(a, b._replace(t=b.t + shift))
         if not (np.isfinite(parted.defect) and parted.phi > 0):
             break
@@ -146,7 +146,7 @@ def _refined(a: Placed, b: Placed, n: Array) -> Judged:
             best = found
         if best.defect <= ENOUGH:
             break
-        # Steps that point the same way are steps of a slow approach: take twice as long a one.
+        # A slow approach keeps its direction: take twice as long a step.
         n = n + (n - before)
         n = n / np.sqrt(n @ n)
     return best

@@ -22,6 +22,9 @@ REACH = 0.08
 STARTS = 4
 """Local maxima that are followed at most."""
 
+NEAR = np.cos(0.2)
+"""Cosine above which a direction is a neighbour of another."""
+
 APART = 0.9
 """Cosine above which two directions are taken to lead to the same maximum."""
 
@@ -32,7 +35,7 @@ def gaps(a: Placed, b: Placed, directions: Array) -> Array:
 
 
 def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float) -> list[Array]:
-    """Directions away from a known one, in whose neighbourhood the gap may exceed phi.
+    """Directions of other maxima of the gap, in whose neighbourhood it may exceed phi.
 
     Parameters
     ----------
@@ -49,8 +52,13 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     list of ndarray, shape (3,)
         At most STARTS, the widest gap first.
     """
-    directions = np.concatenate([_SPHERE, _sharp(a), -_sharp(b)])
-    found = gaps(a, b, directions)
+    sharp = np.concatenate([_sharp(a), -_sharp(b)])
+    spread_gaps, sharp_gaps = gaps(a, b, _SPHERE), gaps(a, b, sharp)
+    peaks = (spread_gaps[_NEIGHBOURS] <= spread_gaps[:, None]).all(axis=1)
+    near = sharp @ _SPHERE.T > NEAR
+    sharp_peaks = (np.where(near, spread_gaps, -np.inf) <= sharp_gaps[:, None]).all(axis=1)
+    directions = np.concatenate([_SPHERE[peaks], sharp[sharp_peaks]])
+    found = np.concatenate([spread_gaps[peaks], sharp_gaps[sharp_peaks]])
     chosen = [first]
     for k in np.argsort(-found, kind="stable"):
         if found[k] <= phi - REACH * size or len(chosen) > STARTS:
@@ -76,3 +84,4 @@ def _sphere(count: int) -> Array:
 
 
 _SPHERE = _sphere(SPREAD)
+_NEIGHBOURS = np.argsort(-(_SPHERE @ _SPHERE.T), axis=1, kind="stable")[:, 1:9]
