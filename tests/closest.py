@@ -10,6 +10,7 @@ form, the gap over many directions. Half-spaces: the support functions, as value
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Iterator
 
 import cvxpy as cp
@@ -260,7 +261,9 @@ def _by_cones(a: Solid, b: Solid, R: Array, t: Array) -> float:
     problem, turn, shift = _PROBLEMS[key]
     turn.value, shift.value = R, t
     tight = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), 1e-11)
-    problem.solve(solver="CLARABEL", **tight)
+    with warnings.catch_warnings():  # "may be inaccurate": judged by the comparison itself
+        warnings.simplefilter("ignore")
+        problem.solve(solver="CLARABEL", **tight)
     return float(problem.value) / 10
 
 

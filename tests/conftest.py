@@ -1,6 +1,10 @@
 """Shared fixtures: deterministic random numbers, and Hypothesis the same in every CI run."""
 
+import contextlib
+import io
 import os
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,3 +19,25 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 def rng() -> np.random.Generator:
     """Random numbers, the same in every run."""
     return np.random.default_rng(20231)
+
+
+@dataclass(frozen=True)
+class CommandRun:
+    """One command of the command line: its exit status, what it printed, where it wrote."""
+
+    status: int
+    output: str
+    errors: str
+    folder: Path
+
+
+@pytest.fixture(scope="session")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
+    """`demo --json`, run once: both cases of the grasp, 300 steps each."""
+    from quasistatic_ref.cli.main import main  # here, so that light tests stay light
+
+    folder = tmp_path_factory.mktemp("demo") / "out"
+    output, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+        status = main(["demo", "--json", "--out", str(folder)])
+    return CommandRun(status, output.getvalue(), errors.getvalue(), folder)

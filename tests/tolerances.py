@@ -43,3 +43,38 @@ third derivative, below 100 for chains of a metre, so 2e-9; a wrong column is of
 
 FILE_FLOAT32: Final = 1e-7
 """A coordinate of size one that travelled through float32: half its unit of 1.2e-7."""
+
+SIGNED_DISTANCE: Final = 1e-12
+"""Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre
+(issue 2): some ten operations, each of 1e-16."""
+
+NORMAL_NEAR_AXIS: Final = 1e-9
+"""Normals [-] of points as near as 1e-3 to where the normal turns: 1e-12 m over that distance."""
+
+COAL: Final = 1e-6
+"""Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
+
+COAL_NORMAL: Final = 1e-4
+"""Normals [-] of convex pairs by coal where faces touch: its witnesses coincide there, and what
+is left of their difference has a direction good to 2e-5 (measured); a wrong face is off by 1."""
+
+BRUTE_FORCE: Final = 2e-3
+"""A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
+above it by at most the spacing."""
+
+FORCE_BALANCE: Final = 1e-8
+"""H delta_q - g - A' lam in SI units against the largest entry of g: 1e-12 in natural units, whose
+lengths and angles differ by up to a thousand."""
+
+NO_PENETRATION: Final = 1e-10
+"""A delta_q - b of a solved step [m]: 1e-12 in natural units of about a centimetre, with room."""
+
+CLOSED_FORM: Final = 1e-12
+"""Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
+
+CURVED_PAIR: Final = 1e-6
+"""Distances [m] of curved pairs: coal's answers are taken when they prove themselves to 1e-6."""
+
+WAY_OUT: Final = 1e-8
+"""Distance of witness points from the surfaces [m] where two polytopes are parallel but for 1e-6:
+a gap that is right to 1e-13 leaves its square root of lateral freedom."""

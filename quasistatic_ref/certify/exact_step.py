@@ -51,7 +51,8 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 def relative_length(step: StepData, delta_q: Array) -> float:
     """||delta_q||_H relative to what the step asks for by itself.
 
-    That is the larger of ||H^-1 g||_H, the unconstrained step, and of max_i b_i / ||a_i||, the
+    That is the largest of the unconstrained steps that the target, tau_a and tau_u would each
+    cause alone (together they may cancel, but for rounding), and of max_i b_i / ||a_i||, the
     shortest step that satisfies the row i alone (a body pushed out of penetration moves however
     small g is). Where nothing is asked for, zero is the optimum.
 
@@ -64,11 +65,14 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     -------
     float
     """
-    form = standard_form(step)
+    form, h, n_a = standard_form(step), step.h, step.n_a
     norm = energy_norm(form)
+    loads = np.zeros((3, step.n_v))
+    loads[0, :n_a], loads[1, :n_a] = h * step.K_q @ step.delta_q_bar_a, h * step.tau_a
+    loads[2, n_a:] = h * step.tau_u
     pushed = form.b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         push_out = form.b[pushed] / norm.impulses(form.A[pushed])
-        asked = float(max(norm.impulses(form.g[None])[0], push_out.max(initial=0.0)))
+        asked = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
         length = norm.displacement(delta_q)
         return length / asked if asked else (0.0 if length == 0 else float("inf"))

@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import resource
 import sys
-
-import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.grasp import CASES, CLOSED, grasp_report
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
-
-CASES = {"with torsion": [], "without torsion": ["contacts.grip.mu_omega=0"]}
-CLOSED, TOP = 0.7, 2.9
-"""When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
-INSTANTS = (0.3, 0.7, 1.4, 2.1, 2.9)
+from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -46,6 +38,8 @@ def run(options: argparse.Namespace) -> int:
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:
+        import resource  # not on Windows, whose users may still ask for --help
+
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (
             2**20 if sys.platform == "darwin" else 2**10  # bytes there, KiB elsewhere
         )
@@ -58,40 +52,15 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:
-    """What one run of the grasp came to, during the lift.
-
-    Returns
-    -------
-    dict
-        rotation_deg (largest since the grip closed), lift_mm, variables, rows, worst_residual
-        (natural units), and the milliseconds of each part of a step.
-    """
-    motion = link_motion(scenario.system, trajectory, "bunny")
-    a, b = motion.index(CLOSED), motion.index(TOP)
-    rotation = np.degrees(motion.rotation_since(CLOSED)[a : b + 1].max())
-    parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
-    return {
-        "steps": trajectory.steps,
-        "certified": certified(trajectory),
-        "variables": trajectory["A"].shape[2],
-        "rows": trajectory["A"].shape[1],
-        "rotation_deg": float(rotation),
-        "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
-        "worst_residual": worst_residual(trajectory),
-        **parts,
-    }
-
-
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
+    from quasistatic_ref.figures.gallery import INSTANTS
     from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
     from quasistatic_ref.figures.style import figure_written
 
-    titled = {case.replace(" ", "\n"): trajectory for case, trajectory in runs.items()}
-    strip = grasp_strip(scenario, titled, INSTANTS)
-    rotation = rotation_plot(scenario, titled, "bunny", CLOSED)
+    strip = grasp_strip(scenario, runs, INSTANTS)
+    rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
     return [path.name for path in paths]
@@ -112,5 +81,6 @@ def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
     }
     rows: list[tuple[str, ...]] = [("", *report)]
     for key, (label, style) in labels.items():
-        rows.append((label, *(style.format(case[key]) for case in report.values())))
+        values = [case[key] for case in report.values()]
+        rows.append((label, *("-" if v is None else style.format(v) for v in values)))
     return rows

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,7 @@ def system_record(system: System) -> dict[str, Any]:
 
 def body_name(path: Path) -> str:
     """A name for the one body of a file: its stem, without what a body's name must not hold."""
-    return "".join("_" if c in "/#*" or c.isspace() else c for c in path.stem) or "body"
+    return re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
 
 
 def scenario_record(scenario: Scenario) -> dict[str, Any]:

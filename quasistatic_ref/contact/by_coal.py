@@ -14,7 +14,7 @@ import coal
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.ways_out import rival_directions
+from quasistatic_ref.contact.ways_out import gaps, rival_directions
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.step.data import Array
@@ -114,6 +114,9 @@ def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
     for answer in found:
         if answer.defect <= WITNESS and answer.phi > best.phi:
             best = answer
+    # No gap exceeds the signed distance: where one does, the way out was not found.
+    if rivals and gaps(a, b, np.array(rivals)).max() > best.phi + WITNESS:
+        return best._replace(defect=np.inf)
     # A way out that was not followed to its end, but may be the shorter one, decides nothing.
     open_ends = [way for way in found if way.phi + way.defect > best.phi + WITNESS]
     if any(way.n @ best.n < SAME for way in open_ends):

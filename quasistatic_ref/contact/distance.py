@@ -2,7 +2,8 @@
 
 Of a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
 on beta, beta's corners on alpha, and the closest pair, in that order, and the k of least signed
-distance are kept. None is nearer than the closest pair, so k = 1 asks for that one alone.
+distance are kept, those that repeat an earlier one after all others. None is nearer than the
+closest pair, so k = 1 asks for that one alone.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import REPEATED
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +39,7 @@ class ClosestPoints:
     n : ndarray, shape (n_c, 3)
         Unit normal from alpha's body to beta's, also in penetration.
     point : ndarray of int, shape (n_c,)
-        Index of the cloud's point; of two solids, the candidate's number.
+        Index of the cloud's point; of two solids, the candidate's number, or 0 if one is kept.
     """
 
     phi: Array
@@ -98,7 +100,7 @@ def pair_closest_points(pair: ContactPair, kinematics: Kinematics) -> ClosestPoi
         alpha=found.alpha[None],
         beta=found.beta[None],
         n=found.n[None],
-        point=np.array([pair.corners]),
+        point=np.array([pair.corners if pair.n_c > 1 else 0]),
     )
     if pair.n_c == 1:
         return nearest
@@ -111,7 +113,19 @@ def pair_closest_points(pair: ContactPair, kinematics: Kinematics) -> ClosestPoi
             nearest,
         ]
     )
-    return candidates.chosen(closest(candidates.phi, pair.k))
+    order = closest(np.where(_repeated(candidates), np.inf, candidates.phi), pair.k)
+    return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
+
+
+def _repeated(candidates: ClosestPoints) -> NDArray[np.bool_]:
+    """Which candidates are an earlier one again: they are kept after all others.
+
+    The closest pair mostly is a corner; without this it would take the place of another, and
+    four contacts under a box would be three.
+    """
+    every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
+    same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
+    return np.asarray(np.tril(same, -1).any(axis=1))
 
 
 def _points_on_solid(

@@ -43,7 +43,7 @@ def grasp_strip(
         for row, (title, run) in zip(grid, runs.items(), strict=True):
             for axes, instant in zip(row, instants, strict=True):
                 _draw_instant(axes, scenario, run, instant)
-            row[0].set_ylabel(title)
+            row[0].set_ylabel(title.replace(" ", "\n"))
         for axes, instant in zip(grid[0], instants, strict=True):
             axes.set_title(f"t = {instant:g} s")
         figure.text(
@@ -65,7 +65,7 @@ def rotation_plot(
             motion = link_motion(scenario.system, run, link)
             after = motion.index(since)
             angle = np.degrees(motion.rotation_since(since))
-            axes.plot(motion.times[after:], angle[after:], label=title.replace("\n", " "))
+            axes.plot(motion.times[after:], angle[after:], label=title)
         axes.set_xlabel("time t [s]")
         axes.set_ylabel("rotation since the grip closed [deg]")
         axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction pyramid", loc="right")

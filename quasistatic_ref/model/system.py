@@ -222,7 +222,8 @@ class System:
             if self.n_v:  # without columns, getFrameJacobian ends the process
                 # n_v columns also with mimics, where data.J is wider.
                 jacobian = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-                J[link] = self._order.paper_v(jacobian)
+                # A single column comes as a vector.
+                J[link] = self._order.paper_v(jacobian.reshape(6, -1))
         return Kinematics(R, t, J)
 
     def body_jacobians(self, q: Array) -> Array:

@@ -119,8 +119,8 @@ def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
 
     Raises
     ------
-    ScenarioError
-        Naming the file, the field and the value.
+    InputError
+        Naming the file, the field and the value; a ScenarioError or, from a URDF, a ModelError.
     """
     path = scenario_path(name)
     try:

@@ -210,10 +210,15 @@ def simulate(
 
 
 def _target_function(simulator: Simulator, target: Target | Array, steps: int) -> Target:
-    """Targets in any accepted form as a function of t, checked."""
+    """Targets in any accepted form as a function of t; every value checked as q is."""
+    system = simulator.system
+
+    def checked(q_a: Array) -> Array:
+        return system.checked(system.with_actuated(system.q_start, q_a))[: system.n_q_a]
+
     if callable(target):
-        return target
-    values, n = np.asarray(target, dtype=np.float64), simulator.system.n_q_a
+        return lambda t: checked(target(t))
+    values, n = np.asarray(target, dtype=np.float64), system.n_q_a
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
         raise InputError(
             f"must hold finite numbers of shape ({n},) or ({steps}, {n})",
@@ -221,8 +226,10 @@ def _target_function(simulator: Simulator, target: Target | Array, steps: int) -
             value=values.shape,
         )
     if values.ndim == 1:
-        return lambda t: values
-    return lambda t: values[round(t / simulator.h) - 1]
+        constant = checked(values)
+        return lambda t: constant
+    table = [checked(row) for row in values]
+    return lambda t: table[round(t / simulator.h) - 1]
 
 
 class Stopwatch:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -28,6 +29,11 @@ VERSION = 1
 RECORDS = ("full", "light")
 CONSTANT = ("mu_v", "mu_omega", "rows")
 """Arrays without a step axis."""
+UNREADABLE: tuple[type[Exception], ...] = (
+    ValueError, KeyError, TypeError, OSError, EOFError, RuntimeError,
+    zipfile.BadZipFile, zlib.error,
+)  # fmt: skip
+"""What NumPy and zipfile raise at a file that is something else, or spoilt."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +123,7 @@ def trajectory_read(path: str | Path) -> Trajectory:
         version = top.integer("version")
     except InputError as error:
         raise error.in_file(path) from None
-    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile, RecursionError):
+    except UNREADABLE:
         raise InputError("is not a trajectory written by this program", file=path) from None
     if version != VERSION:
         raise InputError(
@@ -220,7 +226,7 @@ class Recorder:
             "failed": failed,
             "contacts": self.names if self.record == "full" else [],
         }
-        keys = self.rows[0] if self.rows else ("t", "delta_q")
+        keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
         arrays = {key: np.array([row[key] for row in self.rows]) for key in keys}
         constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
         parts = self.seconds[0] if self.seconds else {}

@@ -225,3 +225,29 @@ def test_many_bodies_of_one_file_do_not_meet(tmp_path: Path) -> None:
     for k, name in enumerate(names):
         assert t[system.link(f"{name}/b")] == pytest.approx([k, 0, 0], abs=ROUNDING)
         assert t[system.link(f"{name}/c")] == pytest.approx([-k, 0, 0], abs=ROUNDING)
+
+
+SINGLE = {
+    "revolute": ("1 2 2", (0, 0, 0, 1 / 3, 2 / 3, 2 / 3)),
+    "continuous": ("0 1 0", (0, 0, 0, 0, 1, 0)),
+    "prismatic": ("1 2 2", (1 / 3, 2 / 3, 2 / 3, 0, 0, 0)),
+}
+
+
+@pytest.mark.parametrize("actuated", [True, False])
+@pytest.mark.parametrize(("kind", "axis", "column"), [(k, *v) for k, v in SINGLE.items()])
+def test_a_world_of_one_coordinate_has_its_axis_as_jacobian(
+    tmp_path: Path, kind: str, axis: str, column: tuple[float, ...], actuated: bool
+) -> None:
+    path = written(tmp_path, robot(link("a"), link("b"), joint("j", "a", "b", kind, axis)))
+    system = System([Body("one", path, actuated=("j",) if actuated else ())])
+    kinematics = system.kinematics(system.q_start)
+    assert kinematics.J.shape == (3, 6, 1)
+    expected = np.array([np.zeros(6), np.zeros(6), column])
+    np.testing.assert_allclose(kinematics.J[:, :, 0], expected, rtol=ROUNDING, atol=ROUNDING)
+    assert system.M_u(system.q_start).shape == ((0, 0) if actuated else (1, 1))
+    moved = system.integrate(system.q_start, np.array([0.3]))
+    np.testing.assert_allclose(
+        system.difference(system.q_start, moved), [0.3], rtol=ROUNDING, atol=ROUNDING
+    )
+    assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (1,)

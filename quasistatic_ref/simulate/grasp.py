@@ -1,0 +1,45 @@
+"""The grasp of the bunny, the paper's section III-B: its two cases and what a run came to."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
+
+CASES: Final[dict[str, list[str]]] = {
+    "with torsion": [],
+    "without torsion": ["contacts.grip.mu_omega=0"],
+}
+"""Changes of the scenario ``bunny_grasp``."""
+
+CLOSED, TOP = 0.7, 2.9
+"""When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
+
+
+def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:
+    """What one run of the grasp came to, during the lift.
+
+    Returns
+    -------
+    dict
+        rotation_deg (largest since the grip closed), lift_mm, variables, rows, worst_residual
+        (natural units), and the milliseconds of each part of a step.
+    """
+    motion = link_motion(scenario.system, trajectory, "bunny")
+    a, b = motion.index(CLOSED), motion.index(TOP)
+    rotation = np.degrees(motion.rotation_since(CLOSED)[a : b + 1].max())
+    parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
+    return {
+        "steps": trajectory.steps,
+        "certified": certified(trajectory),
+        "variables": trajectory["A"].shape[2],
+        "rows": trajectory["A"].shape[1],
+        "rotation_deg": float(rotation),
+        "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
+        "worst_residual": worst_residual(trajectory),
+        **parts,
+    }

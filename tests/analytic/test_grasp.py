@@ -1,0 +1,189 @@
+"""models/bunny_grasp, both runs: the paper's sizes and verdict, and where its files come from."""
+
+import importlib.util
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.model.rotation import rotation_angle
+from quasistatic_ref.model.shapes import PointCloud
+from quasistatic_ref.resources import models_folder
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.tolerances import EXACT, FORCE_BALANCE, MULTIPLIERS, NO_PENETRATION, ROUNDING
+
+CASES = ("with_torsion", "without_torsion")
+CLOSED, TOP = 70, 290  # steps, of 0.01 s
+FOLDER = models_folder() / "bunny_grasp"
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    return load_scenario("bunny_grasp")
+
+
+@pytest.fixture(scope="module")
+def runs(demo):
+    assert demo.status == 0, demo.errors
+    return {case: trajectory_read(demo.folder / f"bunny_grasp_{case}.npz") for case in CASES}
+
+
+@pytest.fixture(scope="module")
+def build():
+    spec = importlib.util.spec_from_file_location("build", FOLDER / "build.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def largest_turn(scenario, run):
+    """Of the bunny since the grip closed, up to the top [deg]."""
+    bunny = scenario.system.link("bunny")
+    R = [scenario.system.kinematics(q).R[bunny] for q in run["q"][CLOSED : TOP + 1]]
+    return max(np.degrees(rotation_angle(turned @ R[0].T)) for turned in R)
+
+
+def test_with_torsion_the_bunny_hangs_still_and_without_it_turns(scenario, runs):
+    turns = {case: largest_turn(scenario, run) for case, run in runs.items()}
+    assert turns["with_torsion"] < 2
+    assert turns["without_torsion"] > 20
+
+
+def test_the_report_of_the_demo_is_that_of_the_trajectories(demo, scenario, runs):
+    report = json.loads(demo.output)["cases"]
+    bunny = scenario.system.joint("bunny/base").q.start
+    for case, run in runs.items():
+        told = report[case.replace("_", " ")]
+        turn = largest_turn(scenario, run)
+        np.testing.assert_allclose(told["rotation_deg"], turn, rtol=ROUNDING)
+        lift = 1e3 * (run["q"][TOP, bunny + 2] - run["q"][CLOSED, bunny + 2])
+        np.testing.assert_allclose(told["lift_mm"], lift, rtol=ROUNDING)
+        assert (told["variables"], told["rows"], told["steps"]) == (13, 80, 300)
+
+
+def test_nothing_but_mu_omega_differs_between_the_runs(runs):
+    one, two = runs.values()
+    np.testing.assert_allclose(one["mu_omega"], [0.0] * 5 + [0.02] * 10, rtol=EXACT)
+    np.testing.assert_allclose(two["mu_omega"], np.zeros(15), rtol=EXACT)
+    for key in ("mu_v", "rows", "K_q", "q_bar_a"):
+        np.testing.assert_allclose(one[key], two[key], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(one["q"][0], two["q"][0], rtol=EXACT, atol=EXACT)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_step_has_13_variables_and_80_rows(runs, case):
+    run = runs[case]
+    assert run["A"].shape == (300, 80, 13)
+    assert run["delta_q"].shape == (300, 13)
+    assert run["rows"].tolist() == [4] * 5 + [6] * 10
+    assert run["H"].shape == (300, 13, 13)
+    assert run.failed is None
+
+
+def test_13_is_a_bunny_and_a_gripper_with_a_floating_base_and_one_width(scenario):
+    twist = ("x", "y", "z", "rx", "ry", "rz")
+    expected = [f"gripper/base.{axis}" for axis in twist]
+    expected += ["gripper/width", *(f"bunny/base.{axis}" for axis in twist)]
+    assert [c.name for c in scenario.system.coordinates] == expected
+    assert (scenario.system.n_a, scenario.system.n_u) == (7, 6)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_step_holds_its_optimality_conditions(runs, case):
+    run = runs[case]
+    assert set(run["certificate"]) == {"exact"}
+    assert (run["worst_residual"] < ROUNDING).all()
+    for k in range(0, 300, 10):
+        A, b, lam, delta_q = run["A"][k], run["b"][k], run["lam"][k], run["delta_q"][k]
+        force = np.abs(run["g"][k]).max()
+        assert lam.min() >= 0
+        balance = run["H"][k] @ delta_q - run["g"][k] - A.T @ lam
+        np.testing.assert_allclose(balance, np.zeros(13), rtol=0, atol=FORCE_BALANCE * force)
+        assert (A @ delta_q - b).min() >= -NO_PENETRATION
+        residuals = optimality_residuals(run.step_data(k), delta_q, lam)
+        assert np.isfinite(residuals.worst)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_contact_wrenches_stay_in_the_octahedron(runs, case):
+    run = runs[case]
+    f_1, f_2, f_n, tau = np.moveaxis(run["wrench"], 2, 0)
+    with_torsion = run["mu_omega"] > 0
+    used = np.abs(f_1) / run["mu_v"] + np.abs(f_2) / run["mu_v"]
+    used[:, with_torsion] += np.abs(tau[:, with_torsion]) / run["mu_omega"][with_torsion]
+    scale = f_n.max()
+    assert (used <= f_n + MULTIPLIERS * scale).all()
+    np.testing.assert_allclose(
+        tau[:, ~with_torsion], np.zeros_like(tau[:, ~with_torsion]), rtol=0, atol=EXACT
+    )
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_five_nearest_points_of_each_object_are_distinct_and_in_order(runs, case):
+    run = runs[case]
+    for block in (slice(0, 5), slice(5, 10), slice(10, 15)):
+        assert (np.diff(run["phi"][:, block], axis=1) >= 0).all()
+        points = run["point"][:, block]
+        assert all(len(set(row)) == 5 for row in points.tolist())
+        assert points.min() >= 0
+        assert points.max() < 992
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, case):
+    run, bunny = runs[case], scenario.system.link("bunny")
+    assert run["phi"][TOP, 0] > 0.005
+    for k in range(CLOSED, TOP, 20):
+        n, d1, d2, f = (run[key][k] for key in ("n", "d1", "d2", "wrench"))
+        force = (f[:, :1] * d1 + f[:, 1:2] * d2 + f[:, 2:3] * n).sum(axis=0)
+        # M_u delta_q_u / h^2 is the drag of the model; its linear part in the bunny's own frame.
+        R = scenario.system.kinematics(run["q"][k]).R[bunny]
+        drag = R @ (run["M_u"][k][:3] @ run["delta_q"][k, 7:]) / 0.01**2
+        expected = drag + np.array([0, 0, 0.2 * 9.81])
+        np.testing.assert_allclose(force, expected, rtol=0, atol=MULTIPLIERS * f[:, 2].max())
+
+
+def test_the_cloud_has_992_points_of_the_mesh(scenario, build):
+    (cloud,) = {id(p.beta.shape): p.beta.shape for p in scenario.pairs}.values()
+    assert isinstance(cloud, PointCloud)
+    assert cloud.points.shape == (992, 3)
+    assert len(np.unique(cloud.points, axis=0)) == 992
+    vertices, _ = build.mesh(FOLDER / "bunny.obj")
+    rounded = {tuple(v) for v in np.round(vertices, 6).tolist()}
+    assert all(tuple(p) in rounded for p in cloud.points.tolist())
+
+
+@pytest.mark.parametrize("name", ["bunny_992.csv", "bunny.urdf"])
+def test_the_committed_files_are_what_the_script_writes(build, tmp_path, name):
+    build.main(out=tmp_path)
+    assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes()
+
+
+def box_mesh(sizes, centre, rng):
+    """The twelve triangles of a box, outwards, in a random order and turned round at random."""
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    triangles = np.array([np.roll(t, rng.integers(3)) for t in triangles])
+    return (corners - 0.5) * sizes + centre, rng.permutation(triangles)
+
+
+def test_the_inertia_of_a_box_mesh_is_the_closed_form(build, rng):
+    (a, b, c), centre, mass = (0.2, 0.3, 0.5), np.array([1.0, -2.0, 0.7]), 4.0
+    vertices, triangles = box_mesh(np.array([a, b, c]), centre, rng)
+    found_centre, inertia = build.solid_inertia(vertices, triangles, mass)
+    expected = mass / 12 * np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2])
+    np.testing.assert_allclose(found_centre, centre, rtol=ROUNDING)
+    # Moments about the far origin cancel: 4 kg at 2.3 m is 21 kg m^2.
+    np.testing.assert_allclose(inertia, expected, rtol=0, atol=21 * ROUNDING)
+
+
+def test_each_point_of_the_sample_is_the_farthest_from_those_before(build, rng):
+    points = rng.normal(size=(60, 3))
+    chosen = build.farthest_point_sample(points, 20, 7).tolist()
+    assert chosen[0] == 7
+    for k in range(1, 20):
+        gaps = [min(sum((p - points[i]) ** 2) ** 0.5 for i in chosen[:k]) for p in points]
+        assert chosen[k] == gaps.index(max(gaps))

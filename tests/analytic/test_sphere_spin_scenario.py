@@ -1,0 +1,96 @@
+"""models/sphere_spin step by step: it sticks up to mu_omega m g, and follows its recurrence beyond.
+
+The formula is that of models/sphere_spin/README.md.
+"""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.simulate.scenario import load_scenario
+from tests.tolerances import EXACT, ROUNDING
+
+MASS, INERTIA, RADIUS, MU_OMEGA, H, GRAVITY = 0.3, 3e-4, 0.05, 0.01, 0.01, 9.81
+LIMIT = MU_OMEGA * MASS * GRAVITY
+AT_LIMIT = 99
+"""The step whose torque is the limit, to rounding."""
+FREE = np.array([H**2 * GRAVITY] * 3 + [H**2 * LIMIT / INERTIA] * 3)
+"""What a step would be without the floor, at the limit: the scale of every motion here."""
+
+
+def torque(k):
+    """Of step k, at its end: it grows to 0.05886 N m in 2 s."""
+    return 0.05886 * (k + 1) * H / 2
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    return load_scenario("sphere_spin")
+
+
+@pytest.fixture(scope="module")
+def run(scenario):
+    return scenario.run(progress=False)
+
+
+def test_the_scenario_is_the_one_of_the_formula(scenario):
+    system = scenario.system
+    assert (scenario.h, scenario.steps) == (H, 200)
+    M_u = np.diag([MASS] * 3 + [INERTIA] * 3)
+    np.testing.assert_allclose(system.M_u(system.q_start), M_u, rtol=ROUNDING, atol=ROUNDING)
+    pair = scenario.pairs[0]
+    assert (pair.beta.shape.radius, pair.mu_omega, pair.rows) == (RADIUS, MU_OMEGA, 6)
+    for k in (0, AT_LIMIT, 199):
+        force = scenario.force((k + 1) * H, system.q_start)
+        np.testing.assert_allclose(force, [0, 0, 0, 0, 0, torque(k)], rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(torque(AT_LIMIT), LIMIT, rtol=ROUNDING)
+
+
+def test_it_sticks_up_to_the_limit(run):
+    moved = run["delta_q"][:AT_LIMIT] / FREE
+    np.testing.assert_allclose(moved, np.zeros((AT_LIMIT, 6)), rtol=0, atol=EXACT)
+
+
+def test_at_the_limit_itself_it_still_sticks(run):
+    np.testing.assert_allclose(run["delta_q"][AT_LIMIT] / FREE, np.zeros(6), rtol=0, atol=ROUNDING)
+
+
+def test_while_it_sticks_friction_balances_the_torque(run):
+    expected = [[0, 0, MASS * GRAVITY, -torque(k)] for k in range(AT_LIMIT)]
+    np.testing.assert_allclose(run["wrench"][:AT_LIMIT, 0], expected, rtol=0, atol=ROUNDING)
+
+
+def test_beyond_the_limit_every_step_is_the_closed_form_from_its_gap(run):
+    expected = np.zeros((100, 6))
+    for k in range(AT_LIMIT + 1, 200):
+        phi = run["phi"][k, 0]
+        turn = (H**2 * (torque(k) - LIMIT) + MASS * MU_OMEGA * phi) / (INERTIA + MASS * MU_OMEGA**2)
+        expected[k - 100, 5], expected[k - 100, 2] = turn, MU_OMEGA * turn - phi
+    np.testing.assert_allclose(run["delta_q"][100:] / FREE, expected / FREE, rtol=0, atol=ROUNDING)
+
+
+def test_the_whole_run_is_the_recurrence_from_rest(run):
+    phi, angle, heights, turns = 0.0, 0.0, [RADIUS], [0.0]
+    for k in range(200):
+        turn = (H**2 * (torque(k) - LIMIT) + MASS * MU_OMEGA * phi) / (INERTIA + MASS * MU_OMEGA**2)
+        if torque(k) <= LIMIT:
+            turn = 0.0
+        phi += MU_OMEGA * turn - phi
+        angle += turn
+        heights.append(RADIUS + phi)
+        turns.append(angle)
+    assert turns[-1] > 0.4
+    np.testing.assert_allclose(run["q"][:, 2], heights, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(run["q"][:, 5], np.sin(np.array(turns) / 2), rtol=0, atol=ROUNDING)
+
+
+def test_friction_is_at_its_limit_while_it_spins(run):
+    # The pair of forces: f_n = m g + m delta_z / h^2, tau = -mu_omega f_n.
+    for k in range(AT_LIMIT + 1, 200):
+        f_n = MASS * GRAVITY + MASS * run["delta_q"][k, 2] / H**2
+        expected = [0, 0, f_n, -MU_OMEGA * f_n]
+        np.testing.assert_allclose(run["wrench"][k, 0], expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_the_gap_is_mu_omega_times_the_last_turn(run):
+    expected = MU_OMEGA * run["delta_q"][100:199, 5]
+    np.testing.assert_allclose(run["phi"][101:, 0], expected, rtol=0, atol=ROUNDING)

@@ -1,0 +1,104 @@
+"""Eq. (2), f = [nu_beta - nu_alpha; n'(omega_beta - omega_alpha)]: motions of material points.
+
+Under test: contact.jacobian.contact_jacobian.
+"""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.jacobian import contact_jacobian
+from tests.scenes import chain_scene
+from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
+
+LINKS = {
+    "a free body on the world": ("world", "box/box"),
+    "the world on a free body": ("box/box", "world"),
+    "a chain on a floating base and a free body": ("arm/lower", "box/box"),
+    "a prismatic joint's link and a mimic's": ("desk/slider", "arm/follower"),
+    "a mimic's link, welded on, and the world": ("desk/tool", "world"),
+    "two links of one chain": ("arm/upper", "arm/tool"),
+}
+
+
+def turn_rate(R_before, R_after, seconds):
+    """Angular velocity between two orientations, world frame, as a list."""
+    return [w / seconds for w in Rotation.from_matrix(R_after @ R_before.T).as_rotvec()]
+
+
+def moved(kinematics, link, local):
+    """R local + t by loops: where a point fixed in a link is."""
+    R, t = kinematics.R[link], kinematics.t[link]
+    return [sum(R[i][k] * local[k] for k in range(3)) + t[i] for i in range(3)]
+
+
+def local(kinematics, link, point):
+    """R'(point - t) by loops: the same point in the link's frame."""
+    R, t = kinematics.R[link], kinematics.t[link]
+    return [sum(R[k][i] * (point[k] - t[k]) for k in range(3)) for i in range(3)]
+
+
+def relative_velocity(system, q, v, link_alpha, link_beta, alpha, beta, n):
+    """f(q, v) of Eq. (2) from positions a little before and after q, moving at v."""
+    here, seconds = system.kinematics(q), 2 * DIFFERENCE_STEP
+    before = system.kinematics(system.integrate(q, -DIFFERENCE_STEP * v))
+    after = system.kinematics(system.integrate(q, DIFFERENCE_STEP * v))
+    nu, omega = {}, {}
+    for side, link, point in (("alpha", link_alpha, alpha), ("beta", link_beta, beta)):
+        fixed = local(here, link, point)
+        one, two = moved(before, link, fixed), moved(after, link, fixed)
+        nu[side] = [(two[i] - one[i]) / seconds for i in range(3)]
+        omega[side] = turn_rate(before.R[link], after.R[link], seconds)
+    spin = sum(n[i] * (omega["beta"][i] - omega["alpha"][i]) for i in range(3))
+    return [*(nu["beta"][i] - nu["alpha"][i] for i in range(3)), spin]
+
+
+@pytest.fixture
+def system(tmp_path):
+    return chain_scene(tmp_path)
+
+
+@pytest.mark.parametrize(("alpha_link", "beta_link"), LINKS.values(), ids=LINKS)
+def test_the_jacobian_times_a_velocity_is_the_relative_velocity(system, rng, alpha_link, beta_link):
+    a, b = system.link(alpha_link), system.link(beta_link)
+    for _ in range(3):
+        q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
+        v = rng.uniform(-1, 1, size=system.n_v)
+        alpha, beta, n = rng.normal(size=(3, 3))
+        n /= np.linalg.norm(n)
+        J = contact_jacobian(
+            system.kinematics(q), np.array([a]), np.array([b]), alpha[None], beta[None], n[None]
+        )
+        expected = relative_velocity(system, q, v, a, b, alpha, beta, n)
+        # Eight joints in a chain move a point at some metres a second: the scale is 10.
+        np.testing.assert_allclose(J[0] @ v, expected, rtol=DIFFERENCE, atol=10 * DIFFERENCE)
+
+
+def test_the_sign_is_beta_minus_alpha(system):
+    q, box = system.q_start, system.link("box/box")
+    base, v = system.joint("box/base"), np.zeros(system.n_v)
+    v[base.v] = [0.3, 0.0, 0.0, 0.0, 0.0, 0.0]  # along the box's own x axis
+    kinematics = system.kinematics(q)
+    at, n = kinematics.t[[box]], np.array([[0.0, 0.0, 1.0]])
+    world, own = np.array([0]), np.array([box])
+    expected = [0.3 * kinematics.R[box][i][0] for i in range(3)]
+    as_beta = contact_jacobian(kinematics, world, own, at, at, n)[0] @ v
+    as_alpha = contact_jacobian(kinematics, own, world, at, at, n)[0] @ v
+    np.testing.assert_allclose(as_beta[:3], expected, rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(as_alpha[:3], -as_beta[:3], rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_alpha_and_beta_are_two_points_where_there_is_a_gap(system):
+    # Turning at rate 1 about its own z, the box carries a point at R [r, 0, 0] along R [0, r, 0].
+    q, box = system.q_start, system.link("box/box")
+    v = np.zeros(system.n_v)
+    v[system.joint("box/base").v] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    kinematics = system.kinematics(q)
+    R, t = kinematics.R[box], kinematics.t[box]
+    beta, alpha = (t + 0.4 * R[:, 0])[None], (t + 0.1 * R[:, 0])[None]
+    f = contact_jacobian(kinematics, np.array([0]), np.array([box]), alpha, beta, R[:, 2][None])
+    np.testing.assert_allclose(f[0, :3] @ v, 0.4 * R[:, 1], rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(f[0, 3] @ v, 1.0, rtol=ROUNDING)
+    f = contact_jacobian(kinematics, np.array([box]), np.array([0]), alpha, beta, R[:, 2][None])
+    np.testing.assert_allclose(f[0, :3] @ v, -0.1 * R[:, 1], rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(f[0, 3] @ v, -1.0, rtol=ROUNDING)

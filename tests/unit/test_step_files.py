@@ -1,0 +1,295 @@
+"""Steps and solutions as JSON: bit for bit, every unknown or missing field refused by name."""
+
+import copy
+import hashlib
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.optimality import Residuals
+from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.files import (
+    step_from_record,
+    step_read,
+    step_sha256,
+    step_text,
+    step_written,
+)
+from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
+from tests.helpers import no_contacts, point_on_floor, random_step
+from tests.tolerances import EXACT
+
+RNG = np.random.default_rng(11)
+PLAIN = random_step(RNG, n_a=2, n_u=3, rows=(6, 4))
+OWN = Extra(("limit", "wall"), RNG.normal(size=(2, 5)), RNG.normal(size=2))
+STEPS = {
+    "plain": PLAIN,
+    "with rows of one's own": PLAIN.replace(extra=OWN),
+    "without contacts": PLAIN.replace(contacts=no_contacts(5)),
+    "nothing actuated": point_on_floor(),
+    "everything actuated": random_step(RNG, n_a=3, n_u=0, rows=(4,)),
+}
+STEP_FIELDS = [
+    "format", "version", "cone", "h", "n_a", "n_u", "K_q", "M_u", "tau_a", "tau_u",
+    "delta_q_bar_a", "contacts",
+]  # fmt: skip
+CONTACT_FIELDS = ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"]
+
+
+def record_of(step):
+    return json.loads(step_text(step))
+
+
+def changed(record, path, value=None):
+    """A deep copy with the field at a path replaced, or removed where no value is given."""
+    new = copy.deepcopy(record)
+    *way, last = path
+    at = new
+    for key in way:
+        at = at[key]
+    if value is None:
+        del at[last]
+    else:
+        at[last] = value
+    return new
+
+
+@pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+def test_a_step_read_back_is_the_same_bits(tmp_path, step):
+    path = step_written(tmp_path / "step.json", step)
+    back = step_read(path)
+    assert back.same_as(step)
+    assert step_text(back) == step_text(step) == path.read_text()
+    assert step_sha256(back) == step_sha256(step)
+
+
+def test_the_file_has_the_documented_fields_in_order():
+    record = record_of(STEPS["with rows of one's own"])
+    assert list(record) == [*STEP_FIELDS, "extra"]
+    assert list(record["contacts"][0]) == CONTACT_FIELDS
+    assert list(record["extra"]) == ["names", "A", "b"]
+    assert "extra" not in record_of(PLAIN)
+    assert (record["format"], record["version"], record["cone"]) == (
+        "quasistatic-ref/step", 1, "pyramid",
+    )  # fmt: skip
+
+
+def test_the_text_is_one_line():
+    assert step_text(PLAIN).count("\n") == 1
+    assert step_text(PLAIN).endswith("}\n")
+
+
+BY_HAND = (
+    '{"format": "quasistatic-ref/step", "version": 1, "cone": "pyramid", "h": 0.01, "n_a": 0, '
+    '"n_u": 3, "K_q": [], "M_u": [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]], '
+    '"tau_a": [], "tau_u": [0.5, 0.0, -2.0], "delta_q_bar_a": [], "contacts": [{"name": "c0", '
+    '"phi": 0.001, "n": [0.0, 0.0, 1.0], "d1": [1.0, 0.0, 0.0], "d2": [0.0, 1.0, 0.0], '
+    '"J": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], "mu_v": 0.5, '
+    '"mu_omega": 0.0, "rows": 4}]}\n'
+)
+
+
+def test_a_step_is_written_as_by_hand_and_hashed_by_its_text():
+    step = point_on_floor(m=0.3, phi=0.001, force=(0.5, 0.0, -2.0))
+    assert step_text(step) == BY_HAND
+    assert step_sha256(step) == hashlib.sha256(BY_HAND.encode()).hexdigest()
+
+
+def test_the_hash_tells_steps_apart_by_their_bits():
+    step = point_on_floor(force=(0.5, 0.0, -2.0))
+    assert step_sha256(step.replace(tau_u=[0.5, -0.0, -2.0])) == step_sha256(step)
+    nudged = np.nextafter(0.5, 1.0)
+    assert step_sha256(step.replace(tau_u=[nudged, 0.0, -2.0])) != step_sha256(step)
+
+
+def test_cone_and_extra_may_be_left_out():
+    record = changed(record_of(PLAIN), ["cone"])
+    assert step_from_record(record).same_as(PLAIN)
+
+
+def test_whole_numbers_are_read_as_floats():
+    record = changed(record_of(PLAIN), ["contacts", 0, "phi"], 1)
+    np.testing.assert_allclose(step_from_record(record).contacts.phi[0], 1.0, rtol=EXACT)
+
+
+MISSING = [[f] for f in STEP_FIELDS if f != "cone"]
+MISSING += [["contacts", 1, f] for f in CONTACT_FIELDS] + [
+    ["extra", f] for f in ("names", "A", "b")
+]
+
+
+@pytest.mark.parametrize("path", MISSING, ids=[".".join(map(str, p)) for p in MISSING])
+def test_a_missing_field_is_named(path):
+    record = changed(record_of(STEPS["with rows of one's own"]), path)
+    name = ".".join(str(p) for p in path).replace(".1.", "[1].")
+    with pytest.raises(StepDataError) as caught:
+        step_from_record(record)
+    assert str(caught.value) == f"{name}: is missing"
+
+
+UNKNOWN = {
+    "at the top": (["stiffness"], "stiffness: is unknown"),
+    "nearly K_q": (["K_Q"], "K_Q: is unknown; did you mean 'K_q'?"),
+    "in a contact": (["contacts", 0, "mu"], "contacts[0].mu: is unknown; did you mean 'mu_v'?"),
+    "in extra": (["extra", "c"], "extra.c: is unknown"),
+}
+
+
+@pytest.mark.parametrize(("path", "says"), UNKNOWN.values(), ids=UNKNOWN)
+def test_an_unknown_field_is_refused_by_name(path, says):
+    record = changed(record_of(STEPS["with rows of one's own"]), path, 1.5)
+    with pytest.raises(StepDataError) as caught:
+        step_from_record(record)
+    assert str(caught.value).startswith(says)
+    assert caught.value.value == 1.5
+
+
+REFUSED = {
+    "another format": (["format"], "quasistatic-ref/solution", "format: is not a choice"),
+    "a later version": (["version"], 2, "version: is not known here; this program reads 1 (got 2)"),
+    "a version in words": (["version"], "1", "version: must be a whole number"),
+    "an unknown cone": (["cone"], "cube", "cone: is not a choice"),
+    "h zero": (["h"], 0.0, "h: must be greater than 0"),
+    "h a word": (["h"], "0.01", "h: must be a number (got '0.01')"),
+    "h NaN": (["h"], float("nan"), "h: must be a finite number"),
+    "n_a negative": (["n_a"], -1, "n_a: must be at least 0"),
+    "n_a wrong": (["n_a"], 3, "K_q: must be 3 x 3 numbers"),
+    "n_u wrong": (["n_u"], 2, "M_u: must be 2 x 2 numbers"),
+    "K_q flat": (["K_q"], [1.0, 2.0, 3.0, 4.0], "K_q: must be 2 x 2 numbers"),
+    "K_q ragged": (["K_q"], [[1.0, 0.0], [0.0]], "K_q: must"),
+    "K_q zero": (["K_q"], [[1.0, 0.0], [0.0, 0.0]], "K_q: must be positive definite"),
+    "tau_u too long": (["tau_u"], [0.0] * 4, "tau_u: must be 3 numbers"),
+    "tau_a true": (["tau_a"], [True, 0.0], "tau_a: must hold numbers only"),
+    "contacts a table": (["contacts"], {"a": 1}, "contacts: must be a list"),
+    "a contact a list": (["contacts", 1], [1], "contacts[1]: must be a table of named fields"),
+    "name a number": (["contacts", 0, "name"], 3, "contacts[0].name: must be a string"),
+    "five rows": (["contacts", 0, "rows"], 5, "contacts[0].rows: must be 4 or 6 (got 5)"),
+    "mu_v negative": (["contacts", 1, "mu_v"], -0.1, "contacts[1].mu_v: must be at least 0"),
+    "mu_omega negative": (
+        ["contacts", 1, "mu_omega"],
+        -1,
+        "contacts[1].mu_omega: must be at least",
+    ),
+    "phi infinite": (["contacts", 0, "phi"], float("inf"), "contacts[0].phi: must be a finite"),
+    "n of two numbers": (["contacts", 0, "n"], [0.0, 1.0], "contacts[0].n: must be 3 numbers"),
+    "n not a unit vector": (["contacts", 0, "n"], [0.0, 0.0, 2.0], "contacts[c0]: d1, d2, n must"),
+    "J too narrow": (["contacts", 0, "J"], [[0.0] * 4] * 4, "contacts[0].J: must be 4 x 5"),
+    "extra a list": (["extra"], [1], "extra: must be a table"),
+    "extra names a number": (["extra", "names"], [1, 2], "extra.names: must be strings (got 1)"),
+    "extra A too narrow": (["extra", "A"], [[0.0] * 4] * 2, "extra.A: must be 2 x 5"),
+    "extra b too short": (["extra", "b"], [0.0], "extra.b: must be 2 numbers"),
+}
+
+
+@pytest.mark.parametrize(("path", "value", "says"), REFUSED.values(), ids=REFUSED)
+def test_a_wrong_value_is_refused_with_its_field(path, value, says):
+    record = changed(record_of(STEPS["with rows of one's own"]), path, value)
+    with pytest.raises(StepDataError) as caught:
+        step_from_record(record)
+    assert str(caught.value).startswith(says)
+
+
+@pytest.mark.parametrize("record", [None, [], "step", 3.0, True])
+def test_what_is_no_table_is_no_step(record):
+    with pytest.raises(StepDataError, match="must be a table of named fields"):
+        step_from_record(record)
+
+
+def test_an_error_in_a_file_names_the_file(tmp_path):
+    path = tmp_path / "step.json"
+    path.write_text(json.dumps(changed(record_of(PLAIN), ["h"], -1.0)))
+    with pytest.raises(InputError) as caught:
+        step_read(path)
+    assert str(caught.value) == f"{path}: h: must be greater than 0 (got -1.0)"
+
+
+def test_the_solution_has_the_documented_fields():
+    step = STEPS["with rows of one's own"].replace(
+        extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0))
+    )
+    solution = solve_step(step)
+    read = json.loads(solution_text(step, solution))
+    assert list(read) == [
+        "format", "version", "status", "cone", "backend", "step_sha256", "delta_q", "lam",
+        "lam_extra", "wrench", "certificate",
+    ]  # fmt: skip
+    assert (read["format"], read["version"]) == ("quasistatic-ref/solution", 1)
+    assert (read["status"], read["cone"], read["backend"]) == ("optimal", "pyramid", "clarabel")
+    assert read["step_sha256"] == step_sha256(step)
+    assert [len(row) for row in read["lam"]] == [6, 4]
+    assert np.shape(read["wrench"]) == (2, 4)
+    assert len(read["lam_extra"]) == 2
+    np.testing.assert_allclose(read["delta_q"], solution.delta_q, rtol=EXACT)
+    np.testing.assert_allclose(np.concatenate(read["lam"]), solution.lam, rtol=EXACT)
+    assert set(read["certificate"]) == {
+        "kind", "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound", "residuals",
+    }  # fmt: skip
+    assert set(read["certificate"]["residuals"]) == set(Residuals.__dataclass_fields__)
+
+
+@pytest.mark.parametrize(
+    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
+)
+def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
+    step = STEPS["with rows of one's own"].replace(
+        extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0))
+    )
+    solution, path = solve_step(step, certify=certify), tmp_path / "solution.json"
+    path.write_text(solution_text(step, solution))
+    back = solution_read(path, step)
+    assert back.step_sha256 == step_sha256(step)
+    assert back.certificate == solution.certificate
+    assert back.certificate.kind == kind
+    np.testing.assert_allclose(back.delta_q, solution.delta_q, rtol=EXACT, atol=EXACT)
+    lam = np.concatenate([solution.lam, solution.lam_extra])
+    np.testing.assert_allclose(back.lam, lam, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(back.wrench, solution.wrench, rtol=EXACT, atol=EXACT)
+
+
+SOLUTION_REFUSED = {
+    "an unknown field": (["note"], "x", "note: is unknown"),
+    "a step": (["format"], "quasistatic-ref/step", "format: is not a choice"),
+    "a later version": (["version"], 2, "version: is not known here"),
+    "another status": (["status"], "solved", "status: is not a choice"),
+    "delta_q too long": (["delta_q"], [0.0] * 6, "delta_q: must be 5 numbers"),
+    "delta_q NaN": (["delta_q"], [float("nan")] * 5, "delta_q: must hold finite"),
+    "lam flat": (["lam"], [0.0] * 10, "lam: must have one list for each of 2 contacts"),
+    "lam of a wrong contact": (["lam", 1], [0.0] * 6, "lam[1]: must be 4 numbers"),
+    "wrench too narrow": (["wrench"], [[0.0] * 3] * 2, "wrench: must be 2 x 4"),
+    "an unknown kind": (["certificate", "kind"], "sure", "certificate.kind: is not a choice"),
+    "an unknown claim": (["certificate", "sure"], 1, "certificate.sure: is unknown"),
+    "active flat": (["certificate", "active"], [1], "certificate.active: must be a list of"),
+}
+
+
+@pytest.mark.parametrize(("path", "value", "says"), SOLUTION_REFUSED.values(), ids=SOLUTION_REFUSED)
+def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
+    record = json.loads(solution_text(PLAIN, solve_step(PLAIN)))
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(changed(record, path, value)))
+    with pytest.raises(InputError) as caught:
+        solution_read(file, PLAIN)
+    assert str(caught.value).startswith(f"{file}: {says}")
+
+
+def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path):
+    text = infeasible_text(PLAIN, "clarabel", ["1/3", "0"])
+    assert list(json.loads(text)) == [
+        "format", "version", "status", "cone", "backend", "step_sha256", "farkas",
+    ]  # fmt: skip
+    path = tmp_path / "solution.json"
+    path.write_text(text)
+    back = solution_read(path, PLAIN)
+    assert back.farkas == ("1/3", "0")
+    assert back.delta_q is None
+    assert back.certificate is None
+
+
+def test_no_timing_enters_the_solution():
+    one, two = (solution_text(PLAIN, solve_step(PLAIN)) for _ in range(2))
+    assert one == two
+    assert "time" not in one

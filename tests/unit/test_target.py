@@ -1,0 +1,121 @@
+"""Targets: linear per joint, geodesic for a base, held at both ends."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm, logm
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
+from tests.scenes import chain_scene
+from tests.tolerances import DIFFERENCE, EXACT, ROUNDING
+
+TIMES, VALUES = np.array([1.0, 2.0, 4.0]), np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
+BETWEEN = {
+    "before the first": (-3.0, [0.0, 5.0]),
+    "at the first": (1.0, [0.0, 5.0]),
+    "a quarter on": (1.25, [2.5, 5.0]),
+    "at the second": (2.0, [10.0, 5.0]),
+    "half way to the third": (3.0, [0.0, 5.5]),
+    "at the last": (4.0, [-10.0, 6.0]),
+    "after the last": (99.0, [-10.0, 6.0]),
+}
+
+
+@pytest.fixture
+def system(tmp_path):
+    return chain_scene(tmp_path)
+
+
+@pytest.mark.parametrize(("t", "expected"), BETWEEN.values(), ids=BETWEEN)
+def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
+    np.testing.assert_allclose(
+        piecewise_linear(TIMES, VALUES, t), expected, rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+def test_waypoints_are_met_to_the_bit():
+    values = np.array([[0.1], [0.7], [0.3]])
+    for t, value in zip(TIMES, values, strict=True):
+        np.testing.assert_allclose(piecewise_linear(TIMES, values, t), value, rtol=EXACT)
+
+
+def test_one_waypoint_is_held_for_ever(system):
+    track = JointTrack(system, system.joint("desk/slide"), np.array([1.0]), np.array([[0.3]]))
+    for t in (0.0, 1.0, 2.0):
+        np.testing.assert_allclose(track.at(t), [0.3], rtol=EXACT)
+
+
+def test_a_continuous_joint_may_turn_beyond_pi(system):
+    angles = np.array([[0.0], [7.0]])
+    track = JointTrack(system, system.joint("arm/spin"), np.array([0.0, 1.0]), angles)
+    for t, angle in ((0.0, 0.0), (0.5, 3.5), (0.9, 6.3), (1.0, 7.0), (2.0, 7.0)):
+        np.testing.assert_allclose(
+            track.at(t), [np.cos(angle), np.sin(angle)], rtol=ROUNDING, atol=ROUNDING
+        )
+
+
+def transform(value):
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = Rotation.from_quat(value[3:]).as_matrix(), value[:3]
+    return T
+
+
+def placed(rng):
+    turned = Rotation.from_rotvec(rng.normal(size=3))
+    return np.concatenate([rng.normal(size=3), turned.as_quat()])
+
+
+def test_a_base_follows_the_screw_between_its_waypoints(system, rng):
+    values = np.array([placed(rng), placed(rng), placed(rng)])
+    track = JointTrack(system, system.joint("arm/base"), TIMES, values)
+    for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
+        start, end = transform(values[i]), transform(values[i + 1])
+        xi = np.real(logm(np.linalg.inv(start) @ end))
+        expected = start @ expm(s * xi)
+        np.testing.assert_allclose(
+            transform(track.at(t)), expected, rtol=DIFFERENCE, atol=DIFFERENCE
+        )
+
+
+def test_a_base_is_at_its_waypoints_and_held_at_both_ends(system, rng):
+    values = np.array([placed(rng), placed(rng), placed(rng)])
+    track = JointTrack(system, system.joint("arm/base"), TIMES, values)
+    for t, value in ((0.0, 0), (1.0, 0), (2.0, 1), (4.0, 2), (5.0, 2)):
+        np.testing.assert_allclose(track.at(t), values[value], rtol=EXACT)
+
+
+def test_a_base_moves_steadily_along_its_screw(system, rng):
+    values = np.array([placed(rng), placed(rng)])
+    track = JointTrack(system, system.joint("arm/base"), np.array([0.0, 1.0]), values)
+    twists = []
+    for t in np.linspace(0.05, 0.95, 10):
+        before, after = transform(track.at(t - 0.01)), transform(track.at(t + 0.01))
+        twists.append(np.real(logm(np.linalg.inv(before) @ after)) / 0.02)
+    np.testing.assert_allclose(twists, [twists[0]] * 10, rtol=DIFFERENCE, atol=DIFFERENCE)
+
+
+def test_a_straight_lift_is_a_straight_line(system):
+    values = np.array([[0, 0, 0.1, 0, 0, 0, 1.0], [0, 0, 0.3, 0, 0, 0, 1.0]])
+    track = JointTrack(system, system.joint("arm/base"), np.array([0.0, 1.0]), values)
+    np.testing.assert_allclose(
+        track.at(0.25), [0, 0, 0.15, 0, 0, 0, 1], rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+def test_joints_without_a_track_keep_their_start(system):
+    start = system.q_start[: system.n_q_a]
+    slide = system.joint("desk/slide")
+    track = JointTrack(system, slide, np.array([0.0, 1.0]), np.array([[0.0], [0.4]]))
+    q_bar_a = Targets(start, [track])(0.5)
+    expected = start.copy()
+    expected[slide.q] = 0.2
+    np.testing.assert_allclose(q_bar_a, expected, rtol=ROUNDING)
+    np.testing.assert_allclose(start, system.q_start[: system.n_q_a], rtol=EXACT)
+
+
+@pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])
+def test_times_that_do_not_increase_are_refused(system, times):
+    joint = system.joint("desk/slide")
+    with pytest.raises(ScenarioError, match="targets of desk/slide: waypoint times must increase"):
+        JointTrack(system, joint, np.array(times), np.zeros((2, 1)))
