@@ -195,7 +195,7 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     assert record["links"][1]["shapes"] == [
         {"name": "rail/plate#0", "kind": "Box", "size": "box 0.02 x 0.2 x 0.2 m"}
     ]
-    assert "rail: joint[slide].limit" in record["ignored"]
+    assert "rail: joint limits: position, effort and velocity (2)" in record["ignored"]
     assert main(["inspect", path]) == 0
     text = capsys.readouterr().out
     assert "rail/slide" in text
