@@ -27,7 +27,7 @@ WORDS = {
 
 
 def ignored_lines(system: System) -> list[str]:
-    """What the model ignores, and what it takes otherwise than written: one line each.
+    """What the model ignores: one line each.
 
     Elements of one kind are counted, not listed; links that have visual geometry only are named,
     since nothing can touch them.
@@ -43,7 +43,7 @@ def ignored_lines(system: System) -> list[str]:
         unseen = _visual_only(system, body, own)
         if unseen:
             lines.append(f"{body}: links without collision shape: {', '.join(unseen)}")
-    return lines + list(system.notes)
+    return lines
 
 
 def _of(body: str, entry: str) -> bool:

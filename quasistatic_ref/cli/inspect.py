@@ -73,6 +73,7 @@ def system_record(system: System) -> dict[str, Any]:
             if i > 0
         ],
         "ignored": ignored_lines(system),
+        "notes": list(system.notes),
     }
 
 
@@ -132,6 +133,10 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_rows(rows)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
-    print("\nthe model ignores, or takes otherwise than written:")
+    print("\nthe model ignores:")
     for sentence in record["ignored"]:
+        print(f"- {sentence}")
+    if record["notes"]:
+        print("\nit takes otherwise than written:")
+    for sentence in record["notes"]:
         print(f"- {sentence}")
