@@ -57,6 +57,11 @@ LOADED: Final = 1e-9
 Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
 misread differs by far more."""
 
+WELDED: Final = 1e-12
+"""Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
+
+Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
+
 UNIT_QUATERNION: Final = 1e-6
 """Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
 
@@ -65,6 +70,11 @@ Ones that travelled as 7-digit text reach 1e-7; a larger defect is a mistake, no
 UNIT_ROUNDING: Final = 1e-15
 """Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
 in the length as computed, so that what was normalised once is not touched again."""
+
+LARGE: Final = 1e15
+"""Largest number in a scenario, a URDF or a point cloud, in whatever unit.
+
+Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
 
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the
@@ -94,3 +104,19 @@ REPEATED: Final = 1e-9
 """Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
 
 Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
+
+CLOSED_FORM: Final = 1e-12
+"""Largest difference of a certified step from its closed form, relative to the largest term.
+
+The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
+
+BEARS: Final = 1e-9
+"""Least normal force of a contact that bears load, over the largest of its step: solvers leave
+1e-12 of it on contacts that do not touch."""
+
+SLOW: Final = 0.1
+"""Largest quasi-dynamic number Pi = v / (mu g h) that passes without a word: forces on moving
+bodies are then wrong by a tenth of friction."""
+
+FITTED: Final = 0.02
+"""Largest difference of a fitted exponent from the exponent of the law it is to show."""

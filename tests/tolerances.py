@@ -78,3 +78,7 @@ CURVED_PAIR: Final = 1e-6
 WAY_OUT: Final = 1e-8
 """Distance of witness points from the surfaces [m] where two polytopes are parallel but for 1e-6:
 a gap that is right to 1e-13 leaves its square root of lateral freedom."""
+
+SCENE: Final = 1e-9
+"""One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
+are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""

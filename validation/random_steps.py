@@ -158,6 +158,27 @@ def random_step(
     )
 
 
+def mixed_step(seed: int) -> StepData:
+    """A step of either family: every fifth a grasp, the others of up to 12 coordinates.
+
+    Parameters
+    ----------
+    seed : int
+        Each seed is another step; masses are 1, 1e4 or 1e9 apart.
+
+    Returns
+    -------
+    StepData
+        Infeasible in some cases.
+    """
+    rng = np.random.default_rng(seed)
+    if seed % 5 == 0:
+        return grasp_step(rng)
+    n_a, n_u = int(rng.integers(0, 7)), int(rng.integers(0, 7))
+    n_u += n_a + n_u == 0
+    return random_step(rng, n_a, n_u, int(rng.integers(0, 8)), rng.choice([1.0, 1e4, 1e9]))
+
+
 def spread_matrix(rng: np.random.Generator, n: int, size: float, ratio: float) -> Array:
     """A positive definite matrix whose diagonal spans a ratio, shape (n, n)."""
     scale = np.sqrt(size / np.geomspace(1, ratio, n)) if n else np.zeros(0)

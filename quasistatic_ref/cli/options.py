@@ -49,7 +49,7 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
     for key in ("backend", "certify"):
         value = getattr(options, key, None)
         if value is not None:
-            settings.append(f'solver.{key}="{value}"')
+            settings.append(f"solver.{key}={json_text(value)}")
     return settings
 
 
@@ -76,6 +76,4 @@ def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:
         step = step_written(folder / f"{stem}_failed_step.json", failure.step)
         kept += f", the failing step in {step}"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
-    if isinstance(failure.__cause__, KeyboardInterrupt):
-        return 130
-    return 3 if failure.step is not None else 2
+    return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

@@ -7,12 +7,17 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.certify.certificate import in_words
+from quasistatic_ref.certify.exact import decimal_strings
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 
 
@@ -22,6 +27,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", type=Path, metavar="SOLUTION.json", dest="output", help="standard output otherwise"
     )
+    parser.add_argument(
+        "--digits",
+        type=int,
+        metavar="N",
+        help="print delta_q in N decimal digits; the solution file is then written with -o only",
+    )
     shared.add_solver(parser)
 
 
@@ -30,18 +41,37 @@ def run(options: argparse.Namespace) -> int:
 
     An infeasible step gets a solution file too, with the proof, and exit status 3.
     """
+    certify = options.certify or CERTIFY[0]
+    if options.digits is not None:
+        if options.digits < 1:
+            raise InputError("must be at least 1", field="--digits", value=options.digits)
+        if certify != CERTIFY[0]:
+            remedy = f"needs the exact optimum; leave out --certify {certify}"
+            raise InputError(remedy, field="--digits", value=options.digits)
     step = step_read(options.step)
-    backend = options.backend or DEFAULT
+    backend = DEFAULT if options.backend is None else options.backend
+    certify = CERTIFY[0] if options.certify is None else options.certify
     try:
-        solution = solve_step(step, backend, certify=options.certify or CERTIFY[0])
+        solution = solve_step(step, backend, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
         raise
-    _write(options.output, solution_text(step, solution))
+    if options.digits is not None:
+        shared.print_rows(decimals(step, solution, options.digits))
+    if options.digits is None or options.output is not None:
+        _write(options.output, solution_text(step, solution))
     digits = solution.statistics.digits
     told = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
     print(f"{in_words(step, solution.certificate)}{told}", file=sys.stderr)
     return 0
+
+
+def decimals(step: StepData, solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
+    """Each delta_q in decimal digits [m, rad], correctly rounded from the exact optimum."""
+    working = flat_rows(step, solution.certificate.active)
+    names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
+    names += [f"delta_q_u[{i}]" for i in range(step.n_u)]
+    return list(zip(names, decimal_strings(exact_form(step), working, digits), strict=True))
 
 
 def _write(output: Path | None, text: str) -> None:

@@ -27,6 +27,11 @@ from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
 Array = NDArray[np.float64]
 _MOVING = ("revolute", "continuous", "prismatic")
+MOST_LINKS = 1000
+"""Most links in a file: urdfdom recurses from link to link, and ends the process where the
+stack does."""
+LARGEST_FILE = 16 * 2**20
+"""Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _VERSIONS = ("1.0", "1.1", "1.2")
 _GEOMETRIES = ("box", "sphere", "cylinder", "capsule", "mesh")
 
@@ -107,7 +112,7 @@ def urdf_file(path: str | Path) -> UrdfFile:
         has no place for; the message names the file, the element and the value.
     """
     path = Path(path)
-    text = text_of(bytes_read(path, ModelError), path, ModelError)
+    text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
     try:
         return _content(path, text)
     except ModelError as error:
@@ -124,6 +129,9 @@ def _content(path: Path, text: str) -> UrdfFile:
         raise ModelError(problem, field="robot.version", value=version)
     ignored = ignored_children(robot, "robot", ("link", "joint"))
     links: dict[str, FileLink] = {}
+    if len(robot.findall("link")) > MOST_LINKS:
+        problem = f"holds more than {MOST_LINKS} links"
+        raise ModelError(problem, field="robot", value=len(robot.findall("link")))
     for element in robot.findall("link"):
         link = _link(element, ignored)
         if link.name in links:
@@ -268,7 +276,7 @@ def _check_limit(joint: Element, where: str, *, needed: bool) -> None:
         return
     for name in ("effort", "velocity", "lower", "upper"):
         default = 0.0 if name in ("lower", "upper") else None
-        numbers(limit, f"{where}.limit", name, 1, default)
+        numbers(limit, f"{where}.limit", name, 1, default, most=np.inf)
 
 
 def _mimic(joint: Element, where: str) -> Mimic | None:

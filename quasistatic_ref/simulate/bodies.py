@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ScenarioError, suggestion
+from quasistatic_ref.errors import InputError, ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.paths import path_in
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, positive_definite
 
 ZERO = np.zeros(3)
 
@@ -82,7 +83,9 @@ class BodyEntry:
 
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
-    urdf = folder / table.text("urdf")
+    urdf = path_in(folder, table, "urdf")
+    if urdf is None:
+        raise table.fail("urdf", "is missing")
     base = table.text("base", "fixed", BASES)
     actuated = table.take("actuated", [])
     if actuated != "all":
@@ -95,7 +98,9 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     package_dirs = table.sequence("package_dirs", [])
     if not all(isinstance(given, str) for given in package_dirs):
         raise table.fail("package_dirs", "must be a list of folders", package_dirs)
-    cloud = table.text("cloud", None)
+    moved = "gravity_compensated" in table
+    if moved and not actuated:
+        raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
     entry = BodyEntry(
         body=Body(
             name=name,
@@ -110,11 +115,13 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         table=table,
         K_q=table.take("K_q", None),
         targets=table.sequence("targets", []),
-        cloud=None if cloud is None else folder / cloud,
+        cloud=path_in(folder, table, "cloud"),
         gravity_compensated=table.boolean("gravity_compensated", True),
         wrenches=_wrenches(name, table),
     )
     table.close()
+    if entry.wrenches is not None and base == "fixed":
+        raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
     return entry
 
 
@@ -134,11 +141,13 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     if isinstance(entry.K_q, list):
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
         whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
-        K_q[np.ix_(index, index)] = whole.array("K_q", (len(index), len(index)))
+        block = whole.array("K_q", (len(index), len(index)))
+        K_q[np.ix_(index, index)] = _positive_definite(block, table.name("K_q"))
         return
     given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
     for joint in joints:
-        K_q[joint.v, joint.v] = _joint_stiffness(given, entry.short(joint), joint)
+        block = _joint_stiffness(given, entry.short(joint), joint)
+        K_q[joint.v, joint.v] = _positive_definite(block, given.name(entry.short(joint)))
     given.close()
 
 
@@ -150,6 +159,8 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     for i, record in enumerate(entry.targets):
         waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
         t = waypoint.number("t")
+        if not waypoint.names():
+            raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
             if name not in joints:
                 hint = suggestion(name, joints)
@@ -195,6 +206,15 @@ def _planar(waypoint: Fields, name: str, body: Body) -> Array:
     return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
 
 
+def _positive_definite(block: Array, field: str) -> Array:
+    """The block as it is, refused here rather than in the first step."""
+    try:
+        positive_definite(field, block)
+    except InputError as error:
+        raise ScenarioError(error.problem, field=field, value=error.value) from None
+    return block
+
+
 def _pose(table: Fields) -> tuple[Array, Array]:
     xyz, rpy = table.array("xyz", (3,), ZERO), table.array("rpy", (3,), ZERO)
     table.close()
@@ -206,6 +226,8 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
     for i, record in enumerate(table.sequence("wrenches", [])):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
         times.append(one.number("t"))
+        if not {"force", "torque"} & set(one.names()):
+            raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
         values.append(
             np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
         )

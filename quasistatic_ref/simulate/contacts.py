@@ -59,6 +59,8 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
             raise table.fail("rows", "must be 4 or 6", rows)
         mu_v = table.number("mu_v", least=0.0)
         mu_omega = table.number("mu_omega", *([0.0] if rows == 4 else []), least=0.0)
+        if rows == 4 and mu_omega > 0:
+            raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
         k = table.integer("k", 1, least=1)
         hull = table.boolean("hull", False)
         table.close()

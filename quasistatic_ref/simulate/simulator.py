@@ -14,6 +14,8 @@ from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step
@@ -68,6 +70,8 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     backend, accuracy, certify
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    limits : Limits, optional
+        Beyond which no step is taken.
     """
 
     def __init__(
@@ -82,12 +86,14 @@ class Simulator:
         backend: str = DEFAULT,
         accuracy: float = ACCURACY,
         certify: str = "full",
+        limits: Limits = Limits(),  # noqa: B008 - it is frozen
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.limits = limits
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -108,7 +114,8 @@ class Simulator:
         Raises
         ------
         StepNotSolved
-            If the backend's answer cannot be trusted.
+            If the backend's answer cannot be trusted, the step has no solution, or it
+            starts or ends beyond the limits.
         """
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
@@ -117,8 +124,10 @@ class Simulator:
         step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
         lap("rows")
         solution = self.solved(step)
+        self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
@@ -186,26 +195,30 @@ def simulate(
     Raises
     ------
     RunFailed
-        If a step fails or is interrupted; it holds the trajectory so far, and the failing step.
+        If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
+        trajectory so far, and the failing step.
     """
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
-    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q)
+    g = float(np.linalg.norm(simulator.gravity))
+    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q, g)
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )
-    for k in bar:
-        t = (k + 1) * simulator.h
-        try:
-            goal = q_bar_a(t)
-            result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
-        except (QuasistaticError, KeyboardInterrupt) as failure:
-            interrupted = isinstance(failure, KeyboardInterrupt)
-            reason = f"step {k}: {'interrupted' if interrupted else failure}"
-            step = failure.step if isinstance(failure, StepNotSolved) else None
-            raise RunFailed(reason, recorder.trajectory(reason), step) from failure
-        recorder.add(t, goal, result)
-        q = result.q
+    with Interrupt() as interrupt:
+        for k in bar:
+            t = (k + 1) * simulator.h
+            try:
+                interrupt.check()
+                goal = q_bar_a(t)
+                result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+            except (QuasistaticError, KeyboardInterrupt) as failure:
+                interrupted = isinstance(failure, KeyboardInterrupt)
+                reason = f"step {k}: {'interrupted' if interrupted else failure}"
+                step = failure.step if isinstance(failure, StepNotSolved) else None
+                raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+            recorder.add(t, goal, result)
+            q = result.q
     return recorder.trajectory()
 
 

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import json
-import zipfile
-import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,8 +13,10 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, json_text, written_whole
+from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
 from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.artifacts import boundary_layer, quasi_dynamic_number
+from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -29,11 +28,12 @@ VERSION = 1
 RECORDS = ("full", "light")
 CONSTANT = ("mu_v", "mu_omega", "rows")
 """Arrays without a step axis."""
-UNREADABLE: tuple[type[Exception], ...] = (
-    ValueError, KeyError, TypeError, OSError, EOFError, RuntimeError,
-    zipfile.BadZipFile, zlib.error,
+PER_STEP = (
+    "t", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "d1", "d2", "point", "lam", "wrench",
+    "certificate", "worst_residual", "digits",
 )  # fmt: skip
-"""What NumPy and zipfile raise at a file that is something else, or spoilt."""
+PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
+"""What a full record adds, step by step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,9 @@ class Trajectory:
     ----------
     header : mapping
         format, version, h, backend, record, n_a, n_u, coordinates, contacts (names by step),
-        steps, and ``failed``: the reason, or None for a complete run.
+        steps; ``quasi_dynamic_number`` (the largest Pi of a step, or None) and
+        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`; and
+        ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
         ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
@@ -111,31 +113,62 @@ def trajectory_read(path: str | Path) -> Trajectory:
     Raises
     ------
     InputError
-        If it is not one, or of another version.
+        If it is not one, is of another version, or its header and arrays do not fit together.
     """
-    content = bytes_read(path)
+    arrays = npz_arrays(path)
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        header = json.loads(arrays.pop("header").tobytes().decode())
+        header = _header(arrays.pop("header", None), path)
         top = Fields(header)
         top.text("format", choices=(FORMAT,))
         version = top.integer("version")
+        if version != VERSION:
+            raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+        _check_arrays(top, arrays)
     except InputError as error:
         raise error.in_file(path) from None
-    except UNREADABLE:
-        raise InputError("is not a trajectory written by this program", file=path) from None
-    if version != VERSION:
-        raise InputError(
-            f"is not known here; this program reads {VERSION}",
-            field="version",
-            value=version,
-            file=path,
-        )
-    missing = sorted({"t", "q", "delta_q", *CONSTANT} - set(arrays))
-    if missing:
-        raise InputError(f"holds no array named {missing[0]!r}", file=path)
     return Trajectory(header, arrays)
+
+
+def _header(array: NDArray[Any] | None, path: str | Path) -> Any:
+    problem = "is not a trajectory written by this program"
+    if array is None or array.dtype != np.uint8:
+        raise InputError(f"{problem}: it has no header")
+    try:
+        return json.loads(text_of(array.tobytes(), path), object_pairs_hook=unique_fields)
+    except (ValueError, RecursionError):
+        raise InputError(f"{problem}: its header is not JSON") from None
+
+
+def _check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse a header and arrays that do not belong together."""
+    _check_present(arrays, ("t", "q", "delta_q", *CONSTANT))
+    steps = top.integer("steps", least=0)
+    full = top.text("record", choices=RECORDS) == "full"
+    top.number("h", above=0.0)
+    if not top.is_null("failed"):
+        top.text("failed")
+    needed: tuple[str, ...] = ("t", "delta_q")
+    if steps:
+        needed = (*PER_STEP, *PROGRAM) if full else PER_STEP
+        _check_present(arrays, needed)
+    for name, array in arrays.items():
+        if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
+            raise InputError("must hold numbers", field=name, value=str(array.dtype))
+    for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
+        if arrays[name].ndim == 0 or len(arrays[name]) != length:
+            problem = f"must have {length} entries, as the header says"
+            raise InputError(problem, field=name, value=arrays[name].shape)
+    contacts = top.sequence("contacts")
+    if full and len(contacts) != steps:
+        raise top.fail("contacts", f"must have {steps} entries", len(contacts))
+    if not all(isinstance(names, list) for names in contacts):
+        raise top.fail("contacts", "must be lists of names", contacts)
+
+
+def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:
+    missing = sorted(set(names) - set(arrays))
+    if missing:
+        raise InputError(f"holds no array named {missing[0]!r}")
 
 
 def certified(trajectory: Trajectory) -> str:
@@ -168,13 +201,19 @@ class Recorder:
         ``"full"`` or ``"light"``.
     q : ndarray, shape (n_q,)
         Where the run starts.
+    g : float
+        Length of gravity [m/s^2].
     """
 
-    def __init__(self, system: System, h: float, backend: str, record: str, q: Array) -> None:
+    def __init__(
+        self, system: System, h: float, backend: str, record: str, q: Array, g: float = 0.0
+    ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.system, self.h, self.backend, self.record = system, h, backend, record
-        self.q = [q]
+        self.q, self.g = [q], g
+        self.Pi: float | None = None
+        self.layer = 0.0
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
         self.seconds: list[dict[str, float]] = []
@@ -183,6 +222,9 @@ class Recorder:
     def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded."""
         step, solution, points = result.step, result.solution, result.points
+        Pi = quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
+        self.Pi = Pi if self.Pi is None or Pi is None else max(Pi, self.Pi)
+        self.layer = max(self.layer, boundary_layer(step, solution))
         row: dict[str, Any] = {
             "t": t,
             "delta_q": solution.delta_q,
@@ -224,6 +266,8 @@ class Recorder:
             "coordinates": [c.name for c in self.system.coordinates],
             "steps": len(self.rows),
             "failed": failed,
+            "quasi_dynamic_number": self.Pi,
+            "largest_boundary_layer": self.layer,
             "contacts": self.names if self.record == "full" else [],
         }
         keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")

@@ -13,7 +13,7 @@ from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
 from quasistatic_ref.solve.ask import Answer, backend_answer
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.units import (
@@ -66,6 +66,8 @@ def solve_step(
 
     Raises
     ------
+    StepDataError
+        If products of its numbers leave the range of float64.
     StepInfeasible
         With ``"full"``, if no displacement satisfies the rows; with the proof.
     StepIllPosed
@@ -79,12 +81,52 @@ def solve_step(
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
-    units = natural_units(step)
-    natural = to_natural(step, units)
-    if certify == "full":
-        return _exact(step, natural, units, backend, accuracy, problem)
-    if backend == NONE:
+    if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
+    # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost
+    # between BLAS's threads.
+    with np.errstate(all="ignore"):
+        natural, units = _scaled(step)
+        if certify == "full":
+            solution = _exact(step, natural, units, backend, accuracy, problem)
+        else:
+            solution = _believed(step, natural, units, backend, accuracy, certify, problem)
+    numbers = (solution.delta_q, solution.lam, solution.lam_extra, solution.wrench.ravel())
+    residuals = np.array(list(solution.certificate.residuals.values()))
+    if not np.isfinite(np.concatenate([*numbers, residuals])).all():
+        raise _out_of_range()
+    return solution
+
+
+def _scaled(step: StepData) -> tuple[StepData, Units]:
+    """The step in its natural units."""
+    try:
+        units = natural_units(step)
+        sizes = np.array([*units.coordinate, units.length, units.size])
+        if (np.isfinite(sizes) & (sizes > 0)).all():
+            return to_natural(step, units), units
+    except (StepDataError, np.linalg.LinAlgError):
+        pass
+    raise _out_of_range()
+
+
+def _out_of_range() -> StepDataError:
+    return StepDataError(
+        "its numbers are too large, too small or too unlike each other: their products leave the "
+        "range of float64; look for a wrong unit"
+    )
+
+
+def _believed(
+    step: StepData,
+    natural: StepData,
+    units: Units,
+    backend: str,
+    accuracy: float,
+    certify: str,
+    problem: StepProblem | None,
+) -> StepSolution:
+    """The backend's own answer."""
     try:
         answer = _asked(natural, backend, accuracy, problem)
         certificate = _judged(natural, answer, backend, accuracy, certify)

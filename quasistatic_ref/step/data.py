@@ -78,9 +78,11 @@ class Contacts:
                 at, value = self.name[bad[0]], float(getattr(self, key)[bad[0]])
                 raise StepDataError("must be >= 0", field=f"contacts[{at}].{key}", value=value)
         frame = np.stack([self.d1, self.d2, self.n], axis=2)
-        defect = np.abs(np.swapaxes(frame, 1, 2) @ frame - np.eye(3)).max(axis=(1, 2), initial=0)
-        dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
-        bad = np.flatnonzero((defect > ORTHONORMAL) | ~dextral)
+        with np.errstate(over="ignore", invalid="ignore"):  # what overflows is no unit vector
+            product = np.swapaxes(frame, 1, 2) @ frame
+            defect = np.abs(product - np.eye(3)).max(axis=(1, 2), initial=0)
+            dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
+        bad = np.flatnonzero(~(defect <= ORTHONORMAL) | ~dextral)
         if bad.size:
             raise StepDataError(
                 "d1, d2, n must be a right-handed orthonormal frame",
@@ -185,7 +187,7 @@ class StepData:
         _freeze(self, "tau_u", (n_u,))
         _freeze(self, "delta_q_bar_a", (n_a,))
         for key in ("K_q", "M_u"):
-            object.__setattr__(self, key, _positive_definite(key, getattr(self, key)))
+            object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
         for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
             if wide.shape[-1] != self.n_v:
                 raise StepDataError(
@@ -259,8 +261,14 @@ def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> N
     object.__setattr__(owner, key, _read_only(array))
 
 
-def _positive_definite(key: str, S: Array) -> Array:
-    """Return S made exactly symmetric from its lower triangle, or refuse it."""
+def positive_definite(key: str, S: Array) -> Array:
+    """Return S made exactly symmetric from its lower triangle, or refuse it.
+
+    Raises
+    ------
+    StepDataError
+        About the field `key`, if S is not symmetric or not positive definite.
+    """
     scale = np.abs(S).max(initial=0.0)
     if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())

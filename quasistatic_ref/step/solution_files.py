@@ -30,7 +30,7 @@ class SolutionFile:
     step_sha256 : str
     backend : str
     delta_q : ndarray, shape (n_v,), or None
-        None of an infeasible step.
+        None of an infeasible step; nothing more is read where step_sha256 is another step's.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
@@ -96,6 +96,8 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
     status = top.text("status", choices=("optimal", "infeasible"))
     top.text("cone", "pyramid", CONES)
     backend, sha256 = top.text("backend"), top.text("step_sha256")
+    if sha256 != step_sha256(step):
+        return SolutionFile(sha256, backend)  # its shapes are another step's
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):

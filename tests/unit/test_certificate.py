@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import exact_certificate, verify
+from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.solution import Certificate
+from tests.unit.test_exact import resting_point
 from validation.random_steps import grasp_step
 
 
@@ -34,6 +36,27 @@ def test_certificate_is_what_the_optimum_says(step, optimum):
     assert flat_rows(step, claims.active) == optimum.working_set
     assert (15, 0) in claims.active  # the user's own row presses
     assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+
+
+def test_words_count_all_rows_and_name_the_margins(step, optimum):
+    """10 contacts of six rows, 5 of four, and two of the user's own: 82."""
+    claims = exact_certificate(step, optimum)
+    told = in_words(step, claims)
+    assert told.startswith("exact: the optimum of the step, correctly rounded; ")
+    assert f"{len(claims.active)} of 82 rows hold it" in told
+    assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in told
+    assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in told
+    bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
+    assert "smallest" not in in_words(step, bare)
+
+
+def test_words_for_what_is_not_exact(step):
+    known = Certificate("residual", {"primal": 2e-9, "dual": 1e-9}, error_bound=3e-8)
+    told = in_words(step, known)
+    assert told.startswith("not exact: worst residual 2.0e-09 in natural units")
+    assert told.endswith("its error is at most 3.0e-08")
+    assert in_words(step, replace(known, error_bound=None)).endswith("no error bound")
+    assert in_words(step, Certificate("none")) == "nothing is certified"
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):
@@ -110,3 +133,17 @@ def test_false_claims_are_refused(step, optimum, field, value):
     claims = replace(exact_certificate(step, optimum), **{field: value})
     verdict = verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
     assert field in verdict.reason
+
+
+def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
+    """At the limit of friction one row carries all; an idle one beside it changes no claim."""
+    step = resting_point(tau_x=1.0)
+    optimum = exact_step(step)
+    assert optimum.working_set == (2,)
+    claims = exact_certificate(step, optimum)
+    wider = replace(claims, active=contact_rows(step, (2, 1)), smallest_active_multiplier=0.0)
+    assert not wider.differentiable
+    assert verify(step, optimum.delta_q, wider.active, optimum.lam, wider)
+    smooth = replace(wider, differentiable=True)
+    reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
+    assert "differentiable" in reason

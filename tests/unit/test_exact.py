@@ -123,8 +123,8 @@ def test_negative_underflow_is_written_without_sign():
     assert exact_optimum(form).delta_q.tobytes() == np.zeros(1).tobytes()
 
 
-def test_tied_ratios_end_and_agree_for_every_order_of_rows():
-    """Three equal rows and two of their sums: each walk meets exactly tied ratios."""
+def test_duplicated_and_dependent_rows_agree_in_every_order():
+    """Three unit rows, and sums of them, one of them twice."""
     base = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     rows = [*base, [1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]]
     b = [1.0, 1.0, 1.0, 2.0, 3.0, 3.0]
@@ -201,3 +201,27 @@ def test_decimals_of_a_step_begin_with_its_float64():
         decimal_strings(form, optimum.working_set), optimum.delta_q, strict=True
     ):
         assert float(text) == value
+
+
+def test_matrix_beyond_the_precision_of_the_balls_is_solved():
+    """H = L L', L unit bidiagonal with -2^25: |H^-1| = 2^350 and more, an integer matrix."""
+    n = 8
+    L = np.eye(n) - 2.0**25 * np.eye(n, k=-1)
+    inverse = [[2 ** (25 * (i - j)) if i >= j else 0 for j in range(n)] for i in range(n)]  # of L
+    g = np.ones(n)
+    half = [sum(row) for row in inverse]  # L^-1 g
+    x = [sum(inverse[i][j] * half[i] for i in range(n)) for j in range(n)]  # L^-T L^-1 g
+    form = exact_form_of(L @ L.T, g, np.eye(n)[:1], np.zeros(1))
+    optimum = exact_optimum(form)
+    assert optimum.delta_q.tolist() == [float(v) for v in x]
+    assert optimum.slack.tolist() == [float(x[0])]
+
+
+def test_grasp_is_decided_by_balls_alone(monkeypatch):
+    """Fractions would be as right, and some ten times slower."""
+    forms = [exact_form(grasp_step(np.random.default_rng(seed))) for seed in range(3)]
+    expected = [exact_optimum(form) for form in forms]
+    monkeypatch.setattr("quasistatic_ref.certify.point.rational_solution", None)
+    for form, right in zip(forms, expected, strict=True):
+        for warm in ([], range(0, form.m, 3), right.working_set):
+            assert exact_optimum(form, warm).delta_q.tobytes() == right.delta_q.tobytes()

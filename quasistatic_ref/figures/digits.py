@@ -1,0 +1,108 @@
+"""Correct digits of backends against the accuracy that they were asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from quasistatic_ref.figures.style import paper_style
+
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+LINES = ("-", "--", "-.", ":")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "black", "#CC79A7", "#56B4E9", "#E69F00", "0.5")
+SPREAD = 0.17
+"""Distance between backends at the same setting, settings being one apart."""
+
+
+@dataclass(frozen=True)
+class BackendDigits:
+    """How right a backend was, over many steps, at one setting.
+
+    Parameters
+    ----------
+    units : str
+        Title of the panel: what the backend was handed.
+    backend : str
+    accuracy : str
+        The setting, as its tick is to read.
+    steps : int
+    unsolved : int
+        Steps of these for which it gave no answer; they are in none of the numbers below.
+    worst, low, median, best : float
+        Correct digits of delta_q: the least, the first percentile, the median, the most.
+    """
+
+    units: str
+    backend: str
+    accuracy: str
+    steps: int
+    unsolved: int
+    worst: float
+    low: float
+    median: float
+    best: float
+
+
+def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure:
+    """Correct digits against the setting; one panel for each kind of units.
+
+    Parameters
+    ----------
+    records : sequence of BackendDigits
+        Panels, ticks and the legend are in the order in which they come.
+    subject : str
+        Which steps these are, with their time step and cone.
+    """
+    panels = list(dict.fromkeys(r.units for r in records))
+    backends = list(dict.fromkeys(r.backend for r in records))
+    settings = list(dict.fromkeys(r.accuracy for r in records))
+    with paper_style():
+        figure, (grid,) = plt.subplots(
+            1, len(panels), figsize=(7.2, 3.1), sharey=True, squeeze=False,
+            gridspec_kw={"wspace": 0.06},
+        )  # fmt: skip
+        for axes, units in zip(grid, panels, strict=True):
+            for k, backend in enumerate(backends):
+                own = [r for r in records if (r.units, r.backend) == (units, backend)]
+                aside = SPREAD * (k - (len(backends) - 1) / 2)
+                _draw(axes, own, [settings.index(r.accuracy) + aside for r in own], k)
+            axes.set_title(units)
+            axes.set_xlabel("accuracy asked of the backend [-]")
+            axes.set_xticks(range(len(settings)), settings)
+            axes.grid(visible=False, axis="x")
+        grid[0].set_ylim(-0.6, 16.6)
+        grid[0].set_yticks(range(0, 17, 4))
+        grid[0].set_ylabel(r"correct digits of $\delta q$ [-]")
+        handles, labels = grid[0].get_legend_handles_labels()
+        unsolved = any(r.unsolved for r in records)
+        told = "some steps unsolved" if unsolved else "no step unsolved"
+        figure.legend(
+            handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(backends),
+            title="marker: median step; bar: first percentile; line: worst step to best; "
+            f"{told}\n{subject}",
+            title_fontsize=8,
+        )  # fmt: skip
+    return figure
+
+
+def _draw(axes: Axes, own: Sequence[BackendDigits], at: Sequence[float], k: int) -> None:
+    """Draw one backend; where it left steps unsolved, their share stands at the bottom."""
+    x = [p for p, r in zip(at, own, strict=True) if r.unsolved < r.steps]
+    shown = [r for r in own if r.unsolved < r.steps]
+    colour, style = COLOURS[k], LINES[k % len(LINES)]
+    worst, best = [r.worst for r in shown], [r.best for r in shown]
+    axes.vlines(x, worst, best, colors=colour, linewidth=1.0, linestyle=style)
+    low = [r.low for r in shown]
+    axes.plot(x, low, linestyle="none", marker="_", markersize=6, color=colour)
+    axes.plot(
+        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=5.5,
+        color=colour, markeredgecolor="black", markeredgewidth=0.5, label=own[0].backend,
+    )  # fmt: skip
+    for p, r in zip(at, own, strict=True):
+        if r.unsolved:
+            text = f"{100 * r.unsolved / r.steps:.1f} % unsolved"
+            axes.text(p, -0.4, text, rotation=90, fontsize=7, ha="center", va="bottom")

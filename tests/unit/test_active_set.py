@@ -1,0 +1,162 @@
+"""The walk: which row leaves, exact ties included, and that it ends."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify import active_set
+from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
+from quasistatic_ref.certify.balls import ball_form
+from quasistatic_ref.certify.point import Point
+from quasistatic_ref.certify.rational import exact_form_of
+
+
+def program(A, b, g=None):
+    """Nearest x to g with A x >= b."""
+    A = np.array(A, dtype=float)
+    n = A.shape[1]
+    return exact_form_of(np.eye(n), np.zeros(n) if g is None else g, A, np.array(b, dtype=float))
+
+
+def point_on(form, working, balls=True):
+    """The minimiser on a working set; without balls all signs are those of fractions."""
+    point = Point(form, ball_form(form), tuple(working))
+    if not balls:
+        point.__dict__["balls"] = None
+    return point
+
+
+@pytest.fixture(params=[True, False], ids=["balls", "fractions"])
+def balls(request):
+    return request.param
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+@pytest.mark.parametrize(
+    ("right", "first"),
+    [
+        # On x_0 = b_0, x_1 = b_1 lam = b; with a_2 x = 9 u = b - (9 - b_0 - b_1). Row j vanishes
+        # at b_j / (b_j - u_j) = b_j / (9 - b_0 - b_1): the smaller b first.
+        ((1.0, 1.0), None),
+        ((1.0, 2.0), 0),
+        ((2.0, 1.0), 1),
+        ((2.0, 2.0 + 2**-51), 0),
+    ],
+)
+def test_multiplier_that_vanishes_first_leaves_the_longest_held_in_a_tie(
+    order, right, first, balls
+):
+    form = program([[1, 0, 0], [0, 1, 0], [1, 1, 1]], [*right, 9])
+    before, after = point_on(form, order, balls), point_on(form, (*order, 2), balls)
+    leaving = active_set._first_below_zero(before, after)
+    assert order[leaving] == (order[0] if first is None else first)
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+@pytest.mark.parametrize(
+    ("c", "first"),
+    [
+        # lam = (1, 3): lam_j / c_j is 1 and 3 / c_1.
+        ((1.0, 3.0), None),
+        ((1.0, 2.0), 0),
+        ((1.0, 4.0), 1),
+        ((-1.0, 1.0), 1),
+        ((1.0, -4.0), 0),
+        ((1.0, 0.0), 0),
+    ],
+)
+def test_on_a_combination_the_smallest_ratio_leaves_the_longest_held_in_a_tie(
+    order, c, first, balls
+):
+    form = program([[1, 0], [0, 1], c], [1, 3, 99])
+    combination = active_set.combination(form, order, 2)
+    assert [float(str(c_j)) for c_j in combination] == [c[i] for i in order]
+    leaving = active_set._first_on_combination(point_on(form, order, balls), combination)
+    assert order[leaving] == (order[0] if first is None else first)
+
+
+def test_combination_without_positive_part_proves_infeasibility():
+    """x_0 >= 1, x_1 >= 1 and -2 x_0 - 3 x_1 >= -4: y = (2, 3, 1), b'y = 1."""
+    end = dual_active_set(program([[1, 0], [0, 1], [-2, -3]], [1, 1, -4]), [0, 1])
+    assert isinstance(end, Farkas)
+    assert {i: float(str(y_i)) for i, y_i in end.y.items()} == {0: 2.0, 1: 3.0, 2: 1.0}
+
+
+def test_proof_of_infeasibility_names_only_the_rows_that_it_uses():
+    """x_0 >= 1 and -x_0 >= 0; x_1 >= 1 takes no part."""
+    end = dual_active_set(program([[0, 1], [1, 0], [-1, 0]], [1, 1, 0]), [0, 1])
+    assert isinstance(end, Farkas)
+    assert sorted(end.y) == [1, 2]
+
+
+def lifted_corner(seed):
+    """A start at a corner, x_i >= 1, that sums of its rows lift: x = (10, 10, 10, 10, 0).
+
+    All multipliers at the corner are one, so all leave at once when the sum of four rows comes
+    in. Every row is there twice; the sums of two are without slack at the end and depend on it.
+    """
+    rng = np.random.default_rng(seed)
+    each = np.eye(5)[:4]
+    pairs = [each[i] + each[j] for i in range(4) for j in range(i)]
+    rows = np.vstack([each, each, [each.sum(axis=0)] * 2, pairs, pairs])
+    b = np.array([1] * 8 + [40] * 2 + [20] * 12)
+    order = rng.permutation(len(b))
+    start = rng.permutation(np.flatnonzero(order < 8)).tolist()
+    return program(rows[order], b[order]), start
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_exactly_tied_duplicated_and_dependent_rows_end(seed):
+    form, warm = lifted_corner(seed)
+    end = dual_active_set(form, warm)
+    assert isinstance(end, Optimum)
+    x = end.point.rational
+    assert [form.x_unit * v / x.denominator for v in x.x] == [10, 10, 10, 10, 0]
+    assert end.walks <= form.m
+
+
+def test_the_walks_of_these_meet_exact_ties(monkeypatch):
+    met = []
+
+    def compared(name):
+        less = getattr(active_set, name)
+
+        def recorded(*arguments):
+            *same, j, k = arguments
+            met.append(name if not less(*same, j, k) and not less(*same, k, j) else None)
+            return less(*arguments)
+
+        return recorded
+
+    for name in ("_vanishes_before", "_ratio_less"):
+        monkeypatch.setattr(active_set, name, compared(name))
+    for seed in range(20):
+        dual_active_set(*lifted_corner(seed))
+    assert met.count("_vanishes_before") >= 5
+    assert met.count("_ratio_less") >= 5
+
+
+def test_each_walk_raises_the_dual_objective(monkeypatch):
+    """1/2 x'x at the ends of the walks of random programs with many ties."""
+    ends = []
+
+    def recorded(point, p):
+        after = walk(point, p)
+        if not isinstance(after, Farkas):
+            ends.append((objective(point), objective(after)))
+        return after
+
+    def objective(point):
+        x, d = point.rational.x, int(point.rational.denominator)
+        return Fraction(sum(int(v) ** 2 for v in x), d**2)
+
+    walk = active_set._walk
+    monkeypatch.setattr(active_set, "_walk", recorded)
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        rows = rng.integers(-1, 2, size=(12, 4))
+        end = dual_active_set(program(rows, rng.integers(-1, 2, size=12)))
+        assert isinstance(end, Farkas | Optimum)
+    assert len(ends) > 50
+    assert all(before < after for before, after in ends)

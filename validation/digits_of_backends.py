@@ -1,0 +1,135 @@
+"""Correct digits of each backend on every step of both bunny_grasp runs, at several settings.
+
+Run ``python -m validation.digits_of_backends`` (about two minutes; the extra ``test`` brings
+DAQP). Each step is asked twice: as it is, in SI units, and in natural units, as `solve_step` asks
+it. "default" is the solver as it comes, through CVXPY, with none of our options; the others are
+the accuracies that our table of options was asked for. The truth is the certified optimum of the
+step. Writes validation/results/digits_of_backends.csv and docs/figures/digits_of_backends.png.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import warnings
+from collections.abc import Iterator
+from dataclasses import asdict, fields
+from pathlib import Path
+from shutil import copyfile
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.figures.style import figure_written
+from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.solve.ask import backend_answer
+from quasistatic_ref.solve.units import from_natural, natural_units, to_natural
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.problem import StepProblem
+
+ROOT = Path(__file__).parent.parent
+RESULTS = ROOT / "validation" / "results" / "digits_of_backends.csv"
+FIGURES = ROOT / "docs" / "figures"
+BACKENDS = ("clarabel", "osqp", "piqp", "daqp")
+DEFAULT = "default"
+ACCURACIES = (DEFAULT, "1e-3", "1e-6", "1e-9", "1e-12")
+NUMBERS = ("worst", "low", "median", "best")
+SUBJECT = "all 600 steps of both runs of bunny_grasp, h = 10 ms, friction pyramid"
+RAW, NATURAL = "raw units (m, rad, kg)", "natural units"
+
+
+def grasp_steps() -> list[tuple[StepData, Array]]:
+    """Every step of both runs, with its certified optimum."""
+    steps = []
+    for own in CASES.values():
+        run = load_scenario("bunny_grasp", own).run()
+        assert set(run["certificate"]) == {"exact"}
+        steps += [(run.step_data(k), run["delta_q"][k]) for k in range(run.steps)]
+    return steps
+
+
+def answered(step: StepData, backend: str, accuracy: str, problem: StepProblem) -> Array | None:
+    """The delta_q that a backend gives, in the units of the step; None if it gives none."""
+    if accuracy != DEFAULT:
+        try:
+            return backend_answer(step, backend, float(accuracy), problem).delta_q
+        except StepNotSolved:
+            return None
+    problem.fill(step)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # "may be inaccurate": its status says so too
+        try:
+            problem.problem.solve(solver=backend.upper(), warm_start=False)
+        except Exception:  # whatever a solver raises, it has not solved the step
+            return None
+    return problem.primal() if problem.problem.status == "optimal" else None
+
+
+def digits(
+    step: StepData, truth: Array, units: str, backend: str, accuracy: str, problem: StepProblem
+) -> float | None:
+    """Correct digits of an answer; None without one."""
+    if units == RAW:
+        delta_q = answered(step, backend, accuracy, problem)
+    else:
+        natural = natural_units(step)
+        delta_q = answered(to_natural(step, natural), backend, accuracy, problem)
+        if delta_q is not None:
+            delta_q, _ = from_natural(delta_q, np.zeros(0), natural)
+    return None if delta_q is None else correct_digits(step, delta_q, truth).delta_q
+
+
+def measured(steps: list[tuple[StepData, Array]]) -> Iterator[BackendDigits]:
+    """One record for each backend, setting and kind of units."""
+    cells = [(u, b, a) for u in (RAW, NATURAL) for b in BACKENDS for a in ACCURACIES]
+    problem = StepProblem(steps[0][0])
+    for units, backend, accuracy in (bar := tqdm(cells)):
+        bar.set_description(f"{units}, {backend} at {accuracy}")
+        found = [digits(step, x, units, backend, accuracy, problem) for step, x in steps]
+        solved = np.array([d for d in found if d is not None])
+        quantiles = np.quantile(solved, [0, 0.01, 0.5, 1]) if solved.size else np.full(4, np.nan)
+        worst, low, median, best = (float(f"{q:.2f}") for q in quantiles)
+        counts = len(found), len(found) - solved.size
+        yield BackendDigits(units, backend, accuracy, *counts, worst, low, median, best)
+
+
+def records_read() -> list[BackendDigits]:
+    """The committed results."""
+    kinds = {"steps": int, "unsolved": int} | dict.fromkeys(NUMBERS, float)
+    with RESULTS.open(newline="") as file:
+        return [
+            BackendDigits(**{name: kinds.get(name, str)(text) for name, text in row.items()})
+            for row in csv.DictReader(file)
+        ]
+
+
+def main() -> int:
+    """Measure, write the table and the figure; with ``--figure`` draw from the table alone."""
+    if "--figure" in sys.argv[1:]:
+        records = records_read()
+    else:
+        records = list(measured(grasp_steps()))
+        _records_written(records)
+    with TemporaryDirectory() as folder:
+        png, *_ = figure_written(digits_of_backends(records, SUBJECT), folder, RESULTS.stem)
+        copyfile(png, FIGURES / png.name)
+    print(RESULTS.read_text(), end="")
+    return 0
+
+
+def _records_written(records: list[BackendDigits]) -> None:
+    RESULTS.parent.mkdir(exist_ok=True)
+    with RESULTS.open("w", newline="") as file:
+        names = [field.name for field in fields(BackendDigits)]
+        table = csv.DictWriter(file, names, lineterminator="\n")
+        table.writeheader()
+        table.writerows(asdict(record) for record in records)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
