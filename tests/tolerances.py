@@ -93,3 +93,7 @@ a gap that is right to 1e-13 leaves its square root of lateral freedom."""
 SCENE: Final = 1e-9
 """One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
 are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""
+
+SCENARIO: Final = 1e-6
+"""Steady states of whole scenarios against their closed forms: exact steps, but transients of a few
+hundred of them and poses that are rounded at each."""

@@ -19,13 +19,13 @@ SPREAD = 1024
 REACH = 0.08
 """[rad]"""
 
-STARTS = 4
+STARTS = 6
 """Local maxima that are followed at most."""
 
 NEAR = np.cos(0.2)
 """Cosine above which a direction is a neighbour of another."""
 
-APART = 0.9
+APART = 0.985
 """Cosine above which two directions are taken to lead to the same maximum."""
 
 
