@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 class QuasistaticError(Exception):
     """Root of every error that this package raises on purpose."""
 
+    def __str__(self) -> str:
+        return one_line(super().__str__())
+
     def __reduce__(self) -> tuple[Any, ...]:
         # Exceptions are rebuilt from `args`, which here hold the message only.
         return _rebuilt, (type(self), self.args, self.__dict__)
@@ -56,7 +59,7 @@ class InputError(QuasistaticError):
         where = f"{self.file}: " if self.file is not None else ""
         what = f"{self.field}: " if self.field is not None else ""
         got = f" (got {_short(self.value)})" if self.value is not None else ""
-        return f"{where}{what}{self.problem}{got}"
+        return one_line(f"{where}{what}{self.problem}{got}")
 
     def in_file(self, file: str | Path) -> InputError:
         """Return the same error, saying which file it is about (unless it says so already)."""
@@ -135,7 +138,9 @@ class StepInfeasible(StepNotSolved):
         self.backend, self.status, self.step = "exact", "infeasible", step
         self.accuracy, self.residuals, self.farkas = 0.0, None, farkas
         QuasistaticError.__init__(
-            self, f"the step has no solution: {farkas.in_words} (proved without rounding)"
+            self,
+            f"the step has no solution: {farkas.in_words} (proved without rounding); "
+            "widen these gaps, or let one of the bodies give way",
         )
 
 
@@ -159,8 +164,25 @@ class StepIllPosed(StepNotSolved):
         QuasistaticError.__init__(
             self,
             f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
-            "its contacts contradict each other but for rounding",
+            "its contacts contradict each other but for rounding; look for opposite normals",
         )
+
+
+class LimitExceeded(StepNotSolved):
+    """A run has gone where no step should be taken from.
+
+    Parameters
+    ----------
+    problem : str
+        What is beyond which limit, and the remedy.
+    step : StepData
+        The step that was not taken.
+    """
+
+    def __init__(self, problem: str, step: StepData) -> None:
+        self.backend, self.status, self.step = "none", "limit exceeded", step
+        self.accuracy, self.residuals = 0.0, None
+        QuasistaticError.__init__(self, problem)
 
 
 class RunFailed(QuasistaticError):
@@ -179,6 +201,13 @@ class RunFailed(QuasistaticError):
     def __init__(self, reason: str, trajectory: Any, step: StepData | None = None) -> None:
         self.reason, self.trajectory, self.step = reason, trajectory, step
         super().__init__(reason)
+
+
+def one_line(text: str) -> str:
+    """Text whose line ends and control characters are escaped: names come from any file."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
@@ -200,5 +229,8 @@ def _rebuilt(
 
 
 def _short(value: Any, limit: int = 80) -> str:
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join(repr(value).split())
+    except (RecursionError, ValueError):  # nested without end; an integer of too many digits
+        return f"of type {type(value).__name__}, too long to show"
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -90,8 +90,15 @@ class Fields:
             raise self.fail(field, f"must be at least {least:g}", value)
         return number
 
-    def integer(self, field: str, default: Any = REQUIRED, *, least: int | None = None) -> int:
-        """Return a whole number, at least `least`."""
+    def integer(
+        self,
+        field: str,
+        default: Any = REQUIRED,
+        *,
+        least: int | None = None,
+        most: int | None = None,
+    ) -> int:
+        """Return a whole number, at least `least` and at most `most`."""
         value = self.take(field, default)
         if value is default and default is not REQUIRED:
             return value  # type: ignore[no-any-return]  # the caller's own default
@@ -99,6 +106,8 @@ class Fields:
             raise self.fail(field, "must be a whole number", value)
         if least is not None and value < least:
             raise self.fail(field, f"must be at least {least}", value)
+        if most is not None and value > most:
+            raise self.fail(field, f"must be at most {most}", value)
         return value
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
@@ -133,6 +142,8 @@ class Fields:
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
         try:
             array = np.array(value, dtype=object)
+            if any(isinstance(v, list) for v in array.flat):
+                raise self.fail(field, f"must be {wanted} numbers, in lists of equal length", value)
             if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
                 raise self.fail(field, f"must hold numbers only ({wanted})", value)
             numbers = array.astype(np.float64)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +15,9 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 
 LARGEST = 512 * 2**20
+"""Largest file that is read [bytes]."""
+LARGEST_TEXT = 64 * 2**20
+"""Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
 
 
 def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
@@ -22,7 +26,8 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
     Parameters
     ----------
     path : str or Path
-        Missing folders are made.
+        Missing folders are made. Something that is no file, such as ``/dev/null``, is
+        written into and never replaced; behind a symbolic link, the file that it leads to is.
     write : callable
         Receives the open binary file.
 
@@ -38,21 +43,59 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
     path = Path(path)
     temporary = ""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        target = _resolved(path)
+        if target.exists() and not target.is_file() and not target.is_dir():
+            with target.open("wb") as file:
+                write(file)
+            return path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
         with os.fdopen(descriptor, "wb") as file:
             write(file)
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, path)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise InputError(f"cannot be written: {reason}; choose another folder", file=path) from None
+        os.replace(temporary, target)
+    except (OSError, _BadPath) as error:
+        raise _unwritable(error, path) from None
     finally:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
     return path
+
+
+class _BadPath(Exception):
+    """A path that can never be one."""
+
+
+def _resolved(path: Path) -> Path:
+    try:
+        return path.resolve()
+    except (ValueError, RuntimeError) as error:  # a NUL character; links in a circle
+        raise _BadPath(str(error)) from None
+
+
+def writable_folder(folder: str | Path) -> Path:
+    """Make a folder and see that files can be written there, before work is done for them.
+
+    Raises
+    ------
+    InputError
+        If they cannot.
+    """
+    folder = Path(folder)
+    try:
+        _resolved(folder).mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(b"?")
+    except (OSError, _BadPath) as error:
+        raise _unwritable(error, folder) from None
+    return folder
+
+
+def _unwritable(error: Exception, path: Path) -> InputError:
+    reason = getattr(error, "strerror", None) or str(error)
+    return InputError(f"cannot be written: {reason}; choose another folder", file=path)
 
 
 def text_written(path: str | Path, text: str) -> Path:
@@ -64,7 +107,9 @@ def _write_text(file: IO[bytes], text: str) -> None:
     file.write(text.encode("utf-8"))
 
 
-def bytes_read(path: str | Path, error: type[InputError] = InputError) -> bytes:
+def bytes_read(
+    path: str | Path, error: type[InputError] = InputError, largest: int | None = None
+) -> bytes:
     """The content of a file.
 
     Parameters
@@ -72,6 +117,8 @@ def bytes_read(path: str | Path, error: type[InputError] = InputError) -> bytes:
     path : str or Path
     error : type
         The :class:`~quasistatic_ref.errors.InputError` to raise.
+    largest : int, optional
+        Largest size that is read [bytes]; ``LARGEST`` by default.
 
     Raises
     ------
@@ -79,9 +126,14 @@ def bytes_read(path: str | Path, error: type[InputError] = InputError) -> bytes:
         If it is missing, not a file, not readable, or larger than any input should be.
     """
     path = Path(path)
+    most = LARGEST if largest is None else min(largest, LARGEST)
     try:
-        if path.stat().st_size > LARGEST:
-            raise error(f"is larger than {LARGEST // 2**20} MiB", file=path)
+        status = path.stat()
+        # Devices and pipes may never end, or never begin.
+        if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
+            raise error("cannot be read: it is a device or a pipe, not a file", file=path)
+        if status.st_size > most:
+            raise error(f"is larger than {most / 2**20:g} MiB", file=path)
         return path.read_bytes()
     except FileNotFoundError:
         raise error("no such file", file=path) from None
@@ -100,13 +152,37 @@ def text_of(content: bytes, path: str | Path, error: type[InputError] = InputErr
 
 
 def json_read(path: str | Path) -> Any:
-    """The value in a JSON file; InputError if it does not parse."""
+    """The value in a JSON file; InputError if it does not parse, or names a field twice."""
     try:
-        return json.loads(text_of(bytes_read(path), path))
+        text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
+        value = json.loads(text, object_pairs_hook=unique_fields)
+        _check_characters(text, value)
+    except InputError as error:
+        raise error.in_file(path) from None
     except json.JSONDecodeError as error:
         raise InputError(f"is not JSON: {error}", file=path) from None
     except (RecursionError, ValueError):  # nested too deeply, or an integer of too many digits
         raise InputError("is not usable JSON: too deep, or a number too long", file=path) from None
+    return value
+
+
+def _check_characters(text: str, value: Any) -> None:
+    r"""Refuse half of a surrogate pair, ``"\ud800"``, which no file in UTF-8 can hold."""
+    if "\\ud" in text.lower():
+        try:
+            json.dumps(value, ensure_ascii=False).encode()
+        except UnicodeEncodeError:
+            raise InputError("is not usable JSON: a string holds half of a character") from None
+
+
+def unique_fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object as a dict; InputError if a name comes twice (`json` keeps the last)."""
+    fields: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in fields:
+            raise InputError("is given twice", field=name, value=value)
+        fields[name] = value
+    return fields
 
 
 def plain(value: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from quasistatic_ref.errors import ScenarioError, suggestion
@@ -29,7 +30,7 @@ def scenario_path(name: str | Path) -> Path:
         If there is neither such a file nor such a name.
     """
     path = Path(name)
-    if path.suffix == ".toml" or path.exists():
+    if path.suffix == ".toml" or os.path.exists(path):  # Path's own raises for a name too long
         return path
     for known in models_folder().glob("*/*.toml"):
         if known.stem == str(name):

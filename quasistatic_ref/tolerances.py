@@ -24,6 +24,18 @@ ACCURACY: Final = 1e-12
 
 The tightest at which Clarabel, OSQP and PIQP still solve every step of ``bunny_grasp``."""
 
+ENCLOSED: Final = 1e-13
+"""Largest error, in the one definition, at which an answer counts as enclosed.
+
+Rounding the answer to float64 alone costs 1e-16; a bound that ends between is the sign of a
+problem almost without interior."""
+
+IMPULSES: Final = 1e-9
+"""How far the multipliers of an answer in the ellipsoid may be from its balance and their cone,
+relative to the step and to the largest of them.
+
+They are not unique and not what is certified; rounded to float64 they are off by 1e-15."""
+
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
 
@@ -57,6 +69,11 @@ LOADED: Final = 1e-9
 Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
 misread differs by far more."""
 
+WELDED: Final = 1e-12
+"""Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
+
+Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
+
 UNIT_QUATERNION: Final = 1e-6
 """Largest | |x| - 1 | of a quaternion, or of a continuous joint's (cos, sin), that is normalised.
 
@@ -66,8 +83,52 @@ UNIT_ROUNDING: Final = 1e-15
 """Largest | |x| - 1 | that is left alone: normalising in float64 leaves up to two units of 2.2e-16
 in the length as computed, so that what was normalised once is not touched again."""
 
+LARGE: Final = 1e15
+"""Largest number in a scenario, a URDF or a point cloud, in whatever unit.
+
+Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
+
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the
 larger of the unconstrained step and the longest push-out of a single row.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
+
+CONVEX: Final = 1e-3
+"""Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
+counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
+
+ON_SURFACE: Final = 1e-12
+"""Distance relative to a polytope's size below which its edges and corners count as its faces [-].
+
+A direction computed from two points that near has fewer than four correct digits."""
+
+UPRIGHT: Final = 1e-9
+"""Tilt of a cylinder or a cone [rad] below which its rim counts as level.
+
+The direction of its lowest point is then rounding; on a rim of 1 m all points are level to 1 nm."""
+
+SUPPORT: Final = 1e-9
+"""Difference between coal's distance and the gap along its normal, relative to the shapes' size, at
+which its answer is taken at once [-]. What is right to rounding is at 1e-12 and below."""
+
+REPEATED: Final = 1e-9
+"""Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
+
+Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
+
+CLOSED_FORM: Final = 1e-12
+"""Largest difference of a certified step from its closed form, relative to the largest term.
+
+The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
+
+BEARS: Final = 1e-9
+"""Least normal force of a contact that bears load, over the largest of its step: solvers leave
+1e-12 of it on contacts that do not touch."""
+
+SLOW: Final = 0.1
+"""Largest quasi-dynamic number Pi = v / (mu g h) that passes without a word: forces on moving
+bodies are then wrong by a tenth of friction."""
+
+FITTED: Final = 0.02
+"""Largest difference of a fitted exponent from the exponent of the law it is to show."""

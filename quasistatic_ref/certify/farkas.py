@@ -5,18 +5,21 @@ If y >= 0, A'y = 0 and b'y > 0, then A delta_q >= b would give 0 = y'A delta_q >
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
-from flint import fmpq, fmpz_mat
+from flint import fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
+
+_FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,14 +91,16 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     str or None
         A plain reason.
     """
+    if not cone(step.cone).polyhedral:
+        return "a Farkas vector proves nothing of a cone that is no polyhedron"
     form = exact_form(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
-    try:
-        fractions = [Fraction(text) for text in exact]
-    except (ValueError, ZeroDivisionError):
+    # By pattern first: Fraction would read "1e999999999", and never return.
+    parts = [_FRACTION.fullmatch(text) for text in exact]
+    y = [fmpq(fmpz(part[1]), fmpz(part[2] or "1")) for part in parts if part]
+    if len(y) < len(exact):
         return "the Farkas vector has entries that are no fractions"
-    y = [fmpq(f.numerator, f.denominator) for f in fractions]
     if any(y_i < 0 for y_i in y):
         return "the Farkas vector has a negative entry"
     common = fmpq(1)

@@ -7,6 +7,7 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.files import writable_folder
 from quasistatic_ref.simulate.grasp import CASES, CLOSED, grasp_report
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -25,6 +26,7 @@ def run(options: argparse.Namespace) -> int:
     scenarios = {
         case: load_scenario("bunny_grasp", [*settings, *own]) for case, own in CASES.items()
     }
+    writable_folder(options.out)
     runs: dict[str, Trajectory] = {}
     report: dict[str, dict[str, object]] = {}
     for case, scenario in scenarios.items():

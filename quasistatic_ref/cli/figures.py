@@ -19,10 +19,13 @@ def run(options: argparse.Namespace) -> int:
     """Make them one by one."""
     from quasistatic_ref.figures.gallery import FIGURES
     from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.files import writable_folder
 
     for name in options.names:
         if name not in FIGURES:
-            raise InputError(f"is no figure{suggestion(name, FIGURES)}", value=name)
+            problem = f"is no figure{suggestion(name, FIGURES)}"
+            raise InputError(problem, field="NAME", value=name)
+    writable_folder(options.out)
     for name in options.names or FIGURES:
         print(f"{name} ...", file=sys.stderr)
         for path in figure_written(FIGURES[name](), options.out, name):

@@ -6,12 +6,16 @@ Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 1
 from __future__ import annotations
 
 import argparse
+import io
+import os
+import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from typing import NoReturn
 
 from quasistatic_ref import __version__
-from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.errors import InputError, QuasistaticError, suggestion
 
 COMMANDS = {
     "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
@@ -20,9 +24,20 @@ COMMANDS = {
     "verify": "re-check an answer and its certificate without any solver",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "extract": "write one step of a trajectory as a step file",
+    "validate": "measure the claims about the model against the paper, formulas and other engines",
     "figures": "make the figures, as PNG and PDF",
     "backends": "list the solvers that can be chosen here",
 }
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser that suggests the nearest command."""
+
+    def error(self, message: str) -> NoReturn:
+        """Exit with status 2 and a sentence."""
+        unknown = re.search(r"invalid choice: '(\w*)'", message)
+        hint = suggestion(unknown[1], COMMANDS) if unknown else ""
+        super().error(f"{message.split(' (choose from')[0]}{hint}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -39,7 +54,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status.
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
-    parser = argparse.ArgumentParser(
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
+            stream.reconfigure(errors="backslashreplace")
+    parser = Parser(
         prog="quasistatic-ref",
         description="Convex quasi-dynamic simulation with torsional friction: the reference.",
     )
@@ -52,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             import_module(f"quasistatic_ref.cli.{name}").add_options(command)
     options = parser.parse_args(given)
     try:
-        return int(import_module(f"quasistatic_ref.cli.{options.command}").run(options))
+        return _status(options)
     except InputError as error:
         return _failed(error, 2)
     except QuasistaticError as error:
@@ -62,6 +80,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of our output, such as `head`, went away
         sys.stderr.close()
         return 0
+    except MemoryError:
+        return _failed("this needs more memory than there is", 2)
+    except OSError as error:  # files are wrapped where they are used: this is standard output
+        _discard_output()
+        return _failed(f"standard output: cannot be written: {error.strerror or error}", 2)
+
+
+def _status(options: argparse.Namespace) -> int:
+    status = int(import_module(f"quasistatic_ref.cli.{options.command}").run(options))
+    sys.stdout.flush()  # here, where a full device can still be reported
+    return status
+
+
+def _discard_output() -> None:
+    """Send what is left in the buffer nowhere, or the interpreter would try again at its end."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, sys.stdout.fileno())
+    os.close(null)
 
 
 def _failed(error: object, status: int) -> int:

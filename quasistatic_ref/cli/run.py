@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.files import writable_folder
+from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
+from quasistatic_ref.step.cones import cone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it; exit status 3 where a step has no solution, its steps so far being kept."""
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
+    writable_folder(options.out)  # known before the work, not after it
     stem = scenario.path.stem
     try:
         trajectory = scenario.run()
@@ -32,22 +38,28 @@ def run(options: argparse.Namespace) -> int:
         return shared.failed_run_saved(failure, options.out, stem)
     path = trajectory.save(options.out / f"{stem}.npz")
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
-    summary = {
+    summary: dict[str, Any] = {
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
         "variables": scenario.system.n_v,
-        "rows": int(trajectory["rows"].sum()),
+        "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
+        "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],
+        "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
         "milliseconds_per_step": milliseconds,
     }
+    fast = warning(trajectory.header)
+    if fast is not None:
+        print(f"quasistatic-ref: {fast}", file=sys.stderr)
     if options.json:
         shared.print_json(summary)
         return 0
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     worst = _worst(summary["worst_residual"])
     print(f"{summary['certified']}; backend {summary['backend']}, worst residual {worst}")
+    print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     print(f"wrote {path}")
@@ -56,3 +68,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _worst(x: object) -> str:
     return "not computed" if x is None else f"{x:.1e} (natural units)"
+
+
+def _artifacts(Pi: float | None, layer: float) -> str:
+    number = "not defined" if Pi is None else f"{Pi:.2g}"
+    return f"largest quasi-dynamic number {number}, largest boundary layer {1e6 * layer:.3g} um"

@@ -17,6 +17,7 @@ from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.ply import ply_points
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.tolerances import LARGE
 
 
 def point_cloud(path: str | Path) -> PointCloud:
@@ -47,9 +48,18 @@ def point_cloud(path: str | Path) -> PointCloud:
         raise ModelError(problem, file=path, field="extension", value=path.suffix)
     content = bytes_read(path, ModelError)
     try:
-        return PointCloud(np.array(points_of(content, path), dtype=np.float64).reshape(-1, 3))
+        points = np.array(points_of(content, path), dtype=np.float64).reshape(-1, 3)
+        _check_size(points)
+        return PointCloud(points)
     except ModelError as error:
         raise error.in_file(path) from None
+
+
+def _check_size(points: NDArray[np.float64]) -> None:
+    far = np.flatnonzero((np.abs(points) > LARGE).any(axis=1))
+    if far.size:
+        problem = f"its coordinates must be at most {LARGE:g} m"
+        raise ModelError(problem, field=f"point {far[0]}", value=points[far[0]].tolist())
 
 
 def _xyz(content: bytes, path: Path) -> list[list[float]]:

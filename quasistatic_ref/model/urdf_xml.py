@@ -17,8 +17,11 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.tolerances import LARGE
 
 Array = NDArray[np.float64]
+DEEPEST = 100
+"""Most elements in one another; other readers of XML recurse, and end the process."""
 
 
 def xml_root(text: str) -> Element:
@@ -27,8 +30,8 @@ def xml_root(text: str) -> Element:
     Raises
     ------
     ModelError
-        If the text is not well-formed, or declares a document type: entities of its own are
-        never needed in a URDF, and can expand without bound.
+        If the text is not well-formed, is nested without end, or declares a document type:
+        entities of its own are never needed in a URDF, and can expand without bound.
     """
     builder = TreeBuilder()
     parser = expat.ParserCreate()
@@ -39,8 +42,22 @@ def xml_root(text: str) -> Element:
         raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
 
     parser.StartDoctypeDeclHandler = refusal
-    parser.StartElementHandler = lambda name, attributes: builder.start(name, attributes)
-    parser.EndElementHandler = lambda name: builder.end(name)
+    depth = 0
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > DEEPEST:
+            problem = f"is nested deeper than {DEEPEST} elements"
+            raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
+        builder.start(name, attributes)
+
+    def end(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(name)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
@@ -65,7 +82,12 @@ def attribute(element: Element, where: str, name: str) -> str:
 
 
 def numbers(
-    element: Element, where: str, name: str, count: int, default: float | None = None
+    element: Element,
+    where: str,
+    name: str,
+    count: int,
+    default: float | None = None,
+    most: float = LARGE,
 ) -> Array:
     """Finite numbers in one attribute, shape (count,).
 
@@ -80,6 +102,8 @@ def numbers(
         How many numbers it must hold.
     default : float, optional
         Each number, where the attribute is missing; without it that is an error.
+    most : float
+        Largest absolute value: beyond it squares and products overflow.
     """
     if default is not None and name not in element.attrib:
         return np.full(count, default)
@@ -89,10 +113,13 @@ def numbers(
         problem = f"must be {count} number{'s' if count > 1 else ''}"
         raise ModelError(problem, field=field, value=element.get(name))
     try:
-        return np.array([decimal(word) for word in words])
+        values = np.array([decimal(word) for word in words])
     except ModelError as error:
         error.field = field
         raise
+    if np.abs(values).max() > most:
+        raise ModelError(f"must be at most {most:g}", field=field, value=element.get(name))
+    return values
 
 
 def at_most_one(element: Element, where: str, tag: str) -> Element | None:

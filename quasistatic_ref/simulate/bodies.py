@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ScenarioError, suggestion
+from quasistatic_ref.errors import InputError, ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.paths import path_in
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array, positive_definite
 
 ZERO = np.zeros(3)
 
@@ -81,8 +83,10 @@ class BodyEntry:
 
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
-    urdf = folder / table.text("urdf")
-    base = table.text("base", "fixed", ("fixed", "floating"))
+    urdf = path_in(folder, table, "urdf")
+    if urdf is None:
+        raise table.fail("urdf", "is missing")
+    base = table.text("base", "fixed", BASES)
     actuated = table.take("actuated", [])
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
@@ -91,7 +95,12 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     xyz, rpy = _pose(table.table("pose", {}))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
-    cloud = table.text("cloud", None)
+    package_dirs = table.sequence("package_dirs", [])
+    if not all(isinstance(given, str) for given in package_dirs):
+        raise table.fail("package_dirs", "must be a list of folders", package_dirs)
+    moved = "gravity_compensated" in table
+    if moved and not actuated:
+        raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
     entry = BodyEntry(
         body=Body(
             name=name,
@@ -101,15 +110,18 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
             xyz=tuple(xyz),
             rpy=tuple(rpy),
             positions=start,
+            package_dirs=tuple(folder / given for given in package_dirs),
         ),
         table=table,
         K_q=table.take("K_q", None),
         targets=table.sequence("targets", []),
-        cloud=None if cloud is None else folder / cloud,
+        cloud=path_in(folder, table, "cloud"),
         gravity_compensated=table.boolean("gravity_compensated", True),
         wrenches=_wrenches(name, table),
     )
     table.close()
+    if entry.wrenches is not None and base == "fixed":
+        raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
     return entry
 
 
@@ -129,11 +141,13 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     if isinstance(entry.K_q, list):
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
         whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
-        K_q[np.ix_(index, index)] = whole.array("K_q", (len(index), len(index)))
+        block = whole.array("K_q", (len(index), len(index)))
+        K_q[np.ix_(index, index)] = _positive_definite(block, table.name("K_q"))
         return
     given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
     for joint in joints:
-        K_q[joint.v, joint.v] = _joint_stiffness(given, entry.short(joint), joint)
+        block = _joint_stiffness(given, entry.short(joint), joint)
+        K_q[joint.v, joint.v] = _positive_definite(block, given.name(entry.short(joint)))
     given.close()
 
 
@@ -145,6 +159,8 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     for i, record in enumerate(entry.targets):
         waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
         t = waypoint.number("t")
+        if not waypoint.names():
+            raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
             if name not in joints:
                 hint = suggestion(name, joints)
@@ -152,6 +168,8 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             if joints[name].kind == "floating":
                 xyz, rpy = _pose(waypoint.table(name))
                 value: Any = np.concatenate([xyz, quaternion(rpy)])
+            elif joints[name].kind == "planar":
+                value = _planar(waypoint, name, entry.body)
             else:
                 value = [waypoint.number(name)]
             times.setdefault(name, []).append(t)
@@ -176,6 +194,27 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
     return np.diag(diagonal)
 
 
+def _planar(waypoint: Fields, name: str, body: Body) -> Array:
+    """Entries of q of a planar base, from the same table as a floating one's."""
+    pose = waypoint.table(name)
+    xyz, rpy = pose.array("xyz", (3,), np.array(body.xyz)), pose.array("rpy", (3,), ZERO)
+    pose.close()
+    height = float(np.asarray(body.xyz)[2])
+    if xyz[2] != height or rpy[:2].any():
+        problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
+        raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
+    return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
+
+
+def _positive_definite(block: Array, field: str) -> Array:
+    """The block as it is, refused here rather than in the first step."""
+    try:
+        positive_definite(field, block)
+    except InputError as error:
+        raise ScenarioError(error.problem, field=field, value=error.value) from None
+    return block
+
+
 def _pose(table: Fields) -> tuple[Array, Array]:
     xyz, rpy = table.array("xyz", (3,), ZERO), table.array("rpy", (3,), ZERO)
     table.close()
@@ -187,6 +226,8 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
     for i, record in enumerate(table.sequence("wrenches", [])):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
         times.append(one.number("t"))
+        if not {"force", "torque"} & set(one.names()):
+            raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
         values.append(
             np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,23 +12,37 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.errors import BackendError, InputError, ScenarioError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
+from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.paths import OwnWord
 from quasistatic_ref.simulate.simulator import GRAVITY, Force, Simulator, simulate
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
-from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.backends import DEFAULT, NONE
+from quasistatic_ref.solve.backends import backend as known_backend
 from quasistatic_ref.solve.solve import CERTIFY
-from quasistatic_ref.step.data import CONES, Array
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
 VERSION = 1
+LARGEST = 2**20
+"""Largest scenario file [bytes]."""
+MOST_STEPS = 10_000_000
+MOST_PARTS = 32
+"""Most parts of a dotted key."""
+# Possessive, and from the start of a word only: its own time is linear.
+_DEEP_KEY = re.compile(
+    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +65,10 @@ class Scenario:
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External, world frame, at centres of mass.
-    backend, accuracy, certify, record
+    backend, accuracy, certify, record, cone
         Settings.
+    limits : Limits
+        Beyond which no step is taken.
     """
 
     path: Path
@@ -68,6 +85,8 @@ class Scenario:
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     record: str = "full"
+    cone: str = PYRAMID
+    limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
 
     def simulator(self) -> Simulator:
@@ -82,6 +101,8 @@ class Scenario:
             backend=self.backend,
             accuracy=self.accuracy,
             certify=self.certify,
+            cone=self.cone,
+            limits=self.limits,
         )
 
     @property
@@ -125,13 +146,14 @@ def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
     path = scenario_path(name)
     try:
         try:
-            tables = tomllib.loads(text_of(bytes_read(path), path))
+            tables = _tables(text_of(bytes_read(path, largest=LARGEST), path))
         except tomllib.TOMLDecodeError as error:
             raise ScenarioError(f"is not TOML: {error}") from None
         except (RecursionError, ValueError):
             raise ScenarioError("is nested too deeply, or holds an unusable number") from None
         for setting in settings:
             _apply(tables, setting)
+        check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
     except InputError as error:
         raise error.in_file(path) from None
@@ -142,15 +164,20 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     version = top.integer("version")
     if version != VERSION:
         raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
-    h, steps = top.number("h", above=0.0), top.integer("steps", least=0)
+    h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    top.text("cone", "pyramid", CONES)
+    named = top.text("cone", PYRAMID)
+    try:
+        cone(named)
+    except InputError as error:
+        raise top.fail("cone", error.problem, named) from None
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
-    backend = solver.text("backend", DEFAULT)
-    accuracy = solver.number("accuracy", ACCURACY, above=0.0)
     certify = solver.text("certify", CERTIFY[0], CERTIFY)
+    backend = _backend(solver, certify)
+    accuracy = solver.number("accuracy", ACCURACY, above=0.0)
     solver.close()
+    limits = _limits(top.table("limits", {}))
 
     tables = top.table("bodies")
     entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
@@ -158,9 +185,13 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     if not entries:
         raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
-    shapes = placed_shapes(system, entries, top.table("shapes", {}))
+    shapes = placed_shapes(system, entries, top.table("shapes", {}), path.parent)
     pairs = contact_pairs(top.table("contacts", {}), shapes)
     top.close()
+    check_motion(system, pairs)
+    check_twice(pairs)
+    if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
+        raise ScenarioError(f"at the start, {far}", field="bodies")
 
     K_q, feels_gravity = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
     tracks, wrenches = [], []
@@ -186,8 +217,42 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         accuracy=accuracy,
         certify=certify,
         record=record,
+        cone=named,
+        limits=limits,
         bodies=entries,
     )
+
+
+def _backend(solver: Fields, certify: str) -> str:
+    """The backend's name, looked up here rather than in the first step."""
+    name = solver.text("backend", DEFAULT)
+    if name == NONE:
+        if certify != CERTIFY[0]:
+            problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+            raise solver.fail("backend", problem, name)
+        return name
+    try:
+        known_backend(name)
+    except BackendError as error:
+        raise solver.fail("backend", error.problem, name) from None
+    return name
+
+
+def _limits(table: Fields) -> Limits:
+    limits = Limits(
+        penetration=table.number("penetration", Limits.penetration, above=0.0),
+        reach=table.number("reach", Limits.reach, above=0.0),
+    )
+    table.close()
+    return limits
+
+
+def _tables(text: str) -> dict[str, Any]:
+    # tomllib's time is quadratic in the number of parts of a dotted key.
+    if deep := _DEEP_KEY.search(text):
+        line = text[: deep.start()].count("\n") + 1
+        raise ScenarioError(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
+    return tomllib.loads(text)
 
 
 def _apply(tables: dict[str, Any], setting: str) -> None:
@@ -196,10 +261,17 @@ def _apply(tables: dict[str, Any], setting: str) -> None:
     parts = [part.strip() for part in key.split(".")]
     if not equals or not all(parts):
         raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
+    if len(parts) > MOST_PARTS:
+        problem = f"names a key of more than {MOST_PARTS} parts"
+        raise ScenarioError(problem, field="--set", value=setting)
     try:
-        value = tomllib.loads(f"value = {text}")["value"]
-    except (tomllib.TOMLDecodeError, KeyError):
-        value = text.strip()
+        parsed = _tables(f"value = {text}")
+    except (ValueError, RecursionError):
+        parsed = {}
+    # Anything but one value, such as a second line, is taken as a word.
+    value = parsed["value"] if list(parsed) == ["value"] else text.strip()
+    if isinstance(value, str):
+        value = OwnWord(value)
     at: Any = tables
     for part in parts[:-1]:
         at = at.setdefault(part, {}) if isinstance(at, dict) else None

@@ -14,10 +14,16 @@ from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
+from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -68,6 +74,12 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     backend, accuracy, certify
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    cone : str
+        Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
+    extension : callable, optional
+        q -> constraints and costs of the user's own at q, for every step.
+    limits : Limits, optional
+        Beyond which no step is taken.
     """
 
     def __init__(
@@ -82,12 +94,17 @@ class Simulator:
         backend: str = DEFAULT,
         accuracy: float = ACCURACY,
         certify: str = "full",
+        cone: str = PYRAMID,
+        extension: Callable[[Array], Extension] | None = None,
+        limits: Limits = Limits(),  # noqa: B008 - it is frozen
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.cone, self.extension = cone, extension
+        self.limits = limits
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -108,17 +125,23 @@ class Simulator:
         Raises
         ------
         StepNotSolved
-            If the backend's answer cannot be trusted.
+            If the backend's answer cannot be trusted, the step has no solution, or it
+            starts or ends beyond the limits.
         """
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
         points = closest_points(self.pairs, kinematics)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
+        own = None if self.extension is None else self.extension(q)
+        if own is not None and (rows := extension_rows(step, own)) is not None:
+            step, own = with_rows(step, rows), None
         lap("rows")
-        solution = self.solved(step)
+        solution = self.solved(step, own)
+        self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
@@ -135,11 +158,12 @@ class Simulator:
             tau_u=tau[n_a:],
             delta_q_bar_a=system.difference(q, target)[:n_a],  # q_bar_a(t + h) (-) q_a
             contacts=at,
+            cone=self.cone,
         )
 
-    def solved(self, step: StepData) -> StepSolution:
+    def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a CVXPY problem that is built once."""
-        if self.problem is None:
+        if self.problem is None or not self.problem.fits(step):
             self.problem = StepProblem(step)
         return solve_step(
             step,
@@ -147,6 +171,7 @@ class Simulator:
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,
+            extension=own,
         )
 
 
@@ -186,26 +211,32 @@ def simulate(
     Raises
     ------
     RunFailed
-        If a step fails or is interrupted; it holds the trajectory so far, and the failing step.
+        If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
+        trajectory so far, and the failing step.
     """
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
-    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q)
+    g = float(np.linalg.norm(simulator.gravity))
+    recorder = Recorder(
+        simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
+    )
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )
-    for k in bar:
-        t = (k + 1) * simulator.h
-        try:
-            goal = q_bar_a(t)
-            result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
-        except (QuasistaticError, KeyboardInterrupt) as failure:
-            interrupted = isinstance(failure, KeyboardInterrupt)
-            reason = f"step {k}: {'interrupted' if interrupted else failure}"
-            step = failure.step if isinstance(failure, StepNotSolved) else None
-            raise RunFailed(reason, recorder.trajectory(reason), step) from failure
-        recorder.add(t, goal, result)
-        q = result.q
+    with Interrupt() as interrupt:
+        for k in bar:
+            t = (k + 1) * simulator.h
+            try:
+                interrupt.check()
+                goal = q_bar_a(t)
+                result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+            except (QuasistaticError, KeyboardInterrupt) as failure:
+                interrupted = isinstance(failure, KeyboardInterrupt)
+                reason = f"step {k}: {'interrupted' if interrupted else failure}"
+                step = failure.step if isinstance(failure, StepNotSolved) else None
+                raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+            recorder.add(t, goal, result)
+            q = result.q
     return recorder.trajectory()
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text
-from quasistatic_ref.step.data import CONES, Array, StepData
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import VERSION, check_format, step_sha256
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
@@ -30,7 +31,7 @@ class SolutionFile:
     step_sha256 : str
     backend : str
     delta_q : ndarray, shape (n_v,), or None
-        None of an infeasible step.
+        None of an infeasible step; nothing more is read where step_sha256 is another step's.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
@@ -50,10 +51,9 @@ class SolutionFile:
 
 def solution_text(step: StepData, solution: StepSolution) -> str:
     """The solution of a step as one line of JSON."""
-    offsets = step.contacts.offsets
     record = _head(step, "optimal", solution.backend) | {
         "delta_q": solution.delta_q,
-        "lam": [solution.lam[a:b] for a, b in pairwise(offsets)],
+        "lam": [solution.lam[a:b] for a, b in pairwise(step.offsets)],
         "lam_extra": solution.lam_extra,
         "wrench": solution.wrench,
         "certificate": asdict(solution.certificate),
@@ -94,8 +94,12 @@ def _head(step: StepData, status: str, backend: str) -> dict[str, Any]:
 def _solution(top: Fields, step: StepData) -> SolutionFile:
     check_format(top, SOLUTION_FORMAT)
     status = top.text("status", choices=("optimal", "infeasible"))
-    top.text("cone", "pyramid", CONES)
+    named = top.text("cone", PYRAMID)
+    if named != step.cone:
+        raise top.fail("cone", f"must be that of the step, {step.cone!r}", named)
     backend, sha256 = top.text("backend"), top.text("step_sha256")
+    if sha256 != step_sha256(step):
+        return SolutionFile(sha256, backend)  # its shapes are another step's
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):
@@ -121,7 +125,7 @@ def _nested(top: Fields, step: StepData) -> Array:
         raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
     parts = [
         Fields({f"lam[{j}]": part}, error=StepDataError).array(f"lam[{j}]", (int(rows),))
-        for j, (part, rows) in enumerate(zip(value, step.contacts.rows, strict=True))
+        for j, (part, rows) in enumerate(zip(value, step.counts, strict=True))
     ]
     return np.concatenate([np.zeros(0), *parts])
 

@@ -60,7 +60,7 @@ def test_words_for_what_is_not_exact(step):
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):
-    rows = range(len(step.contacts.rows) and int(step.contacts.offsets[-1]) + 2)
+    rows = range(len(step.contacts.rows) and int(step.offsets[-1]) + 2)
     pairs = contact_rows(step, rows)
     assert pairs[0] == (0, 0)
     assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each

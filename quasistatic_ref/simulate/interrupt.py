@@ -1,0 +1,46 @@
+"""Ctrl-C while a run goes on: answered between two steps, so that what was done is whole."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from types import FrameType, TracebackType
+from typing import Any
+
+
+class Interrupt:
+    """Notes a Ctrl-C while it is open; a second one raises KeyboardInterrupt at once.
+
+    An exception raised in the middle of a step could be swallowed by a solver's own handlers, or
+    leave a step half recorded. Where Ctrl-C is handled by somebody else, or this is not the main
+    thread, nothing is changed.
+    """
+
+    def __init__(self) -> None:
+        self.noted = False
+        self._before: Any = None
+
+    def __enter__(self) -> Interrupt:
+        here = threading.current_thread() is threading.main_thread()
+        if here and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            self._before = signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        if self.noted:
+            raise KeyboardInterrupt
+        self.noted = True
+
+    def check(self) -> None:
+        """Raise KeyboardInterrupt if there was one."""
+        if self.noted:
+            raise KeyboardInterrupt

@@ -1,0 +1,89 @@
+"""How far a run may go before it is stopped: what lies beyond is a mistake, not a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, LimitExceeded
+from quasistatic_ref.step.data import Array, StepData
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The ``[limits]`` of a scenario.
+
+    Parameters
+    ----------
+    penetration : float
+        Deepest penetration at which a step is still taken [m]. The step's rows hold to first
+        order, and push it out at once, with a force of m |phi| / h^2: bodies that start in each
+        other, or pass through each other in one step, are thrown apart. 0.05 by default.
+    reach : float
+        Farthest that the origin of a link may come from that of the world [m]; 100 by default.
+
+    Raises
+    ------
+    InputError
+        If one of them is not greater than 0.
+    """
+
+    penetration: float = 0.05
+    reach: float = 100.0
+
+    def __post_init__(self) -> None:
+        for name in ("penetration", "reach"):
+            if not getattr(self, name) > 0:
+                raise InputError(
+                    "must be greater than 0", field=f"limits.{name}", value=getattr(self, name)
+                )
+
+    def out_of_reach(self, links: Sequence[str], t: Array) -> str | None:
+        """Which link is out of the scene, in words; None if none is.
+
+        Parameters
+        ----------
+        links : sequence of str
+        t : ndarray, shape (L, 3)
+            Origins of the links [m], world frame.
+        """
+        distance = np.hypot.reduce(t, axis=1)
+        beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too
+        if not beyond.size:
+            return None
+        i = beyond[0]
+        return (
+            f"link {links[i]} is {distance[i]:.3g} m from the origin, farther than "
+            f"limits.reach = {self.reach:g} m; hold or support it, look at its wrenches and "
+            "targets, or raise the limit"
+        )
+
+    def check_reach(self, step: StepData, links: Sequence[str], t: Array) -> None:
+        """Refuse a step after which a link is out of the scene.
+
+        Raises
+        ------
+        LimitExceeded
+        """
+        problem = self.out_of_reach(links, t)
+        if problem is not None:
+            raise LimitExceeded(problem, step)
+
+    def check_penetration(self, step: StepData) -> None:
+        """Refuse a step that starts deeper in penetration than any step should.
+
+        Raises
+        ------
+        LimitExceeded
+        """
+        phi = step.contacts.phi
+        if phi.size and phi.min() < -self.penetration:
+            j = int(phi.argmin())
+            raise LimitExceeded(
+                f"contact {step.contacts.name[j]} is {-phi[j]:.3g} m deep, deeper than "
+                f"limits.penetration = {self.penetration:g} m; start the bodies apart, move "
+                "slower or take a smaller h, or raise the limit",
+                step,
+            )

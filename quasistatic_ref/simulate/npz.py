@@ -1,0 +1,97 @@
+"""The arrays of an ``.npz`` file from anywhere: no pickles, and no size but the one it says.
+
+``numpy.load`` believes the shape in an array's header and asks for that much memory at once, and a
+few kilobytes of ZIP can hold gigabytes of zeros. Here sizes are compared before anything is
+unpacked.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import bytes_read
+
+LARGEST_UNPACKED = 2 * 2**30
+"""Largest sum of all arrays [bytes]: 100,000 full steps of the paper's size."""
+MOST_ARRAYS = 256
+UNREADABLE: tuple[type[Exception], ...] = (
+    ValueError,
+    KeyError,
+    TypeError,
+    OSError,
+    EOFError,
+    RuntimeError,
+    NotImplementedError,
+    SyntaxError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What zipfile and NumPy raise at a file that is something else, or spoilt."""
+
+
+def npz_arrays(path: str | Path) -> dict[str, NDArray[Any]]:
+    """Every array of the file, by name.
+
+    Raises
+    ------
+    InputError
+        If it is no such file, is spoilt, holds pickles, or unpacks to more than it should.
+    """
+    content = bytes_read(path)
+    problem = "is not a trajectory written by this program"
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            members = _checked_sizes(archive)
+            return {_name(one): _array(archive.read(one), one.filename) for one in members}
+    except InputError as error:
+        raise error.in_file(path) from None
+    except UNREADABLE as error:
+        reason = " ".join(str(error).split())[:80]
+        raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
+
+
+def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
+    members = archive.infolist()
+    if len(members) > MOST_ARRAYS:
+        raise InputError(f"holds more than {MOST_ARRAYS} arrays", value=len(members))
+    seen: set[str] = set()
+    for member in members:
+        if member.filename in seen:
+            raise InputError("is given twice", field=member.filename)
+        seen.add(member.filename)
+    unpacked = sum(member.file_size for member in members)
+    if unpacked > LARGEST_UNPACKED:
+        most = LARGEST_UNPACKED / 2**30
+        raise InputError(f"unpacks to more than {most:g} GiB", field="its arrays", value=unpacked)
+    return members
+
+
+def _name(member: zipfile.ZipInfo) -> str:
+    if not member.filename.endswith(".npy"):
+        raise InputError("is not a trajectory written by this program", field=member.filename)
+    return member.filename.removesuffix(".npy")
+
+
+def _array(content: bytes, name: str) -> NDArray[Any]:
+    file = io.BytesIO(content)
+    if np.lib.format.read_magic(file) != (1, 0):
+        raise ValueError(f"{name} is an array file of another version")
+    shape, _, kind = np.lib.format.read_array_header_1_0(file)
+    if kind.hasobject:
+        raise ValueError(f"{name} is a pickle, which is never opened")
+    size = kind.itemsize
+    for n in shape:  # in Python's own numbers, which do not overflow
+        size *= n
+    if min(shape, default=0) < 0 or size != len(content) - file.tell():
+        raise ValueError(f"{name} does not have the size that it says")
+    file.seek(0)
+    array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+    return array

@@ -1,0 +1,187 @@
+"""What a claim is, what was measured for it, and the verdict."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.step.data import Array
+
+HOLDS: Final = "holds"
+FAILS: Final = "FAILS"
+NOT_RUN: Final = "not run (engine not installed)"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """One quantity over a sweep: what came out, and what should have.
+
+    Parameters
+    ----------
+    what : str
+        The quantity, with its unit in brackets.
+    measured, expected : ndarray, shape (points,)
+    scale : ndarray, shape (points,)
+        What an error is relative to: the largest term of the formula, or 1.
+    tolerance : float
+        Largest |measured - expected| / scale that is still agreement; 0 asks for equal bits.
+    words : str
+        The expectation in words, where it is no single number.
+    """
+
+    what: str
+    measured: Array
+    expected: Array
+    scale: Array
+    tolerance: float
+    words: str = ""
+
+    @property
+    def errors(self) -> Array:
+        """Each point's error, relative to its scale; NaN where something is not a number."""
+        gap = np.abs(self.measured - self.expected)
+        # A scale of zero forgives nothing: all terms are zero, and so must the measurement be.
+        return np.where(gap == 0, 0.0, gap / np.where(self.scale > 0, self.scale, 1e-300))
+
+    @property
+    def worst(self) -> int:
+        """Index of the point with the largest error; of the largest expectation among ties."""
+        errors = np.where(np.isnan(self.errors), np.inf, self.errors)
+        return int(np.lexsort((np.abs(self.expected), errors))[-1])
+
+    @property
+    def holds(self) -> bool:
+        """Whether every point agrees; NaN never does, nor does a sweep without points."""
+        return bool(self.errors.size and (self.errors <= self.tolerance).all())
+
+
+def comparison(
+    what: str,
+    measured: ArrayLike,
+    expected: ArrayLike,
+    tolerance: float,
+    scale: ArrayLike = 1.0,
+) -> Comparison:
+    """A comparison of arrays of any shape; the scale is broadcast to them.
+
+    Parameters
+    ----------
+    what : str
+    measured, expected : array_like
+        Of equal shape, or either of them one number.
+    tolerance : float
+    scale : array_like
+    """
+    arrays = np.broadcast_arrays(*(np.asarray(a, float) for a in (measured, expected, scale)))
+    m, e, s = (array.ravel() for array in arrays)
+    return Comparison(what, m, e, np.abs(s), tolerance)
+
+
+def sum_of_terms(
+    what: str, measured: ArrayLike, terms: list[ArrayLike], tolerance: float
+) -> Comparison:
+    """A comparison with the sum of some terms, relative to the largest of them."""
+    stacked = np.array(np.broadcast_arrays(*(np.asarray(t, float) for t in terms)))
+    return comparison(what, measured, stacked.sum(0), tolerance, np.abs(stacked).max(0))
+
+
+def within(what: str, measured: ArrayLike, low: float, high: float) -> Comparison:
+    """The claim that measurements lie in a closed interval."""
+    m = np.atleast_1d(np.asarray(measured, float))
+    words = f"{low:g} to {high:g}" if np.isfinite(high) else f"at least {low:g}"
+    return Comparison(what, m, np.clip(m, low, high), np.ones_like(m), 0.0, words)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What measuring a claim brought.
+
+    Parameters
+    ----------
+    comparisons : tuple of Comparison
+    picture : mapping
+        What the claim's figure draws, if it has one.
+    """
+
+    comparisons: tuple[Comparison, ...]
+    picture: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A sentence that can be wrong, and how it is measured.
+
+    Parameters
+    ----------
+    name : str
+        That of its module, and of its figure.
+    sentence : str
+    where : str
+        The paper's page or figure, a publication, or (R#) of docs/derivations.md.
+    sweep : str
+        What was varied.
+    reason : str
+        Why the tolerances are what they are.
+    measure : callable
+        Returns Evidence.
+    engine : str, optional
+        A package without which it cannot be measured.
+    """
+
+    name: str
+    sentence: str
+    where: str
+    sweep: str
+    reason: str
+    measure: Callable[[], Evidence]
+    engine: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """A claim with its evidence.
+
+    Parameters
+    ----------
+    claim : Claim
+    evidence : Evidence or None
+        None where nothing could be measured.
+    trouble : str
+        Why not: an error of the package, which fails the claim; empty where only the engine is
+        missing.
+    seconds : float
+        What measuring took [s].
+    """
+
+    claim: Claim
+    evidence: Evidence | None
+    trouble: str = ""
+    seconds: float = 0.0
+
+    @property
+    def verdict(self) -> str:
+        """``HOLDS``, ``FAILS`` or ``NOT_RUN``."""
+        if self.evidence is None:
+            return FAILS if self.trouble else NOT_RUN
+        comparisons = self.evidence.comparisons
+        return HOLDS if comparisons and all(c.holds for c in comparisons) else FAILS
+
+
+def finding(claim: Claim) -> Finding:
+    """Measure a claim, or say that its engine is missing."""
+    if claim.engine is not None and find_spec(claim.engine) is None:
+        return Finding(claim, None)
+    start = time.perf_counter()
+    evidence, trouble = None, ""
+    try:
+        evidence = claim.measure()
+    except QuasistaticError as error:  # a wrong formula may well make a step unsolvable
+        trouble = str(error)
+    return Finding(claim, evidence, trouble, time.perf_counter() - start)

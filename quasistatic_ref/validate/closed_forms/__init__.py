@@ -1,0 +1,1 @@
+"""Closed forms of the model, each derived in docs/derivations.md."""

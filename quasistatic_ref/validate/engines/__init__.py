@@ -1,0 +1,1 @@
+"""The same quantities from engines that share no code with this package."""

@@ -1,0 +1,41 @@
+"""The command line in this process, held to its manners."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+
+SLOWEST = 10.0
+"""No input may keep the program busy for longer before it is refused [s]."""
+Refused = Callable[..., str]
+
+
+@pytest.fixture
+def refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
+    """Run a command that must fail, and return its one sentence.
+
+    Nothing is printed but that sentence, nothing is written, and it does not take long.
+    """
+
+    def run(*arguments: object, status: int = 2) -> str:
+        before = everything(tmp_path)
+        start = time.perf_counter()
+        assert main([str(argument) for argument in arguments]) == status
+        assert time.perf_counter() - start < SLOWEST
+        captured = capsys.readouterr()
+        assert captured.out == ""
+        lines = captured.err.splitlines()
+        assert len(lines) == 1, captured.err
+        assert lines[0].startswith("quasistatic-ref: ")
+        assert everything(tmp_path) == before
+        return lines[0].removeprefix("quasistatic-ref: ")
+
+    return run
+
+
+def everything(folder: Path) -> set[Path]:
+    """All files and folders below a folder."""
+    return set(folder.rglob("*"))

@@ -1,0 +1,124 @@
+"""A good scenario, step and solution as plain dictionaries, to be spoilt one field at a time."""
+
+import copy
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from tests.unit.urdf_texts import collision, inertial, joint, link, robot, written
+
+BALL = robot(link("ball", collision('<sphere radius="0.05"/>'), inertial("0.3", ("3e-4",) * 3)))
+RAIL = robot(
+    link("rail"),
+    link("plate", collision('<box size="0.02 0.2 0.2"/>')),
+    joint("slide", "rail", "plate", "prismatic", "1 0 0", '<origin xyz="0 0 0.05"/>'),
+)
+CLOUD = "0 0 0.05\n0.05 0 0\n0 0.05 0\n"
+
+SCENE: dict[str, Any] = {
+    "format": "quasistatic-ref/scenario",
+    "version": 1,
+    "h": 0.01,
+    "steps": 3,
+    "gravity": [0.0, 0.0, -9.81],
+    "solver": {"accuracy": 1e-12},
+    "limits": {"penetration": 0.05, "reach": 100.0},
+    "bodies": {
+        "rail": {
+            "urdf": "rail.urdf",
+            "actuated": ["slide"],
+            "K_q": {"slide": 500.0},
+            "positions": {"slide": 0.0},
+            "targets": [{"t": 0.0, "slide": 0.0}, {"t": 0.1, "slide": 0.02}],
+        },
+        "ball": {
+            "urdf": "ball.urdf",
+            "base": "floating",
+            "pose": {"xyz": [0.065, 0.0, 0.05], "rpy": [0.0, 0.0, 0.0]},
+            "wrenches": [{"t": 0.0, "force": [0.0, 0.1, 0.0], "torque": [0.0, 0.0, 0.001]}],
+        },
+    },
+    "shapes": {
+        "floor": {
+            "halfspace": {"normal": [0.0, 0.0, 1.0], "offset": 0.0},
+            "pose": {"xyz": [0.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]},
+        },
+        "wall": {"box": {"size": [0.1, 1.0, 1.0]}, "pose": {"xyz": [9.0, 0.0, 0.0]}},
+        "post": {"capsule": {"radius": 0.1, "length": 1.0}, "pose": {"xyz": [0.0, 9.0, 0.0]}},
+    },
+    "contacts": {
+        "floor": {
+            "alpha": "floor", "beta": "ball", "mu_v": 0.5, "mu_omega": 0.01, "rows": 6, "k": 1,
+        },
+        "push": {"alpha": "rail/plate", "beta": "ball", "mu_v": 0.3, "rows": 4},
+    },
+}  # fmt: skip
+"""A plate pushes a ball over the floor: n_a = 1, n_u = 6, 10 rows."""
+
+
+def toml_text(table: dict[str, Any]) -> str:
+    """A dictionary as TOML, each of its fields one line."""
+    return "".join(f"{key} = {_toml(value)}\n" for key, value in table.items())
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(k)} = {_toml(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(_toml(v) for v in value) + "]"
+    if isinstance(value, bool | str):
+        return json.dumps(value)
+    return str(value)
+
+
+def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]:
+    """A deep copy with fields replaced (or removed, by `...`), each given as ``a/b/0``."""
+    record = copy.deepcopy(record)
+    for path, value in changes:
+        *above, last = path.split("/")
+        at: Any = record
+        for part in above:
+            at = at[int(part)] if isinstance(at, list) else at[part]
+        key: Any = int(last) if isinstance(at, list) else last
+        if value is ...:
+            del at[key]
+        else:
+            at[key] = value
+    return record
+
+
+def numeric_fields(value: Any, above: str = "") -> Iterator[str]:
+    """The path, as ``a/b/0``, of every number in a record; of a list of numbers its last."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from numeric_fields(inner, f"{above}/{key}")
+    elif isinstance(value, list) and value and not isinstance(value[0], int | float):
+        for i, inner in enumerate(value):
+            yield from numeric_fields(inner, f"{above}/{i}")
+    elif isinstance(value, list) and value:
+        yield f"{above}/{len(value) - 1}".lstrip("/")
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield above.lstrip("/")
+
+
+def dotted(record: dict[str, Any], path: str) -> str:
+    """The name that messages give to a path: ``a.b[0].c``, without indices into numbers."""
+    name, at = "", record
+    for part in path.split("/"):
+        if isinstance(at, dict):
+            name, at = f"{name}.{part}", at[part]
+        else:
+            name, at = (
+                (name if isinstance(at[0], int | float | list) else f"{name}[{part}]"),
+                at[int(part)],
+            )
+    return name.lstrip(".")
+
+
+def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
+    """A scenario file with its URDFs and a cloud beside it."""
+    written(folder, BALL, "ball.urdf")
+    written(folder, RAIL, "rail.urdf")
+    written(folder, CLOUD, "cloud.xyz")
+    return written(folder, toml_text(scene), "scene.toml")

@@ -1,0 +1,151 @@
+"""Files that are not what their readers expect, down to the bytes: TOML, JSON, XML, ZIP alike."""
+
+import os
+
+import numpy as np
+import pytest
+
+from tests.errors.scene import BALL, SCENE, scene_written, toml_text
+from tests.helpers import planted_step
+
+READERS = ("scene.toml", "step.json", "ball.urdf", "run.npz", "cloud.xyz")
+DEEP = 100_000
+LAUGHS = "".join(f'<!ENTITY l{i + 1} "{f"&l{i};" * 10}">' for i in range(9))
+BOMB = f'<!DOCTYPE robot [<!ENTITY l0 "ha">{LAUGHS}]><robot name="&l9;"/>'
+
+NO_TRAJECTORY = "is not a trajectory written by this program"
+NOT_UTF8 = "line 1: is not UTF-8 text"
+XML = "line 1: is not well-formed XML: "
+CAUSES = {
+    # name: file, content, words of the sentence
+    "empty TOML": ("scene.toml", b"", "format: is missing"),
+    "empty JSON": ("step.json", b"", "is not JSON: Expecting value: line 1"),
+    "empty XML": ("ball.urdf", b"", XML + "no element found"),
+    "empty trajectory": ("run.npz", b"", NO_TRAJECTORY),
+    "empty cloud": ("cloud.xyz", b"", "points: must hold at least one point"),
+    "binary TOML": ("scene.toml", bytes(range(128, 256)), NOT_UTF8),
+    "binary JSON": ("step.json", bytes(range(128, 256)), NOT_UTF8),
+    "binary XML": ("ball.urdf", bytes(range(128, 256)), NOT_UTF8),
+    "binary trajectory": ("run.npz", bytes(range(128, 256)), NO_TRAJECTORY),
+    "binary cloud": ("cloud.xyz", bytes(range(128, 256)), NOT_UTF8),
+    "UTF-16 TOML": ("scene.toml", toml_text(SCENE).encode("utf-16"), NOT_UTF8),
+    "UTF-16 JSON": ("step.json", "{}".encode("utf-16"), NOT_UTF8),
+    "UTF-16 XML": ("ball.urdf", BALL.encode("utf-16"), NOT_UTF8),
+    "Latin-1 TOML": ("scene.toml", "# f = µ N".encode("latin-1"), NOT_UTF8),
+    "Latin-1 JSON": ("step.json", '{"µ": 1}'.encode("latin-1"), NOT_UTF8),
+    "Latin-1 XML": ("ball.urdf", '<robot name="Jürgen"/>'.encode("latin-1"), NOT_UTF8),
+    "NUL in TOML": ("scene.toml", b"h = 1\x00", "is not TOML: "),
+    "NUL in JSON": ("step.json", b'{"h": 1\x00}', "is not JSON: "),
+    "NUL in XML": ("ball.urdf", b"<robot\x00/>", XML),
+    "NUL in a cloud": ("cloud.xyz", b"0 0 \x00", "line 1: must be a finite decimal number"),
+    "half of a TOML": ("scene.toml", toml_text(SCENE).encode()[:-20], "is not TOML: "),
+    "half of a JSON": ("step.json", b'{"format": "quasi', "is not JSON: Unterminated string"),
+    "half of an XML": ("ball.urdf", BALL.encode()[:-20], XML),
+    "TOML without end": ("scene.toml", b"a = " + b"[" * DEEP, "is nested too deeply"),
+    "a key without end": ("scene.toml", b"a" + b".a" * DEEP + b" = 1", "line 1: holds a key of"),
+    "a word without end": ("scene.toml", b"a" * 2**20, "is not TOML: "),
+    "blanks without end": ("scene.toml", b"a " + b" " * (2**20 - 2), "is not TOML: "),
+    "quotes without end": ("scene.toml", b"'" * 2**20, "is not TOML: "),
+    "points without end": ("scene.toml", b". " * 2**19, "is not TOML: "),
+    "a list without end": ("scene.toml", b"h = [" + b"1," * 500_000 + b"]", "format: is missing"),
+    "very many keys": (
+        "scene.toml", b"".join(b"a%d=1\n" % i for i in range(90_000)), "format: is missing",
+    ),
+    "deep TOML": ("scene.toml", b"h = " + b"{a=" * 200 + b"1" + b"}" * 200, "format: is missing"),
+    "JSON without end": ("step.json", b"[" * DEEP + b"]" * DEEP, "is not usable JSON: too deep"),
+    "deep JSON": ("step.json", b'{"a":' * 900 + b"1" + b"}" * 900, "format: is missing"),
+    "XML without end": ("ball.urdf", b"<a>" * DEEP + b"</a>" * DEEP, "line 1: is nested deeper"),
+    "a number of many digits in TOML": ("scene.toml", b"h = " + b"1" * 5000, "an unusable number"),
+    "a number of many digits in JSON": ("step.json", b'{"h": ' + b"1" * 5000 + b"}", "too long"),
+    "entity expansion": ("ball.urdf", BOMB.encode(), "line 1: a DOCTYPE is not allowed"),
+    "a file as an entity": (
+        "ball.urdf", b'<!DOCTYPE r [<!ENTITY x SYSTEM "file:///etc/passwd">]><robot name="&x;"/>',
+        "a DOCTYPE is not allowed",
+    ),
+    "a field twice in TOML": ("scene.toml", b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),
+    "a table twice in TOML": ("scene.toml", b"[solver]\n[solver]\n", "is not TOML: Cannot declare"),
+    "a field twice in JSON": ("step.json", b'{"h": 1, "h": 2}', "h: is given twice (got 2)"),
+    "an attribute twice in XML": ("ball.urdf", b'<robot name="a" name="b"/>', "duplicate attr"),
+    "half a character": ("step.json", b'{"format": "\\ud800"}', "holds half of a character"),
+    "a list for a step": ("step.json", b"[]", "must be a table of named fields (got [])"),
+    "a number for a step": ("step.json", b"1", "must be a table of named fields (got 1)"),
+    "another XML": ("ball.urdf", b"<svg/>", "root element: must be <robot> (got 'svg')"),
+    "an array alone": ("run.npz", b"\x93NUMPY\x01\x00", NO_TRAJECTORY),
+    "words in a cloud": ("cloud.xyz", b"1 2 3\n1 2 x\n", "line 2: must be a finite decimal number"),
+    "two numbers a point": ("cloud.xyz", b"1 2 3\n1 2\n", "line 2: must be three numbers, x y z"),
+    "a point out of this world": ("cloud.xyz", b"1 2 3\n0 0 1e154\n", "point 1: its coordinates"),
+    "NaN in a cloud": ("cloud.xyz", b"1 2 nan\n", "line 1: must be a finite decimal number"),
+}  # fmt: skip
+
+
+def command(folder, file):
+    """The command that reads the file of that name."""
+    path = folder / file
+    if file == "step.json":
+        return ["solve", path, "-o", folder / "solution.json"]
+    if file == "run.npz":
+        return ["extract", path, "--step", 0, "-o", folder / "out.json"]
+    if file in ("ball.urdf", "cloud.xyz"):
+        options = ["--set", "bodies.ball.cloud=cloud.xyz"] if file == "cloud.xyz" else []
+        return ["run", folder / "scene.toml", *options, "--out", folder / "out"]
+    return ["run", path, "--out", folder / "out"]
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+def test_a_file_that_is_something_else_is_refused(tmp_path, refused, cause):
+    file, content, words = CAUSES[cause]
+    scene_written(tmp_path)
+    (tmp_path / file).write_bytes(content)
+    sentence = refused(*command(tmp_path, file))
+    assert sentence.startswith(f"{tmp_path / file}: ")
+    assert words in sentence
+    assert len(sentence) < 400 + len(str(tmp_path))
+
+
+SPOILERS = {
+    "missing": (lambda path: None, "no such file"),
+    "a folder": (lambda path: path.mkdir(), "cannot be read: Is a directory"),
+    "a pipe": (os.mkfifo, "cannot be read: it is a device or a pipe, not a file"),
+    "a link to itself": (lambda path: path.symlink_to(path), "cannot be"),
+    "a device without end": (lambda path: path.symlink_to("/dev/zero"), "it is a device or a pipe"),
+    "too large": (
+        lambda path: (path.touch(), os.truncate(path, 2**30)),
+        ("is larger than ", " MiB"),
+    ),
+}
+
+
+@pytest.mark.parametrize("file", READERS)
+@pytest.mark.parametrize("kind", SPOILERS)
+def test_what_is_no_file_is_refused(tmp_path, refused, file, kind):
+    spoil, words = SPOILERS[kind]
+    scene_written(tmp_path)
+    (tmp_path / file).unlink(missing_ok=True)
+    spoil(tmp_path / file)
+    arguments = command(tmp_path, file)
+    if file == "ball.urdf":  # by --set, since the link leaves the folder
+        arguments += ["--set", "bodies.ball.urdf=ball.urdf"]
+    sentence = refused(*arguments)
+    assert sentence.startswith(f"{tmp_path / file}: ")
+    assert all(word in sentence for word in ([words] if isinstance(words, str) else words))
+
+
+@pytest.mark.parametrize("file", READERS)
+def test_no_byte_changed_at_random_is_more_than_refused(tmp_path, capsys, rng, file):
+    from quasistatic_ref.cli.main import main
+    from quasistatic_ref.simulate.scenario import load_scenario
+    from quasistatic_ref.step.files import step_written
+
+    scene = scene_written(tmp_path)
+    step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    load_scenario(scene).run(progress=False).save(tmp_path / "run.npz")
+    good = (tmp_path / file).read_bytes()
+    arguments = [str(argument) for argument in command(tmp_path, file)]
+    for _ in range(12):
+        spoilt = bytearray(good)
+        for at in rng.integers(len(good), size=3):
+            spoilt[at] = rng.integers(256)
+        (tmp_path / file).write_bytes(spoilt)
+        assert main(arguments) in (0, 2, 3)
+        lines = capsys.readouterr().err.splitlines()
+        assert len([line for line in lines if "Traceback" in line]) == 0

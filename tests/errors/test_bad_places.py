@@ -1,0 +1,240 @@
+"""Paths that leave their folder, outputs that cannot be written, options that mean nothing."""
+
+import io
+import json
+import os
+import resource
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.step.files import step_written
+from tests.errors.scene import BALL, SCENE, changed, scene_written
+from tests.helpers import planted_step
+from tests.unit.urdf_texts import written
+
+LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
+
+
+@pytest.fixture
+def outside(tmp_path):
+    """A scenario in a folder of its own, and a good URDF and cloud beside that folder."""
+    written(tmp_path, BALL, "outside.urdf")
+    written(tmp_path, "0 0 0\n", "outside.xyz")
+    (tmp_path / "inner").mkdir()
+    return tmp_path / "inner"
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("urdf", "../outside.urdf"),
+        ("urdf", "{}/outside.urdf"),
+        ("urdf", "/etc/passwd"),
+        ("urdf", "sub/../../outside.urdf"),
+        ("urdf", "link.urdf"),
+        ("cloud", "../outside.xyz"),
+    ],
+)
+def test_a_path_in_a_scenario_stays_in_its_folder(outside, refused, tmp_path, field, value):
+    value = value.replace("{}", str(tmp_path))
+    path = scene_written(outside, changed(SCENE, (f"bodies/ball/{field}", value)))
+    (outside / "link.urdf").symlink_to("../outside.urdf")
+    sentence = refused("inspect", path)
+    assert sentence.startswith(f"{path}: bodies.ball.{field}: {LEAVES}")
+    assert f"--set bodies.ball.{field}=PATH (got {value!r})" in sentence
+
+
+@pytest.mark.parametrize("value", ["ball.urdf", "./ball.urdf", "sub/../ball.urdf", "{}/ball.urdf"])
+def test_a_path_that_comes_back_is_good(outside, value):
+    (outside / "sub").mkdir()
+    scene = changed(SCENE, ("bodies/ball/urdf", value.replace("{}", str(outside))))
+    assert main(["inspect", str(scene_written(outside, scene))]) == 0
+
+
+@pytest.mark.parametrize("value", ["../outside.urdf", "{}/outside.urdf"])
+def test_a_path_on_the_command_line_leads_anywhere(outside, tmp_path, value):
+    setting = f"bodies.ball.urdf={value.replace('{}', str(tmp_path))}"
+    assert main(["inspect", str(scene_written(outside)), "--set", setting]) == 0
+
+
+def test_a_path_with_a_nul_character_is_none(tmp_path, refused):
+    path = scene_written(tmp_path, changed(SCENE, ("bodies/ball/urdf", "a\0b")))
+    assert refused("inspect", path).startswith(f"{path}: bodies.ball.urdf: cannot be a path")
+
+
+SETTINGS = {
+    "h": "must read dotted.key=value (got 'h')",
+    "=1": "must read dotted.key=value (got '=1')",
+    "a..b=1": "must read dotted.key=value (got 'a..b=1')",
+    "h.x=1": "--set: does not lead to a table (got 'h.x=1')",
+    "bodies.rail.targets.0.t=1": "--set: does not lead to a table",
+    "hh=1": "hh: is unknown; did you mean 'h'?",
+    "h=fast": "h: must be a number (got 'fast')",
+    "h=nan": "h: must be a finite number (got nan)",
+    "h=0.01\nsteps=9": "h: must be a number (got '0.01 steps=9')",
+    "h=" + "1" * 5000: "h: must be a number",
+    "h=" + "[" * 5000: "h: must be a number",
+    "h=" + "0x" + "f" * 5000: "h: must be at most 1e+15 (got of type int, too long to show)",
+    "gravity=[0, 0": "gravity: must hold numbers only (3) (got '[0, 0')",
+    "bodies.ball=3": "bodies.ball: must be a table of named fields (got 3)",
+    "contacts.push.mu_v=-1": "contacts.push.mu_v: must be at least 0 (got -1)",
+    "x." * 2000 + "x=1": "--set: names a key of more than 32 parts",
+}
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_a_setting_that_does_not_fit_is_refused(tmp_path, refused, setting):
+    path = scene_written(tmp_path)
+    sentence = refused("run", path, "--set", setting, "--out", tmp_path / "out")
+    assert sentence.startswith(f"{path}: ")
+    assert SETTINGS[setting].replace("\n", " ") in sentence.replace("\\n", " ")
+
+
+@pytest.mark.parametrize("name", ["clarable", "", "a\nb", 'a"b', "a\\b", "qpsolvers:", "µ", "\x00"])
+@pytest.mark.parametrize("command", ["run", "solve"])
+def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused, name, command):
+    path = scene_written(tmp_path)
+    step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    where = ["--out", tmp_path / "out"]
+    arguments = [path, *where] if command == "run" else [tmp_path / "step.json"]
+    sentence = refused(command, *arguments, "--backend", name)
+    assert "backend: is not a backend" in sentence
+    assert "known: " in sentence
+    assert "did you mean 'clarabel'" in sentence or name != "clarable"
+
+
+def test_a_certificate_that_does_not_exist_is_refused(tmp_path, refused):
+    path = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    assert "certify: must be one of full" in refused("solve", path, "--certify", "ful")
+
+
+@pytest.mark.parametrize("name", ["bunny_gras", "a" * 5000, "\x00", "", " "])
+def test_a_scenario_that_does_not_exist_is_refused(refused, name):
+    sentence = refused("run", name)
+    assert "is neither a file nor a scenario" in sentence or "cannot be read" in sentence
+    assert "did you mean 'bunny_grasp'" in sentence or name != "bunny_gras"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "the following arguments are required: COMMAND"),
+        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: backends, demo"),
+        (["run"], "the following arguments are required: scenario"),
+        (["run", "x.toml", "--fast"], "unrecognized arguments: --fast"),
+        (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
+    ],
+)
+def test_wrong_usage_is_status_2(capsys, arguments, words):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+    assert words in capsys.readouterr().err
+
+
+def in_the_way(folder):
+    (folder / "file").write_text("not a folder")
+    return folder / "file" / "out"
+
+
+def circle(folder):
+    (folder / "out").symlink_to(folder / "out")
+    return folder / "out"
+
+
+FOLDERS = {
+    "a file in the way": (in_the_way, "Not a directory"),
+    "a file": (lambda folder: folder / "scene.toml", "File exists"),
+    "a device": (lambda folder: "/dev/null", "File exists"),
+    "no device": (lambda folder: "/proc/none/out", "No such file"),
+    "a name too long": (lambda folder: folder / ("a" * 5000), "File name too long"),
+    "a NUL character": (lambda folder: f"{folder}/a\0b", "null"),
+    "links in a circle": (circle, ""),
+}
+
+
+@pytest.mark.parametrize("cause", FOLDERS)
+@pytest.mark.parametrize("command", ["run", "demo"])
+def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
+    tmp_path, refused, monkeypatch, cause, command
+):
+    from quasistatic_ref.simulate.scenario import Scenario
+
+    def run(scenario, progress=True):
+        raise AssertionError("work was done before the folder was looked at")
+
+    monkeypatch.setattr(Scenario, "run", run)
+    scene, (folder, words) = scene_written(tmp_path), FOLDERS[cause]
+    path = folder(tmp_path)
+    sentence = refused(command, *([scene] if command == "run" else []), "--out", path)
+    shown = str(path).replace("\0", "\\x00")
+    assert sentence.startswith(f"{shown}: cannot be written: ")
+    assert words in sentence
+    assert sentence.endswith("; choose another folder")
+
+
+def full_disk(size):
+    """Let no file grow beyond a size [bytes]: the write fails as it does on a full disk."""
+    hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+
+
+@pytest.mark.parametrize("size", [0, 3000])
+def test_a_full_folder_leaves_nothing_half_written(tmp_path, refused, size):
+    scene, soft = scene_written(tmp_path), resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+    (tmp_path / "out").mkdir()
+    full_disk(size)
+    try:
+        sentence = refused("run", scene, "--out", tmp_path / "out")
+    finally:
+        full_disk(soft)
+    assert sentence.startswith(f"{tmp_path / 'out'}")
+    assert "cannot be written: File too large; choose another folder" in sentence
+
+
+@pytest.mark.parametrize("path", ["/dev/full", "{}/file/x.json", "{}", "{}/a\0b", "", "{}/x/"])
+def test_a_step_that_cannot_be_written_is_refused(tmp_path, refused, path):
+    step = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    in_the_way(tmp_path)
+    (tmp_path / "x").mkdir()
+    assert "cannot be written: " in refused("solve", step, "-o", path.replace("{}", str(tmp_path)))
+
+
+def test_a_device_is_written_into_and_never_replaced(tmp_path, capsys):
+    step = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    assert main(["solve", str(step), "-o", "/dev/null"]) == 0
+    assert not os.path.isfile("/dev/null")
+    target, link = tmp_path / "there.json", tmp_path / "link.json"
+    link.symlink_to(target)
+    assert main(["solve", str(step), "-o", str(link)]) == 0
+    assert link.is_symlink()
+    assert json.loads(target.read_text())["status"] == "optimal"
+
+
+def test_standard_output_that_is_full_is_one_sentence(tmp_path):
+    step = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(
+            [sys.executable, "-m", "quasistatic_ref.cli.main", "backends"],
+            stdout=full, stderr=subprocess.PIPE, text=True, check=False, cwd=tmp_path,
+            env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        )  # fmt: skip
+    assert ended.returncode == 2
+    assert ended.stderr == (
+        "quasistatic-ref: standard output: cannot be written: No space left on device\n"
+    )
+    assert step.exists()
+
+
+def test_a_closed_pipe_is_no_error(monkeypatch):
+    class Closed(io.StringIO):
+        def write(self, text):
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stdout", Closed())
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    assert main(["backends", "--json"]) == 0

@@ -1,0 +1,173 @@
+"""Scenario files that cannot be used, each a distinct cause: file, field and value are named."""
+
+import pytest
+
+from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written, toml_text
+
+BALL = "bodies/ball/"
+RAIL = "bodies/rail/"
+CAUSES = {
+    # name: (changes to the scene, the field named, words of the sentence)
+    "another format": (("format", "quasistatic-ref/step"), "format", "is not a choice"),
+    "a later version": (("version", 2), "version", "this program reads 1 (got 2)"),
+    "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
+    "h negative": (("h", -0.01), "h", "must be greater than 0 (got -0.01)"),
+    "no h": (("h", ...), "h", "is missing"),
+    "half a step": (("steps", 2.5), "steps", "must be a whole number (got 2.5)"),
+    "negative steps": (("steps", -3), "steps", "must be at least 0 (got -3)"),
+    "steps without end": (("steps", 10**30), "steps", "must be at most 1e+15"),
+    "very many steps": (("steps", 10**8), "steps", "must be at most 10000000 (got 100000000)"),
+    "a flat gravity": (("gravity", [0, -9.81]), "gravity", "must be 3 numbers (got [0, -9.81])"),
+    "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
+    "an unknown field": (("setps", 3), "setps", "is unknown; did you mean 'steps'"),
+    "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
+    "an unknown record": (("record", "ful"), "record", "did you mean 'full'"),
+    "an unknown backend": (("solver/backend", "clarable"), "solver.backend", "mean 'clarabel'"),
+    "an unknown certificate": (("solver/certify", "fully"), "solver.certify", "mean 'full'"),
+    "no backend, no certificate": (
+        ("solver", {"backend": "none", "certify": "off"}),
+        "solver.backend", "gives no answer of its own; use certify = 'full' (got 'none')",
+    ),
+    "a solver's own option": (("solver/eps_abs", 1e-9), "solver.eps_abs", "is unknown"),
+    "accuracy zero": (("solver/accuracy", 0), "solver.accuracy", "must be greater than 0"),
+    "no depth at all": (("limits/penetration", 0), "limits.penetration", "greater than 0 (got 0)"),
+    "no reach": (("limits/reach", -1), "limits.reach", "must be greater than 0 (got -1)"),
+    "an unknown limit": (("limits/depth", 1), "limits.depth", "is unknown; known: pene"),
+    "a body out of the scene": (
+        (BALL + "pose/xyz/0", 200.0), "bodies", "at the start, link ball/ball is 200 m",
+    ),
+    "a shape out of this world": (
+        ("shapes/wall/pose/xyz/0", 1e154), "shapes.wall.pose.xyz", "must be at most 1e+15 (got 1e",
+    ),
+    "no bodies": (("bodies", {}), "bodies", "holds no body; give at least one"),
+    "bodies a list": (("bodies", [1]), "bodies", "must be a table of named fields (got [1])"),
+    "a body called world": (("bodies/world", {"urdf": "ball.urdf"}), "body.name", "than 'world'"),
+    "a body with a slash": (
+        ("bodies", {"a/b": {"urdf": "ball.urdf", "base": "floating"}}),
+        "body.name", "must not contain '/', '#', '*' or white space (got 'a/b')",
+    ),
+    "nothing that moves": (
+        ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
+        "bodies", "nothing here can move",
+    ),
+    "no URDF": ((BALL + "urdf", ...), "bodies.ball.urdf", "is missing"),
+    "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
+    "an unknown base": ((BALL + "base", "floatng"), "bodies.ball.base", "mean 'floating'"),
+    "an unknown joint": ((RAIL + "actuated", ["slid"]), "rail.actuated", "did you mean 'slide'"),
+    "a joint twice": ((RAIL + "actuated", ["slide"] * 2), "rail.actuated", "names a joint twice"),
+    "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
+    "an unknown start": ((RAIL + "positions/slid", 0), "rail.positions", "did you mean 'slide'"),
+    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "placed by xyz"),
+    "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
+    "stiffness of no joint": ((RAIL + "K_q/turn", 1), "bodies.rail.K_q.turn", "is unknown; known"),
+    "stiffness zero": ((RAIL + "K_q/slide", 0), "bodies.rail.K_q.slide", "greater than 0 (got 0)"),
+    "stiffness not definite": (
+        (RAIL + "K_q", [[-5.0]]), "bodies.rail.K_q", "must be positive definite",
+    ),
+    "stiffness not symmetric": (
+        (BALL + "actuated", "all"), (BALL + "wrenches", ...),
+        (BALL + "K_q", [[float(i == j) + 0.1 * (i > j) for j in range(6)] for i in range(6)]),
+        "bodies.ball.K_q", "must be symmetric",
+    ),
+    "stiffness of the wrong size": ((RAIL + "K_q/slide", [1, 2]), "bodies.rail.K_q.slide", "must"),
+    "stiffness where nothing is actuated": (
+        (BALL + "K_q", {"base": 5}), "bodies.ball.K_q.base", "is unknown; known: none (got 5)",
+    ),
+    "gravity for nobody": (
+        (BALL + "gravity_compensated", False), "bodies.ball.gravity_compensated",
+        "is for actuated joints; this body has none",
+    ),
+    "a target for what is free": (
+        (BALL + "targets", [{"t": 0, "base": {}}]),
+        "bodies.ball.targets[0].base", "is not an actuated joint of this body; known: none",
+    ),
+    "a target for no joint": ((RAIL + "targets/0/slid", 1), "targets[0].slid", "mean 'slide'"),
+    "a waypoint of nothing": (
+        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]", "names no joint (got {'t'",
+    ),
+    "waypoints that stand still": ((RAIL + "targets/1/t", 0.0), "rail/slide", "must increase"),
+    "waypoints backwards": ((RAIL + "targets/1/t", -1.0), "rail/slide", "times must increase"),
+    "a wrench on what is fixed": (
+        (RAIL + "wrenches", [{"t": 0, "force": [1, 0, 0]}]),
+        "bodies.rail.wrenches", 'do nothing to a body with base = "fixed"',
+    ),
+    "a wrench of nothing": (
+        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "neither force nor torque",
+    ),
+    "wrenches backwards": (
+        (BALL + "wrenches", [{"t": 1, "force": [0] * 3}, {"t": 0, "force": [0] * 3}]),
+        "bodies.ball.wrenches", "must have increasing times t (got [1.0, 0.0])",
+    ),
+    "two shapes in one": (
+        ("shapes/wall/sphere", {"radius": 1}), "shapes.wall.shape", "must be exactly one of",
+    ),
+    "an unknown shape": (("shapes/wall", {"ball": {}}), "shapes.wall.shape", "must be exactly one"),
+    "a normal of zero": (
+        ("shapes/floor/halfspace/normal", [0, 0, 0]), "shapes.floor.halfspace", "must not be zero",
+    ),
+    "a flat box": (("shapes/wall/box/size", [1, 0, 1]), "shapes.wall.box", "three positive len"),
+    "a negative radius": (
+        ("shapes/post/capsule/radius", -1), "shapes.post.capsule.radius", "greater than 0 (got -1)",
+    ),
+    "a shape named as a body": (
+        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is the name of a body as well",
+    ),
+    "an unknown side": (("contacts/push/alpha", "rail/plat"), "push.alpha", "mean 'rail/plate'"),
+    "a side without shapes": (
+        ("contacts/push/alpha", "rail/rail"), "contacts.push.alpha", "has no collision shape",
+    ),
+    "no sides": (("contacts/push/alpha", []), "contacts.push.alpha", "at least one shape (got [])"),
+    "a side against itself": (("contacts/push/alpha", "ball"), "contacts.push", "the same link"),
+    "a side twice": (("contacts/push/alpha", ["rail/plate"] * 2), "contacts.push", "twice"),
+    "two sides that stand still": (
+        (RAIL + "urdf", "ball.urdf"), (RAIL + "actuated", []), (RAIL + "K_q", ...),
+        (RAIL + "targets", ...), (RAIL + "positions", ...),
+        ("contacts/push", {"alpha": "rail", "beta": "floor", "mu_v": 0.5, "rows": 4}),
+        "contacts.push", "cannot move relative to each other, so it can never act",
+    ),
+    "two clouds": (
+        (BALL + "cloud", "cloud.xyz"), (RAIL + "cloud", "cloud.xyz"),
+        ("contacts/push/alpha", "rail"), "contacts.push", "two clouds cannot touch",
+    ),
+    "friction missing": (("contacts/push/mu_v", ...), "contacts.push.mu_v", "is missing"),
+    "negative friction": (("contacts/push/mu_v", -0.5), "contacts.push.mu_v", "at least 0 (got"),
+    "negative torsion": (("contacts/floor/mu_omega", -1), "contacts.floor.mu_omega", "least 0"),
+    "torsion missing": (("contacts/floor/mu_omega", ...), "contacts.floor.mu_omega", "is missing"),
+    "torsion without rows": (
+        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
+    ),
+    "five rows": (("contacts/push/rows", 5), "contacts.push.rows", "must be 4 or 6 (got 5)"),
+    "no points": (("contacts/push/k", 0), "contacts.push.k", "must be at least 1 (got 0)"),
+    "an unknown field of a contact": (("contacts/push/mu", 1), "contacts.push.mu", "mean 'mu_v'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+def test_a_scenario_that_cannot_be_used_is_refused(tmp_path, refused, cause):
+    *changes, field, words = CAUSES[cause]
+    path = scene_written(tmp_path, changed(SCENE, *changes))
+    sentence = refused("run", path, "--out", tmp_path / "out")
+    assert sentence.startswith(f"{path}: ")
+    assert field in sentence.removeprefix(f"{path}: ").split(": ")[0]
+    assert words in sentence
+
+
+def test_the_scene_is_good_before_it_is_spoilt(tmp_path):
+    from quasistatic_ref.simulate.scenario import load_scenario
+
+    assert load_scenario(scene_written(tmp_path)).run(progress=False).steps == 3
+
+
+NO_NUMBERS = {
+    "NaN": "nan", "infinity": "-inf", "a date": "2020-01-01", "beyond decimal": hex(16**5000),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", NO_NUMBERS)
+@pytest.mark.parametrize("field", list(numeric_fields(SCENE)))
+def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field, kind):
+    text = toml_text(changed(SCENE, (field, "MARK")))
+    path = scene_written(tmp_path)
+    path.write_text(text.replace('"MARK"', NO_NUMBERS[kind]))
+    sentence = refused("inspect", path)
+    assert sentence.startswith(f"{path}: {dotted(SCENE, field)}")

@@ -1,0 +1,202 @@
+"""Trajectory files that cannot be used: spoilt, pickled, blown up, or at odds with themselves."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.simulate.scenario import load_scenario
+from tests.errors.scene import scene_written
+
+NOT_ONE = "is not a trajectory written by this program"
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """The bytes of a good trajectory of three steps."""
+    folder = tmp_path_factory.mktemp("run")
+    scenario = load_scenario(scene_written(folder))
+    return scenario.run(progress=False).save(folder / "run.npz").read_bytes()
+
+
+def npy(array, shape=None, kind=None, pickled=False):
+    """An array file, whose header may lie."""
+    file = io.BytesIO()
+    np.lib.format.write_array(file, array, allow_pickle=pickled)
+    content = file.getvalue()
+    for old, new in ((str(array.shape), shape), (repr(array.dtype.str), kind)):
+        if new is not None:
+            at = content.index(old.encode())
+            line = content.index(b"\n")
+            header = content[:line].replace(old.encode(), new.encode()).rstrip()
+            assert at < line
+            content = header.ljust(line) + content[line:]
+    return content
+
+
+def rewritten(run, changes=None, header=None, kind=zipfile.ZIP_STORED):
+    """The archive with members replaced (removed, by None) and header fields changed."""
+    members = {}
+    with zipfile.ZipFile(io.BytesIO(run)) as archive:
+        for name in archive.namelist():
+            members[name] = archive.read(name)
+    if header is not None:
+        record = json.loads(members["header.npy"][128:])
+        record = {k: v for k, v in (record | header).items() if v is not ...}
+        text = np.frombuffer(json.dumps(record).encode(), dtype=np.uint8)
+        members["header.npy"] = npy(text)
+    members |= {f"{name}.npy": content for name, content in (changes or {}).items()}
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", kind) as archive:
+        for name, content in members.items():
+            if content is not None:
+                archive.writestr(name, content)
+    return file.getvalue()
+
+
+def flagged(run, offset, value):
+    """The archive with a byte of each entry of its central directory replaced."""
+    content, at = bytearray(run), run.find(b"PK\x01\x02")
+    while at >= 0:
+        content[at + offset] = value
+        at = run.find(b"PK\x01\x02", at + 1)
+    return bytes(content)
+
+
+def bomb(gibibytes):
+    """A member that claims, and holds, very many zeros, in few bytes."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("t.npy", bytes(2**20))
+    content = bytearray(file.getvalue())
+    at = content.find(b"PK\x01\x02")
+    content[at + 24 : at + 28] = (gibibytes * 2**30).to_bytes(4, "little")
+    return bytes(content)
+
+
+def twice(run):
+    """The archive with its array t twice; readers differ in which of the two they take."""
+    file = io.BytesIO(run)
+    with zipfile.ZipFile(file, "a") as archive:
+        archive.writestr("t.npy", npy(ZEROS))
+    return file.getvalue()
+
+
+ZEROS = np.zeros(3)
+CAUSES = {
+    # name: (the file from the good one, words of the sentence)
+    "nothing": (lambda run: b"", NOT_ONE),
+    "truncated": (lambda run: run[:-50], NOT_ONE),
+    "half": (lambda run: run[: len(run) // 2], NOT_ONE),
+    "a bit flipped": (lambda run: run[:200] + b"\xff" + run[201:], NOT_ONE),
+    "an array alone": (lambda run: npy(ZEROS), NOT_ONE),
+    "a ZIP of something else": (
+        lambda run: rewritten(rewritten(run), {"readme.txt": b"hello"}),
+        f"{NOT_ONE}: EOF: reading magic string",
+    ),
+    "a name of several lines": (
+        lambda run: rewritten(run).replace(b"header.npy", b"he\n\x1b[2J.np"),
+        f"he\\n\\x1b[2J.np: {NOT_ONE}",
+    ),
+    "encrypted": (lambda run: flagged(run, 8, 1), NOT_ONE),
+    "another compression": (lambda run: flagged(run, 10, 77), NOT_ONE),
+    "a pickle": (
+        lambda run: rewritten(run, {"t": npy(np.array([{}]), pickled=True)}),
+        f"{NOT_ONE}: t.npy is a pickle, which is never opened",
+    ),
+    "a bomb": (lambda run: bomb(3), "its arrays: unpacks to more than 2 GiB (got 3221225472)"),
+    "an array twice": (twice, "t.npy: is given twice"),
+    "very many members": (
+        lambda run: rewritten(run, {f"x{i}": b"" for i in range(300)}),
+        "holds more than 256 arrays (got ",
+    ),
+    "an array that says it is vast": (
+        lambda run: rewritten(run, {"t": npy(ZEROS, "(99999999999,)")}),
+        f"{NOT_ONE}: t.npy does not have the size that it says",
+    ),
+    "a shape below zero": (
+        lambda run: rewritten(run, {"t": npy(ZEROS, "(-3,)")}),
+        f"{NOT_ONE}: t.npy does not have the size that it says",
+    ),
+    "a header of code": (
+        lambda run: rewritten(run, {"t": npy(ZEROS, "open('x','w')")}), NOT_ONE,
+    ),
+    "no header": (lambda run: rewritten(run, {"header": None}), f"{NOT_ONE}: it has no header"),
+    "a header of numbers": (
+        lambda run: rewritten(run, {"header": npy(ZEROS)}), f"{NOT_ONE}: it has no header",
+    ),
+    "a header without end": (
+        lambda run: rewritten(run, {"header": npy(np.full(100_000, 91, dtype=np.uint8))}),
+        f"{NOT_ONE}: its header is not JSON",
+    ),
+    "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: is not a choi"),
+    "a later version": (lambda run: rewritten(run, header={"version": 2}), "reads 1 (got 2)"),
+    "no version": (lambda run: rewritten(run, header={"version": ...}), "version: is missing"),
+    "an unknown record": (
+        lambda run: rewritten(run, header={"record": "ful"}), "record: is not a choice; did you",
+    ),
+    "h NaN": (lambda run: rewritten(run, header={"h": float("nan")}), "h: must be a finite number"),
+    "more steps than there are": (
+        lambda run: rewritten(run, header={"steps": 4}), "t: must have 4 entries, as the header",
+    ),
+    "no names": (lambda run: rewritten(run, header={"contacts": []}), "contacts: must have 3 ent"),
+    "names that are numbers": (
+        lambda run: rewritten(run, header={"contacts": [1, 2, 3]}), "contacts: must be lists of n",
+    ),
+    "names of numbers": (
+        lambda run: rewritten(run, header={"contacts": [[1, 2]] * 3}),
+        "contacts.name: must be a sequence of strings",
+    ),
+    "an array missing": (lambda run: rewritten(run, {"J": None}), "holds no array named 'J'"),
+    "an array of words": (
+        lambda run: rewritten(run, {"phi": npy(np.array(["a"] * 3))}), "phi: must hold numbers",
+    ),
+    "an array too short": (
+        lambda run: rewritten(run, {"phi": npy(np.zeros((2, 2)))}), "phi: must have 3 entries",
+    ),
+    "an array without axes": (
+        lambda run: rewritten(run, {"phi": npy(np.array(1.0))}), "phi: must have 3 entries",
+    ),
+    "an array of another shape": (
+        lambda run: rewritten(run, {"phi": npy(np.zeros((3, 5)))}), "contacts.phi: must have shape",
+    ),
+    "NaN in a step": (
+        lambda run: rewritten(run, {"tau_u": npy(np.full((3, 6), np.nan))}), "tau_u: must hold fin",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
+def test_the_trajectory_is_good_before_it_is_spoilt(tmp_path, run, capsys, kind):
+    (tmp_path / "run.npz").write_bytes(rewritten(run, header={}, kind=kind))
+    assert main(["extract", str(tmp_path / "run.npz"), "--step", "1"]) == 0
+    assert json.loads(capsys.readouterr().out)["format"] == "quasistatic-ref/step"
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+@pytest.mark.parametrize("cause", CAUSES)
+def test_a_trajectory_that_cannot_be_used_is_refused(tmp_path, refused, run, cause):
+    spoilt, words = CAUSES[cause]
+    path = tmp_path / "run.npz"
+    path.write_bytes(spoilt(run))
+    sentence = refused("extract", path, "--step", 1, "-o", tmp_path / "step.json")
+    assert sentence.startswith(f"{path}: ")
+    assert words in sentence
+
+
+@pytest.mark.parametrize("k", [-1, 3, 10**30])
+def test_a_step_that_a_run_does_not_have_is_refused(tmp_path, refused, run, k):
+    (tmp_path / "run.npz").write_bytes(run)
+    sentence = refused("extract", tmp_path / "run.npz", "--step", k)
+    assert sentence.startswith(f"{tmp_path / 'run.npz'}: step: must be 0 to 2 (got {k}")
+
+
+def test_a_light_record_has_no_steps_to_extract(tmp_path, refused, capsys):
+    path, out = scene_written(tmp_path), tmp_path / "out"
+    assert main(["run", str(path), "--set", "record=light", "--out", str(out)]) == 0
+    capsys.readouterr()
+    sentence = refused("extract", out / "scene.npz", "--step", 0)
+    assert sentence.startswith(f"{out / 'scene.npz'}: a light record holds no problems; run again")

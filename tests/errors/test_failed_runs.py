@@ -1,0 +1,189 @@
+"""Runs that end early keep what was done, and the step that failed; one sentence says why."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError, LimitExceeded, RunFailed, StepInfeasible
+from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.step.files import step_read
+from tests.errors.scene import SCENE, changed, scene_written
+from tests.tolerances import EXACT, ROUNDING
+
+WEDGE = (
+    # The ball between two boxes, each 1 mm into it: no displacement opens both.
+    ("bodies/ball/wrenches", ...),
+    ("bodies/rail", ...),
+    ("contacts", {
+        name: {"alpha": name, "beta": "ball", "mu_v": 0.5, "rows": 4} for name in ("left", "right")
+    }),
+    ("shapes", {
+        name: {"box": {"size": [0.1, 1.0, 1.0]}, "pose": {"xyz": [0.065 + x, 0.0, 0.05]}}
+        for name, x in (("left", -0.099), ("right", 0.099))
+    }),
+)  # fmt: skip
+SUNK = (("bodies/ball/pose/xyz", [0.065, 0.0, -0.03]),)
+THROWN = (("bodies/ball/wrenches/0/force", [0.0, 0.0, 3e4]), ("contacts", {}))
+"""3e4 N on 0.3 kg: h^2 f / m = 10 m a step, straight up from 0.05 m."""
+CASES = {
+    # name: (changes to the scene, steps that succeed, words of the sentence)
+    "without solution": (
+        WEDGE, 0,
+        ("left(left, ball/ball#0)/0", "right(right, ball/ball#0)/0", "contradict each other",
+         "widen these gaps, or let one of the bodies give way"),
+    ),
+    "too deep": (
+        SUNK, 0,
+        ("contact floor(floor, ball/ball#0)/0 is 0.08 m deep, deeper than "
+         "limits.penetration = 0.05 m", "start the bodies apart", "or raise the limit"),
+    ),
+    "out of the scene": (
+        (*THROWN, ("limits/reach", 15.0), ("steps", 9)), 1,
+        ("link ball/ball is 20 m from the origin, farther than limits.reach = 15 m",
+         "look at its wrenches and targets, or raise the limit"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, capsys, case):
+    changes, steps, words = CASES[case]
+    path, out = scene_written(tmp_path, changed(SCENE, *changes)), tmp_path / "out"
+    assert main(["run", str(path), "--out", str(out)]) == 3
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert len(captured.err.splitlines()) == 1
+    assert captured.err.startswith(f"quasistatic-ref: step {steps}: ")
+    assert all(word in captured.err for word in words)
+    trajectory = trajectory_read(out / "scene.npz")
+    assert trajectory.steps == steps
+    assert trajectory.failed is not None
+    assert trajectory.failed in captured.err
+    assert trajectory["q"].shape[0] == steps + 1
+    failed = step_read(out / "scene_failed_step.json")
+    assert f"the failing step in {out / 'scene_failed_step.json'}" in captured.err
+    # It is the step that starts where the trajectory ends.
+    scenario = load_scenario(path)
+    with pytest.raises(RunFailed) as caught:
+        scenario.run(progress=False)
+    assert caught.value.step.same_as(failed)
+    assert sorted(os.listdir(out)) == ["scene.npz", "scene_failed_step.json"]
+    if steps:
+        assert main(["extract", str(out / "scene.npz"), "--step", str(steps - 1)]) == 0
+
+
+def test_the_failing_step_fails_again_by_itself(tmp_path, capsys):
+    path = scene_written(tmp_path, changed(SCENE, *WEDGE))
+    main(["run", str(path), "--out", str(tmp_path)])
+    step, proof = str(tmp_path / "scene_failed_step.json"), str(tmp_path / "proof.json")
+    assert main(["solve", step, "-o", proof]) == 3
+    assert main(["verify", step, proof]) == 0
+    assert "the step has no solution" in capsys.readouterr().out
+
+
+def test_each_failure_is_of_its_own_kind(tmp_path):
+    for changes, kind in ((WEDGE, StepInfeasible), (SUNK, LimitExceeded)):
+        scenario = load_scenario(scene_written(tmp_path, changed(SCENE, *changes)))
+        with pytest.raises(RunFailed) as caught:
+            scenario.run(progress=False)
+        assert isinstance(caught.value.__cause__, kind)
+
+
+@pytest.mark.parametrize(("depth", "fails"), [(0.0799, True), (0.0801, False)])
+def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
+    alone = (("contacts/push", ...), ("bodies/ball/wrenches", ...))
+    scene = changed(SCENE, *SUNK, *alone, ("limits/penetration", depth), ("steps", 1))
+    scenario = load_scenario(scene_written(tmp_path, scene))
+    if fails:
+        with pytest.raises(RunFailed, match=r"is 0\.08 m deep"):
+            scenario.run(progress=False)
+    else:
+        trajectory = scenario.run(progress=False)
+        # Pushed out in one step: the sphere's lowest point is on the floor.
+        np.testing.assert_allclose(trajectory["q"][1, 3], 0.05, rtol=ROUNDING)
+
+
+def test_limits_have_defaults_and_signs(tmp_path):
+    scenario = load_scenario(scene_written(tmp_path, changed(SCENE, ("limits", ...))))
+    assert scenario.limits == Limits(penetration=0.05, reach=100.0)
+    for name in ("penetration", "reach"):
+        for value in (0.0, -1.0, float("nan")):
+            with pytest.raises(InputError, match=rf"limits\.{name}: must be greater than 0"):
+                Limits(**{name: value})
+
+
+def test_a_position_that_is_no_number_is_out_of_the_scene():
+    said = Limits().out_of_reach(("world", "ball"), np.array([[0.0, 0.0, 0.0], [0.0, np.nan, 1.0]]))
+    assert said is not None
+    assert said.startswith("link ball is nan m from the origin")
+
+
+def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
+    path, out = scene_written(tmp_path, changed(SCENE, ("steps", 1_000_000))), tmp_path / "out"
+    run = subprocess.Popen(
+        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--out", str(out)],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+    )  # fmt: skip
+    while not out.exists():  # the folder is made just before the first step
+        time.sleep(0.05)
+    time.sleep(3.0)  # the first step takes one, the others a hundredth
+    run.send_signal(signal.SIGINT)
+    said, complained = run.communicate(timeout=30)
+    assert run.returncode == 130
+    assert said == ""
+    trajectory = trajectory_read(out / "scene.npz")
+    n = trajectory.steps
+    assert n > 0
+    assert trajectory.failed == f"step {n}: interrupted"
+    assert complained == (
+        f"quasistatic-ref: step {n}: interrupted; the first {n} steps are in {out / 'scene.npz'}\n"
+    )
+    assert os.listdir(out) == ["scene.npz"]
+    # The same steps as of a run that was told to end there, bit for bit.
+    short = load_scenario(path, [f"steps={min(n, 3)}"]).run(progress=False)
+    for name in ("q", "delta_q", "lam"):
+        length = len(short[name])
+        np.testing.assert_allclose(trajectory[name][:length], short[name], rtol=EXACT, atol=EXACT)
+
+
+def test_ctrl_c_is_noted_once_and_raised_the_second_time():
+    before = signal.getsignal(signal.SIGINT)
+    with Interrupt() as interrupt:
+        interrupt.check()
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.noted
+        with pytest.raises(KeyboardInterrupt):
+            interrupt.check()
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_somebody_else_s_handler_is_left_alone():
+    calls = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: calls.append(number))
+    try:
+        with Interrupt() as interrupt:
+            signal.raise_signal(signal.SIGINT)
+        assert (calls, interrupt.noted) == ([signal.SIGINT], False)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_a_run_in_another_thread_needs_no_signals(tmp_path):
+    scenario, runs = load_scenario(scene_written(tmp_path)), []
+    thread = threading.Thread(target=lambda: runs.append(scenario.run(progress=False)))
+    thread.start()
+    thread.join()
+    assert runs[0].steps == 3
