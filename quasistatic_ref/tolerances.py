@@ -24,6 +24,18 @@ ACCURACY: Final = 1e-12
 
 The tightest at which Clarabel, OSQP and PIQP still solve every step of ``bunny_grasp``."""
 
+ENCLOSED: Final = 1e-13
+"""Largest error, in the one definition, at which an answer counts as enclosed.
+
+Rounding the answer to float64 alone costs 1e-16; a bound that ends between is the sign of a
+problem almost without interior."""
+
+IMPULSES: Final = 1e-9
+"""How far the multipliers of an answer in the ellipsoid may be from its balance and their cone,
+relative to the step and to the largest of them.
+
+They are not unique and not what is certified; rounded to float64 they are off by 1e-15."""
+
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
 

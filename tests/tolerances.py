@@ -44,6 +44,13 @@ third derivative, below 100 for chains of a metre, so 2e-9; a wrong column is of
 FILE_FLOAT32: Final = 1e-7
 """A coordinate of size one that travelled through float32: half its unit of 1.2e-7."""
 
+THRESHOLD: Final = 1e-6
+"""How near to its threshold of slip a grasp is tried: the answers are exact or enclosed to
+1e-13, so what limits it is the rounding of the threshold itself, 1e-16."""
+
+ENCLOSED: Final = 1e-13
+"""Error of an enclosed answer, in the one definition: what the package itself promises."""
+
 SIGNED_DISTANCE: Final = 1e-12
 """Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre
 (issue 2): some ten operations, each of 1e-16."""
@@ -68,6 +75,10 @@ lengths and angles differ by up to a thousand."""
 
 NO_PENETRATION: Final = 1e-10
 """A delta_q - b of a solved step [m]: 1e-12 in natural units of about a centimetre, with room."""
+
+DIFFCP: Final = 1e-5
+"""Derivatives by diffcp against the largest of their kind: its solver stops at 1e-8, and the linear
+system behind a derivative is solved by iteration."""
 
 CLOSED_FORM: Final = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""

@@ -64,9 +64,9 @@ def ordered(own: str) -> tuple[str, ...]:
 
 
 TESTS: dict[str, tuple[str, ...]] = {
-    "step/friction.py": ("unit/test_friction.py", *PAGE),
+    "step/friction.py": ("unit/test_friction.py", *PAGE, "unit/test_cones.py"),
     "step/standard_form.py": ("unit/test_standard_form.py", *PAGE),
-    "certify/optimality.py": ("unit/test_optimality.py", *JUDGE),
+    "certify/optimality.py": ("unit/test_optimality.py", *JUDGE, "unit/test_enclosure.py"),
     "certify/dyadic.py": ordered("rational"),
     "certify/rational.py": ordered("rational"),
     "certify/kkt.py": ordered("exact"),

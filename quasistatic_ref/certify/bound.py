@@ -24,6 +24,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from quasistatic_ref.certify.balls import PRECISION, BallForm, ball_form
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -64,6 +65,8 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> ErrorBound:
     -------
     ErrorBound
     """
+    if not cone(step.cone).polyhedral:
+        return UNKNOWN  # what follows is about rows
     if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
         return UNKNOWN
     form = exact_form(step)

@@ -9,37 +9,21 @@ with the method that found the answer, not its balls or its walks.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from quasistatic_ref.certify.balls import positive_definite
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.ellipsoid import ellipsoid_verdict
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rows import ROW_NAMES, contact_rows, flat_rows
+from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits
+from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Whether a certificate holds.
-
-    Parameters
-    ----------
-    ok : bool
-    reason : str
-        Why not, in plain words; empty if it holds.
-    """
-
-    ok: bool
-    reason: str = ""
-
-    def __bool__(self) -> bool:
-        return self.ok
 
 
 def exact_certificate(
@@ -78,9 +62,13 @@ def in_words(step: StepData, certificate: Certificate) -> str:
         known = certificate.error_bound is not None
         bound = f"its error is at most {certificate.error_bound:.1e}" if known else "no error bound"
         return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
+    if certificate.kind == "enclosure":
+        return f"enclosed: its error is at most {certificate.error_bound:.1e}, proved in balls"
     if certificate.kind != "exact":
         return "nothing is certified"
-    m = int(step.contacts.offsets[-1]) + len(step.extra.names)
+    if step.cone == ELLIPSOID:
+        return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
+    m = int(step.offsets[-1]) + len(step.extra.names)
     words = [
         f"exact: the optimum of the step, correctly rounded; {len(certificate.active)} of {m} rows "
         "hold it",
@@ -103,6 +91,8 @@ def verify(
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
+    In the ellipsoid: or whether it is as near to the optimum as it is claimed to be.
+
     Parameters
     ----------
     step : StepData
@@ -113,12 +103,15 @@ def verify(
     lam : ndarray, shape (m,), optional
         The claimed multipliers on that working set, the user's own rows last.
     claims : Certificate, optional
-        Its margins and its statements on uniqueness and differentiability are checked as well.
+        Its margins and its statements on uniqueness and differentiability are checked as well;
+        in the ellipsoid, its kind and bound are what is checked.
 
     Returns
     -------
     Verdict
     """
+    if step.cone == ELLIPSOID:
+        return ellipsoid_verdict(step, delta_q, active, lam, claims)
     form = exact_form(step)
     try:
         working = flat_rows(step, active)
@@ -131,11 +124,11 @@ def verify(
     except ZeroDivisionError:
         return Verdict(False, "the rows of the working set are not independent")
     x, lam_w, _, slack = rounded_solution(form, solution)
-    reason = _wrong_sign(step, working, solution) or _wrong_bits("delta_q", delta_q, x)
+    reason = _wrong_sign(step, working, solution) or wrong_bits("delta_q", delta_q, x)
     if lam is not None and not reason:
         full = np.zeros(form.m)
         full[list(working)] = lam_w
-        reason = _wrong_bits("lam", lam, full)
+        reason = wrong_bits("lam", lam, full)
     if claims is not None and not reason:
         reason = _wrong_claim(form, working, solution, claims, lam_w, slack)
     return Verdict(not reason, reason)
@@ -149,17 +142,6 @@ def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> s
         if slack_i < 0:
             return f"{_row_name(step, i)} is violated by the minimiser on the working set"
     return ""
-
-
-def _wrong_bits(name: str, given: Array, right: Array) -> str:
-    given = np.array(given, dtype=np.float64)
-    if given.shape != right.shape:
-        return f"{name} has shape {given.shape}; the step wants {right.shape}"
-    wrong = np.flatnonzero(given.view(np.int64) != right.view(np.int64))
-    if not wrong.size:
-        return ""
-    at = int(wrong[0])
-    return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
 
 
 def _wrong_claim(
@@ -195,4 +177,4 @@ def _row_name(step: StepData, i: int) -> str:
     ((contact, row),) = contact_rows(step, [i])
     if contact == step.contacts.n_c:
         return f"the extra row {step.extra.names[row]}"
-    return f"row {ROW_NAMES[row]} of contact {step.contacts.name[contact]}"
+    return f"row {cone(step.cone).row_names[row]} of contact {step.contacts.name[contact]}"

@@ -76,3 +76,29 @@ def _feasible(
         net_unit=one,
     )
     return isinstance(dual_active_set(cone, range(len(held))), Optimum)
+
+
+def strictly_active(form: ExactForm, working: Sequence[int], free: Sequence[int]) -> list[int]:
+    """Those of the rows that W does not span whose multiplier is positive in some optimal lam.
+
+    By Motzkin's theorem a row e is not strictly active iff some y has A_W y = 0, A_E y >= 0 and
+    a_e y > 0. (Rows that W spans always are.)
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W: independent rows without slack, all multipliers positive.
+    free : sequence of int
+        The other rows without slack that W does not span.
+
+    Returns
+    -------
+    list of int
+    """
+    if len(free) <= 1:
+        return []
+    moves = [form.row(i) for i in free]
+    alone = [[int(i == e) for i in free] for e in free]
+    return [e for e, least in zip(free, alone, strict=True)
+            if not _feasible(form, working, moves, least)]  # fmt: skip

@@ -11,7 +11,8 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible
+from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
@@ -33,11 +34,17 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 
     Raises
     ------
+    InputError
+        If the cone is no polyhedron.
     StepInfeasible
         If no displacement satisfies the rows, with the proof.
     StepIllPosed
         If the optimum is absurdly long.
     """
+    if not cone(step.cone).polyhedral:
+        raise InputError(
+            "has no rational optimum; see certify.enclosure", field="cone", value=step.cone
+        )
     form = exact_form(step)
     optimum = exact_optimum(form, warm)
     if isinstance(optimum, Farkas):

@@ -16,6 +16,7 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 
 _FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
@@ -90,6 +91,8 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     str or None
         A plain reason.
     """
+    if not cone(step.cone).polyhedral:
+        return "a Farkas vector proves nothing of a cone that is no polyhedron"
     form = exact_form(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"

@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import friction_coefficients
 from quasistatic_ref.step.standard_form import standard_form
 
 
@@ -66,4 +67,41 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
         primal=float(np.maximum(-slack, 0.0).max(initial=0.0)),  # Eq. (10)
         dual=float(np.maximum(-lam, 0.0).max(initial=0.0)),  # Eq. (11)
         complementarity=float(np.abs(slack * lam).max(initial=0.0)),  # Eq. (12)
+    )
+
+
+def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
+    """The same at an answer of a step in the ellipsoid.
+
+    There s = A delta_q - b is each contact's motion (n, d1, d2, spin), and lam its impulse.
+    (10) reads s_n >= ||mu o s_t||, (11) lam_n >= ||lam_t / mu||, and (12) lam's = 0, by contact.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+    lam : ndarray, shape (m,)
+
+    Returns
+    -------
+    Residuals
+    """
+    form, k = standard_form(step), int(step.offsets[-1])
+    balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), mended
+    slack = form.A @ delta_q - form.b
+    s, f, mu = (
+        slack[:k].reshape(-1, 4),
+        lam[:k].reshape(-1, 4),
+        friction_coefficients(step.contacts),
+    )
+    scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
+    without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
+    short = np.concatenate([np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0], -slack[k:]])
+    pulls = np.concatenate([np.linalg.norm(scaled, axis=1) - f[:, 0], without.ravel(), -lam[k:]])
+    work = np.concatenate([np.sum(s * f, axis=1), slack[k:] * lam[k:]])
+    return Residuals(
+        stationarity=float(np.abs(balance).max(initial=0.0)),
+        primal=float(short.max(initial=0.0)),  # Eq. (10)
+        dual=float(pulls.max(initial=0.0)),  # Eq. (11)
+        complementarity=float(np.abs(work).max(initial=0.0)),  # Eq. (12)
     )

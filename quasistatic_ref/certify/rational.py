@@ -19,7 +19,9 @@ from flint import fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.friction import friction_coefficients, row_gaps
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +32,8 @@ class ExactForm:
     ----------
     H, g, A, b : fmpz_mat
         Shapes (n_v, n_v), (n_v, 1), (m, n_v), (m, 1); H symmetric. The rows of A are contact-major,
-        in the paper's order +d1, +d2, -d1, -d2, +spin, -spin; the user's own rows come last.
+        in the order of their cone's table (the ellipsoid: n, d1, d2, spin); the user's own rows
+        come last.
     x_unit : fmpq
         delta_q = x_unit * x [m, rad].
     slack_unit : fmpq
@@ -82,8 +85,10 @@ def exact_form(step: StepData) -> ExactForm:
     # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
     H = _block_diagonal(h * h * K_q, M_u)  # Eq. (13)
     g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
-    A = joined([_friction_rows(step.contacts), dyadic(step.extra.A)])  # Eq. (8)
-    b = joined([dyadic(-np.repeat(step.contacts.phi, step.contacts.rows)), dyadic(step.extra.b)])
+    rows = _friction_rows(step.contacts, step.cone)[step.mask]
+    gaps = row_gaps(step.contacts, step.cone)[step.mask]
+    A = joined([rows, dyadic(step.extra.A)])  # Eq. (8)
+    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
     return _in_integers(H, g, A, b, _fraction(step.h))
 
 
@@ -115,23 +120,22 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
     return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
 
 
-def _friction_rows(contacts: Contacts) -> Dyadic:
-    """Return the rows n~' J + d~_i' J of Eq. (4) that exist, contact-major."""
+def contact_motion(contacts: Contacts) -> Dyadic:
+    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v)."""
     J = dyadic(contacts.J)
-    mu_v, mu_omega = dyadic(contacts.mu_v), dyadic(contacts.mu_omega)
-    directions = joined(
-        [
-            dyadic(contacts.n)[:, None],
-            (mu_v[:, None] * dyadic(contacts.d1))[:, None],  # Eq. (5)
-            (mu_v[:, None] * dyadic(contacts.d2))[:, None],  # Eq. (5)
-        ],
-        axis=1,
-    )
-    along = directions @ J[:, :3]
-    n, d1, d2 = along[:, :1], along[:, 1:2], along[:, 2:]
-    spin = mu_omega[:, None, None] * J[:, 3:]  # Eq. (7)
-    rows = joined([n + d1, n + d2, n - d1, n - d2, n + spin, n - spin], axis=1)  # Eqs. (4), (6)
-    return rows[contacts.mask]
+    axes = dyadic(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
+    return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
+
+
+def _friction_rows(contacts: Contacts, name: str) -> Dyadic:
+    """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
+    motion = contact_motion(contacts)
+    if name == ELLIPSOID:
+        return motion
+    # Its cosines and sines are numbers of the step like all others; the pyramid's are 0 and 1.
+    table = dyadic(cone(name).table)
+    coefficients = dyadic(friction_coefficients(contacts))
+    return motion[:, :1] + table @ (coefficients[:, :, None] * motion[:, 1:])  # Eqs. (4)-(7)
 
 
 def _block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:

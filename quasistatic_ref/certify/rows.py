@@ -9,14 +9,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-
-ROW_NAMES = ("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")
 
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
     """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
-    offsets = step.contacts.offsets
+    offsets = step.offsets
     pairs = []
     for i in rows:
         contact = min(int(np.searchsorted(offsets, i, side="right")) - 1, step.contacts.n_c)
@@ -32,12 +31,12 @@ def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ..
     IndexError
         If there is no such contact or row.
     """
-    sizes = [*step.contacts.rows.tolist(), len(step.extra.names)]
+    sizes = [*step.counts.tolist(), len(step.extra.names)]
     flat = []
     for contact, row in pairs:
         if not (0 <= contact < len(sizes) and 0 <= row < sizes[contact]):
             raise IndexError(f"the step has no row {row} of contact {contact}")
-        flat.append(int(step.contacts.offsets[contact]) + row)
+        flat.append(int(step.offsets[contact]) + row)
     return tuple(flat)
 
 
@@ -47,9 +46,10 @@ def row_owners(step: StepData, rows: Iterable[int]) -> dict[str, list[str]]:
     The user's own rows stand under ``"extra"``.
     """
     owners: dict[str, list[str]] = {}
+    row_names = cone(step.cone).row_names
     for contact, row in contact_rows(step, rows):
         if contact < step.contacts.n_c:
-            owners.setdefault(step.contacts.name[contact], []).append(ROW_NAMES[row])
+            owners.setdefault(step.contacts.name[contact], []).append(row_names[row])
         else:
             owners.setdefault("extra", []).append(step.extra.names[row])
     return owners

@@ -15,6 +15,7 @@ from quasistatic_ref.cli.shape_words import shape_words
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.step.cones import cone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -89,12 +90,13 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record["pairs"] = [_pair(pair) for pair in scenario.pairs]
-    record["size"] = [scenario.system.n_v, sum(p.n_c * p.rows for p in scenario.pairs)]
+    record["cone"] = scenario.cone
+    record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
+    record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     return record
 
 
-def _pair(pair: ContactPair) -> dict[str, Any]:
+def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
     return {
         "name": pair.name,
         "alpha": shape_words(pair.alpha.shape),
@@ -102,7 +104,7 @@ def _pair(pair: ContactPair) -> dict[str, Any]:
         "mu_v": pair.mu_v,
         "mu_omega": pair.mu_omega,
         "contacts": pair.n_c,
-        "rows": pair.rows,
+        "rows": int(cone(name).counts(np.array([pair.rows]))[0]),
     }
 
 

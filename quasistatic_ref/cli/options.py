@@ -10,7 +10,9 @@ from typing import Any
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import json_text
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.files import step_written
+from quasistatic_ref.step.cones import CONES
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_read, step_written
 
 
 def add_out(parser: argparse.ArgumentParser, default: str) -> None:
@@ -21,9 +23,17 @@ def add_out(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def add_solver(parser: argparse.ArgumentParser) -> None:
-    """``--backend`` and ``--certify``."""
+    """``--backend``, ``--cone`` and ``--certify``."""
     parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
+    add_cone(parser)
     parser.add_argument("--certify", metavar="KIND", help="full (default), residual or off")
+
+
+def add_cone(parser: argparse.ArgumentParser) -> None:
+    """``--cone``."""
+    parser.add_argument(
+        "--cone", metavar="NAME", help=f"friction cone in place of the file's: {', '.join(CONES)}"
+    )
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -44,13 +54,21 @@ def add_set(parser: argparse.ArgumentParser) -> None:
 
 
 def scenario_settings(options: argparse.Namespace) -> list[str]:
-    """``--set``, ``--backend`` and ``--certify`` as changes of a scenario."""
+    """``--set``, ``--backend``, ``--cone`` and ``--certify`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
     for key in ("backend", "certify"):
         value = getattr(options, key, None)
         if value is not None:
             settings.append(f"solver.{key}={json_text(value)}")
+    if getattr(options, "cone", None) is not None:
+        settings.append(f"cone={json_text(options.cone)}")
     return settings
+
+
+def step_given(options: argparse.Namespace) -> StepData:
+    """The step file of a command, in the cone of ``--cone`` where that is given."""
+    step = step_read(options.step)
+    return step if options.cone is None else step.replace(cone=options.cone)
 
 
 def print_json(value: Any) -> None:

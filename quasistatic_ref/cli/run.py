@@ -12,6 +12,7 @@ from quasistatic_ref.files import writable_folder
 from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
+from quasistatic_ref.step.cones import cone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         "steps": trajectory.steps,
         "backend": scenario.backend,
         "variables": scenario.system.n_v,
-        "rows": int(trajectory["rows"].sum()),
+        "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
         "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],

@@ -15,8 +15,8 @@ from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_read
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 
@@ -48,7 +48,10 @@ def run(options: argparse.Namespace) -> int:
         if certify != CERTIFY[0]:
             remedy = f"needs the exact optimum; leave out --certify {certify}"
             raise InputError(remedy, field="--digits", value=options.digits)
-    step = step_read(options.step)
+    step = shared.step_given(options)
+    if options.digits is not None and not cone(step.cone).polyhedral:
+        remedy = "needs a polyhedral cone: the optimum in the ellipsoid is no fraction"
+        raise InputError(remedy, field="--digits", value=options.digits)
     backend = DEFAULT if options.backend is None else options.backend
     certify = CERTIFY[0] if options.certify is None else options.certify
     try:

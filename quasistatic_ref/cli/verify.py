@@ -11,7 +11,7 @@ from quasistatic_ref.certify.certificate import in_words, verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_read, step_sha256
+from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.solution_files import SolutionFile, solution_read
 from quasistatic_ref.tolerances import WRENCH
@@ -21,12 +21,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument("step", type=Path, help="a step file (quasistatic-ref/step)")
     parser.add_argument("solution", type=Path, help="a solution file (quasistatic-ref/solution)")
+    shared.add_cone(parser)
     shared.add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 0 if the certificate holds, 1 if it does not."""
-    step = step_read(options.step)
+    step = shared.step_given(options)
     solution = solution_read(options.solution, step)
     reason = refutation(step, solution)
     if options.json:
@@ -50,13 +51,13 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     assert certificate is not None
     assert delta_q is not None
     assert lam is not None
-    if certificate.kind != "exact":
+    if certificate.kind not in ("exact", "enclosure"):
         return f"a certificate of kind {certificate.kind!r} proves nothing; solve with full"
     verdict = verify(step, delta_q, certificate.active, lam, certificate)
     if not verdict:
         return verdict.reason
-    m = int(step.contacts.offsets[-1])
-    wrench = contact_wrenches(step.contacts, lam[:m], step.h)
+    m = int(step.offsets[-1])
+    wrench = contact_wrenches(step.contacts, lam[:m], step.h, step.cone)
     scale = float(np.abs(wrench).max(initial=0.0))
     if solution.wrench is None or np.abs(solution.wrench - wrench).max(initial=0) > WRENCH * scale:
         return "the wrenches are not the combination of lam"

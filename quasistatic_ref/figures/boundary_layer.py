@@ -41,5 +41,5 @@ def boundary_layer(scenario: Scenario, run: Trajectory, height_at_rest: float) -
             r"$\mu_\omega\, m g$", (1e3 * limit, 0.9 * spin.max()), xytext=(-4, 0),
             textcoords="offset points", ha="right",
         )  # fmt: skip
-        top.set_title(f"h = {1e3 * scenario.h:g} ms, friction pyramid", loc="right")
+        top.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
     return figure

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.boundary_layer import boundary_layer
+from quasistatic_ref.figures.cones import limit_surfaces, pinch_thresholds
 from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
 from quasistatic_ref.simulate.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -33,7 +34,14 @@ def sphere_spin() -> Figure:
 
 
 FIGURES: dict[str, Callable[[], Figure]] = {
-    figure.__name__: figure for figure in (bunny_grasp, bunny_grasp_rotation, sphere_spin)
+    figure.__name__: figure
+    for figure in (
+        bunny_grasp,
+        bunny_grasp_rotation,
+        sphere_spin,
+        limit_surfaces,
+        pinch_thresholds,
+    )
 }
 
 

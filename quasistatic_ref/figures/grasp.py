@@ -48,7 +48,8 @@ def grasp_strip(
             axes.set_title(f"t = {instant:g} s")
         figure.text(
             0.5, 0.03,
-            f"h = {1e3 * scenario.h:g} ms, friction pyramid; open dots: contacts considered, "
+            f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}; "
+            "open dots: contacts considered, "
             "filled dots: contacts that bear load",
             ha="center", fontsize=8,
         )  # fmt: skip
@@ -68,7 +69,7 @@ def rotation_plot(
             axes.plot(motion.times[after:], angle[after:], label=title)
         axes.set_xlabel("time t [s]")
         axes.set_ylabel("rotation since the grip closed [deg]")
-        axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction pyramid", loc="right")
+        axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
         axes.set_ylim(bottom=-1)
         axes.legend()
     return figure

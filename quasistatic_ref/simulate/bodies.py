@@ -16,7 +16,7 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.paths import path_in
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.data import Array, positive_definite
+from quasistatic_ref.step.arrays import Array, positive_definite
 
 ZERO = np.zeros(3)
 

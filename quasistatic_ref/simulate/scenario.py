@@ -28,7 +28,8 @@ from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.backends import backend as known_backend
 from quasistatic_ref.solve.solve import CERTIFY
-from quasistatic_ref.step.data import CONES, Array
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
@@ -64,7 +65,7 @@ class Scenario:
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External, world frame, at centres of mass.
-    backend, accuracy, certify, record
+    backend, accuracy, certify, record, cone
         Settings.
     limits : Limits
         Beyond which no step is taken.
@@ -84,6 +85,7 @@ class Scenario:
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     record: str = "full"
+    cone: str = PYRAMID
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
 
@@ -99,6 +101,7 @@ class Scenario:
             backend=self.backend,
             accuracy=self.accuracy,
             certify=self.certify,
+            cone=self.cone,
             limits=self.limits,
         )
 
@@ -163,7 +166,11 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
     h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    top.text("cone", "pyramid", CONES)
+    named = top.text("cone", PYRAMID)
+    try:
+        cone(named)
+    except InputError as error:
+        raise top.fail("cone", error.problem, named) from None
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
     certify = solver.text("certify", CERTIFY[0], CERTIFY)
@@ -210,6 +217,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         accuracy=accuracy,
         certify=certify,
         record=record,
+        cone=named,
         limits=limits,
         bodies=entries,
     )

@@ -16,10 +16,14 @@ from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, Step
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.trajectory import Recorder, Trajectory
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -70,6 +74,10 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     backend, accuracy, certify
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    cone : str
+        Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
+    extension : callable, optional
+        q -> constraints and costs of the user's own at q, for every step.
     limits : Limits, optional
         Beyond which no step is taken.
     """
@@ -86,6 +94,8 @@ class Simulator:
         backend: str = DEFAULT,
         accuracy: float = ACCURACY,
         certify: str = "full",
+        cone: str = PYRAMID,
+        extension: Callable[[Array], Extension] | None = None,
         limits: Limits = Limits(),  # noqa: B008 - it is frozen
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
@@ -93,6 +103,7 @@ class Simulator:
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.cone, self.extension = cone, extension
         self.limits = limits
         self.problem: StepProblem | None = None
 
@@ -122,8 +133,11 @@ class Simulator:
         points = closest_points(self.pairs, kinematics)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
+        own = None if self.extension is None else self.extension(q)
+        if own is not None and (rows := extension_rows(step, own)) is not None:
+            step, own = with_rows(step, rows), None
         lap("rows")
-        solution = self.solved(step)
+        solution = self.solved(step, own)
         self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
@@ -144,11 +158,12 @@ class Simulator:
             tau_u=tau[n_a:],
             delta_q_bar_a=system.difference(q, target)[:n_a],  # q_bar_a(t + h) (-) q_a
             contacts=at,
+            cone=self.cone,
         )
 
-    def solved(self, step: StepData) -> StepSolution:
+    def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a CVXPY problem that is built once."""
-        if self.problem is None:
+        if self.problem is None or not self.problem.fits(step):
             self.problem = StepProblem(step)
         return solve_step(
             step,
@@ -156,6 +171,7 @@ class Simulator:
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,
+            extension=own,
         )
 
 
@@ -201,7 +217,9 @@ def simulate(
     q = simulator.system.checked(q)
     q_bar_a = _target_function(simulator, target, steps)
     g = float(np.linalg.norm(simulator.gravity))
-    recorder = Recorder(simulator.system, simulator.h, simulator.backend, record, q, g)
+    recorder = Recorder(
+        simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
+    )
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )

@@ -14,14 +14,12 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
-from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.artifacts import boundary_layer, quasi_dynamic_number
 from quasistatic_ref.simulate.npz import npz_arrays
-from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import StepResult
+    pass
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
@@ -43,10 +41,11 @@ class Trajectory:
     Parameters
     ----------
     header : mapping
-        format, version, h, backend, record, n_a, n_u, coordinates, contacts (names by step),
-        steps; ``quasi_dynamic_number`` (the largest Pi of a step, or None) and
-        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`; and
-        ``failed``: the reason, or None for a complete run.
+        format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
+        coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
+        step, or None) and ``largest_boundary_layer`` [m], see
+        :mod:`~quasistatic_ref.simulate.artifacts`; and ``failed``: the reason, or None for a
+        complete run.
     arrays : mapping of str to ndarray
         The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
         ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
@@ -54,7 +53,8 @@ class Trajectory:
         certified), ``digits`` (correct ones of the backend; NaN where the exact answer is not
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
-        ``J``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
+        ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
+        ``extra_b``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step; kept in memory only, so that equal runs make equal
         files.
@@ -98,7 +98,16 @@ class Trajectory:
             **{key: a[key] for key in CONSTANT},
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-        return StepData(h=self.header["h"], **{key: a[key][k] for key in parts}, contacts=contacts)
+        names = tuple(self.header.get("extra", ()))
+        none = np.zeros((0, a["delta_q"].shape[1])), np.zeros(0)
+        rows = (a["extra_A"][k], a["extra_b"][k]) if names else none
+        return StepData(
+            h=self.header["h"],
+            **{key: a[key][k] for key in parts},
+            contacts=contacts,
+            cone=self.header.get("cone", PYRAMID),
+            extra=Extra(names, *rows),
+        )
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""
@@ -172,13 +181,14 @@ def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> 
 
 
 def certified(trajectory: Trajectory) -> str:
-    """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``."""
-    exact = int(np.sum(trajectory["certificate"] == "exact")) if trajectory.steps else 0
-    return f"{exact} of {trajectory.steps} steps exact"
+    """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``.
 
-
-def _or_nan(value: float | None) -> float:
-    return np.nan if value is None else value
+    In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``.
+    """
+    kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
+    exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
+    told = f", {enclosed} enclosed" if enclosed else ""
+    return f"{exact} of {trajectory.steps} steps exact{told}"
 
 
 def worst_residual(trajectory: Trajectory) -> float | None:
@@ -187,92 +197,3 @@ def worst_residual(trajectory: Trajectory) -> float | None:
     if not residuals.size or np.isnan(residuals).any():
         return None
     return float(residuals.max())
-
-
-class Recorder:
-    """Collects the results of steps into a trajectory.
-
-    Parameters
-    ----------
-    system : System
-    h : float
-    backend : str
-    record : str
-        ``"full"`` or ``"light"``.
-    q : ndarray, shape (n_q,)
-        Where the run starts.
-    g : float
-        Length of gravity [m/s^2].
-    """
-
-    def __init__(
-        self, system: System, h: float, backend: str, record: str, q: Array, g: float = 0.0
-    ) -> None:
-        if record not in RECORDS:
-            raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
-        self.system, self.h, self.backend, self.record = system, h, backend, record
-        self.q, self.g = [q], g
-        self.Pi: float | None = None
-        self.layer = 0.0
-        self.rows: list[dict[str, Any]] = []
-        self.names: list[tuple[str, ...]] = []
-        self.seconds: list[dict[str, float]] = []
-        self.constant: dict[str, NDArray[Any]] = {}
-
-    def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
-        """Record one step that succeeded."""
-        step, solution, points = result.step, result.solution, result.points
-        Pi = quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
-        self.Pi = Pi if self.Pi is None or Pi is None else max(Pi, self.Pi)
-        self.layer = max(self.layer, boundary_layer(step, solution))
-        row: dict[str, Any] = {
-            "t": t,
-            "delta_q": solution.delta_q,
-            "q_bar_a": q_bar_a,
-            "phi": points.phi,
-            "alpha": points.alpha,
-            "beta": points.beta,
-            "n": points.n,
-            "d1": step.contacts.d1,
-            "d2": step.contacts.d2,
-            "point": points.point,
-            "lam": solution.lam,
-            "wrench": solution.wrench,
-            "certificate": solution.certificate.kind,
-            "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
-            "digits": _or_nan(solution.statistics.digits),
-        }
-        if self.record == "full":
-            form = standard_form(step)
-            row |= {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
-            for key in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
-                row[key] = getattr(step, key)
-        self.rows.append(row)
-        self.q.append(result.q)
-        self.names.append(step.contacts.name)
-        self.seconds.append(result.seconds)
-        self.constant = {key: getattr(step.contacts, key) for key in CONSTANT}
-
-    def trajectory(self, failed: str | None = None) -> Trajectory:
-        """Everything recorded so far."""
-        header = {
-            "format": FORMAT,
-            "version": VERSION,
-            "h": self.h,
-            "backend": self.backend,
-            "record": self.record,
-            "n_a": self.system.n_a,
-            "n_u": self.system.n_u,
-            "coordinates": [c.name for c in self.system.coordinates],
-            "steps": len(self.rows),
-            "failed": failed,
-            "quasi_dynamic_number": self.Pi,
-            "largest_boundary_layer": self.layer,
-            "contacts": self.names if self.record == "full" else [],
-        }
-        keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
-        arrays = {key: np.array([row[key] for row in self.rows]) for key in keys}
-        constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
-        parts = self.seconds[0] if self.seconds else {}
-        seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
-        return Trajectory(header, {"q": np.array(self.q), **arrays, **constant}, seconds)

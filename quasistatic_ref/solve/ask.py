@@ -11,10 +11,17 @@ import qpsolvers
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.step.standard_form import standard_form
+
+RELAXED = (1.0, 1e2, 1e4)
+"""Accuracies tried in the ellipsoid, relative to the one asked for.
+
+Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
+and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +55,8 @@ def backend_answer(
     failure: StepNotSolved | None = None
     entry = backend(name)
     accuracy = max(accuracy, entry.floor)
-    for options in entry.attempts(accuracy):
+    asked = [k * accuracy for k in (RELAXED if step.cone == ELLIPSOID else (1.0,))]
+    for accuracy, options in [(a, options) for a in asked for options in entry.attempts(a)]:
         try:
             answer = road(step, name, options, accuracy, problem)
         except StepNotSolved as failed:

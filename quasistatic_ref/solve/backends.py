@@ -39,6 +39,8 @@ class Backend:
         What to install, where its name is another.
     required : bool
         Whether the package installs it.
+    cones : bool
+        Whether it takes second-order cones, which the ellipsoid needs, through CVXPY.
     """
 
     name: str
@@ -48,6 +50,7 @@ class Backend:
     cvxpy: bool = True
     package: str = ""
     required: bool = False
+    cones: bool = False
 
 
 GAP = 1e-2
@@ -118,13 +121,13 @@ def _nothing(accuracy: float) -> Attempts:
 BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
-        Backend("clarabel", "interior point", _clarabel, required=True),
+        Backend("clarabel", "interior point", _clarabel, required=True, cones=True),
         # On bunny_grasp OSQP's residuals stop falling between 1e-11 and 1e-10 at the worst steps.
         Backend("osqp", "operator splitting", _osqp, floor=1e-10, required=True),
         Backend("piqp", "proximal interior point", _piqp, required=True),
         Backend("daqp", "dual active set", _daqp),
         Backend("proxqp", "augmented Lagrangian", _proxqp, package="proxsuite"),
-        Backend("scs", "operator splitting", _scs),
+        Backend("scs", "operator splitting", _scs, cones=True),
         # HiGHS refuses tolerances below 1e-10.
         Backend("highs", "active set", _highs, floor=1e-10, package="highspy"),
         Backend("quadprog", "dual active set", _nothing, cvxpy=False),
@@ -168,3 +171,25 @@ def backend(name: str) -> Backend:
         choices = ", ".join(known)
         raise BackendError(f"{remedy}; choices here: {choices}", field="backend", value=name)
     return entry
+
+
+def cone_backend(name: str, what: str) -> None:
+    """Refuse a backend that takes linear rows only.
+
+    Parameters
+    ----------
+    name : str
+    what : str
+        What needs more than rows, as the subject of a sentence.
+
+    Raises
+    ------
+    BackendError
+        If it takes no cones, is unknown or is not installed.
+    """
+    if name == NONE:
+        return
+    if not backend(name).cones or name.startswith(QPSOLVERS):
+        able = ", ".join(b.name for b in BACKENDS.values() if b.cones)
+        raise BackendError(f"takes linear rows only; {what} needs one of {able}", field="backend",
+                           value=name)  # fmt: skip

@@ -14,10 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.tolerances import DEFINITE, ORTHONORMAL, SYMMETRIC
+from quasistatic_ref.step.arrays import (
+    columns,
+    freeze,
+    names,
+    numbers,
+    positive_definite,
+    read_only,
+)
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
-CONES = ("pyramid",)
 ROWS = (4, 6)
 
 
@@ -41,7 +49,7 @@ class Contacts:
     mu_omega : ndarray, shape (n_c,)
         Torsional friction coefficient, a length [m], >= 0.
     rows : ndarray of int, shape (n_c,)
-        6, or 4 for a contact without torsional rows.
+        6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
 
     Raises
     ------
@@ -60,18 +68,18 @@ class Contacts:
     rows: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "name", _names(self.name, "contacts.name"))
+        object.__setattr__(self, "name", names(self.name, "contacts.name"))
         n_c = len(self.name)
-        n_v = _columns(self.J, "contacts.J", 3)
+        n_v = columns(self.J, "contacts.J", 3)
         shapes = {"phi": (n_c,), "n": (n_c, 3), "d1": (n_c, 3), "d2": (n_c, 3)}
         shapes |= {"J": (n_c, 4, n_v), "mu_v": (n_c,), "mu_omega": (n_c,)}
         for key, shape in shapes.items():
-            _freeze(self, key, shape, "contacts")
-        rows = _numbers(self.rows, "contacts.rows")
+            freeze(self, key, shape, "contacts")
+        rows = numbers(self.rows, "contacts.rows")
         if rows.shape != (n_c,) or not np.isin(rows, ROWS).all():
             problem = "must be 4 or 6 for each contact"
             raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
-        object.__setattr__(self, "rows", _read_only(rows.astype(np.int64)))
+        object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
         for key in ("mu_v", "mu_omega"):
             bad = np.flatnonzero(getattr(self, key) < 0)
             if bad.size:
@@ -95,16 +103,6 @@ class Contacts:
         """Number of contacts."""
         return len(self.name)
 
-    @cached_property
-    def mask(self) -> NDArray[np.bool_]:
-        """Which of the six rows of each contact exist, shape (n_c, 6)."""
-        return _read_only(np.arange(6) < self.rows[:, None])
-
-    @cached_property
-    def offsets(self) -> NDArray[np.int64]:
-        """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return _read_only(np.concatenate([[0], np.cumsum(self.rows)]))
-
 
 @dataclass(frozen=True, eq=False)
 class Extra:
@@ -122,10 +120,10 @@ class Extra:
     b: Array
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "names", _names(self.names, "extra.names"))
-        n_v = _columns(self.A, "extra.A", 2)
-        _freeze(self, "A", (len(self.names), n_v), "extra")
-        _freeze(self, "b", (len(self.names),), "extra")
+        object.__setattr__(self, "names", names(self.names, "extra.names"))
+        n_v = columns(self.A, "extra.A", 2)
+        freeze(self, "A", (len(self.names), n_v), "extra")
+        freeze(self, "b", (len(self.names),), "extra")
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +147,7 @@ class StepData:
     contacts : Contacts
         The contact points considered.
     cone : str
-        Friction cone; ``"pyramid"`` is the paper's.
+        Friction cone; ``"pyramid"`` is the paper's. See :mod:`~quasistatic_ref.step.cones`.
     extra : Extra
         Further rows; none by default.
 
@@ -166,26 +164,25 @@ class StepData:
     tau_u: Array
     delta_q_bar_a: Array
     contacts: Contacts
-    cone: str = "pyramid"
+    cone: str = PYRAMID
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
 
     def __post_init__(self) -> None:
-        h = _numbers(self.h, "h")
+        h = numbers(self.h, "h")
         if h.shape != () or not (np.isfinite(h) and h > 0):
             raise StepDataError("must be a positive number of seconds", field="h", value=self.h)
         object.__setattr__(self, "h", float(h))
         if not isinstance(self.contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=self.contacts)
-        if self.cone not in CONES:
-            raise StepDataError(f"must be one of {CONES}", field="cone", value=self.cone)
+        cone(self.cone)  # refuses a name that it does not know
         n_a, n_u = np.size(self.tau_a), np.size(self.tau_u)
         if self.extra is None:
             object.__setattr__(self, "extra", Extra((), np.zeros((0, n_a + n_u)), np.zeros(0)))
-        _freeze(self, "K_q", (n_a, n_a))
-        _freeze(self, "M_u", (n_u, n_u))
-        _freeze(self, "tau_a", (n_a,))
-        _freeze(self, "tau_u", (n_u,))
-        _freeze(self, "delta_q_bar_a", (n_a,))
+        freeze(self, "K_q", (n_a, n_a))
+        freeze(self, "M_u", (n_u, n_u))
+        freeze(self, "tau_a", (n_a,))
+        freeze(self, "tau_u", (n_u,))
+        freeze(self, "delta_q_bar_a", (n_a,))
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
         for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
@@ -209,6 +206,21 @@ class StepData:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
 
+    @cached_property
+    def counts(self) -> NDArray[np.int64]:
+        """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
+        return read_only(cone(self.cone).counts(self.contacts.rows))
+
+    @cached_property
+    def mask(self) -> NDArray[np.bool_]:
+        """Which of the cone's rows each contact has, shape (n_c, R)."""
+        return read_only(np.arange(len(cone(self.cone).row_names)) < self.counts[:, None])
+
+    @cached_property
+    def offsets(self) -> NDArray[np.int64]:
+        """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
+        return read_only(np.concatenate([[0], np.cumsum(self.counts)]))
+
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
         return replace(self, **changes)
@@ -216,75 +228,6 @@ class StepData:
     def same_as(self, other: StepData) -> bool:
         """Tell whether two steps hold the same numbers, bit for bit."""
         return _same(self, other)
-
-
-def _read_only(array: NDArray[Any]) -> NDArray[Any]:
-    array.setflags(write=False)
-    return array
-
-
-def _numbers(value: Any, name: str) -> Array:
-    """A float64 copy of real numbers; strings, booleans and ragged lists are refused."""
-    try:
-        array = np.array(value)
-        if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
-            return array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError):
-        pass
-    raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
-
-
-def _columns(value: Any, name: str, ndim: int) -> int:
-    """Number of columns that a matrix, or a stack of matrices, says it has."""
-    shape = _numbers(value, name).shape
-    if len(shape) != ndim:
-        raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
-    return int(shape[-1])
-
-
-def _names(value: Any, name: str) -> tuple[str, ...]:
-    if isinstance(value, str) or not all(isinstance(one, str) for one in value):
-        raise StepDataError("must be a sequence of strings", field=name, value=value)
-    return tuple(value)
-
-
-def _freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
-    """Replace a field by a read-only float64 copy of the given shape, -0.0 becoming 0.0."""
-    name = f"{prefix}.{key}" if prefix else key
-    array = _numbers(getattr(owner, key), name) + 0.0
-    if array.size == 0 and 0 in shape:
-        array = array.reshape(shape)
-    if array.shape != shape:
-        raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
-    if not np.isfinite(array).all():
-        raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
-    object.__setattr__(owner, key, _read_only(array))
-
-
-def positive_definite(key: str, S: Array) -> Array:
-    """Return S made exactly symmetric from its lower triangle, or refuse it.
-
-    Raises
-    ------
-    StepDataError
-        About the field `key`, if S is not symmetric or not positive definite.
-    """
-    scale = np.abs(S).max(initial=0.0)
-    if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
-        raise StepDataError("must be symmetric", field=key, value=S.tolist())
-    S = np.tril(S) + np.tril(S, -1).T
-    try:
-        pivots = np.diag(np.linalg.cholesky(S)) ** 2
-    except np.linalg.LinAlgError:
-        pivots = np.full(len(S), -np.inf)
-    # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
-    if (pivots <= DEFINITE * np.diag(S)).any():
-        raise StepDataError(
-            "must be positive definite (no zero stiffness, no massless link)",
-            field=key,
-            value=S.tolist(),
-        )
-    return _read_only(S)
 
 
 def _same(one: Any, two: Any) -> bool:

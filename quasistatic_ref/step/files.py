@@ -15,7 +15,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text, text_written
-from quasistatic_ref.step.data import CONES, Array, Contacts, Extra, StepData
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
 STEP_FORMAT = "quasistatic-ref/step"
 VERSION = 1
@@ -77,7 +78,7 @@ def step_from_record(record: Any) -> StepData:
     """
     top = Fields(record, error=StepDataError)
     check_format(top, STEP_FORMAT)
-    cone = top.text("cone", "pyramid", CONES)
+    cone = top.text("cone", PYRAMID)
     h = top.number("h", above=0.0)
     n_a, n_u = top.integer("n_a", least=0), top.integer("n_u", least=0)
     step = StepData(

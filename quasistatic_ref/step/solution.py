@@ -15,7 +15,8 @@ class Certificate:
     Parameters
     ----------
     kind : str
-        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"residual"``
+        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"enclosure"`` (in the
+        ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
         (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
         Residuals of Eqs. (9)-(12) in natural units [-].
@@ -81,7 +82,8 @@ class StepSolution:
     delta_q : ndarray, shape (n_v,)
         Displacement [m, rad] in the paper's order.
     lam : ndarray, shape (m,)
-        Multipliers of the contact rows, contact-major: impulses [N s].
+        Multipliers of the contact rows, contact-major: impulses [N s]. In the ellipsoid, each
+        contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
     lam_extra : ndarray
         Multipliers of the user's own rows.
     wrench : ndarray, shape (n_c, 4)

@@ -13,7 +13,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text
-from quasistatic_ref.step.data import CONES, Array, StepData
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import VERSION, check_format, step_sha256
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
@@ -50,10 +51,9 @@ class SolutionFile:
 
 def solution_text(step: StepData, solution: StepSolution) -> str:
     """The solution of a step as one line of JSON."""
-    offsets = step.contacts.offsets
     record = _head(step, "optimal", solution.backend) | {
         "delta_q": solution.delta_q,
-        "lam": [solution.lam[a:b] for a, b in pairwise(offsets)],
+        "lam": [solution.lam[a:b] for a, b in pairwise(step.offsets)],
         "lam_extra": solution.lam_extra,
         "wrench": solution.wrench,
         "certificate": asdict(solution.certificate),
@@ -94,7 +94,9 @@ def _head(step: StepData, status: str, backend: str) -> dict[str, Any]:
 def _solution(top: Fields, step: StepData) -> SolutionFile:
     check_format(top, SOLUTION_FORMAT)
     status = top.text("status", choices=("optimal", "infeasible"))
-    top.text("cone", "pyramid", CONES)
+    named = top.text("cone", PYRAMID)
+    if named != step.cone:
+        raise top.fail("cone", f"must be that of the step, {step.cone!r}", named)
     backend, sha256 = top.text("backend"), top.text("step_sha256")
     if sha256 != step_sha256(step):
         return SolutionFile(sha256, backend)  # its shapes are another step's
@@ -123,7 +125,7 @@ def _nested(top: Fields, step: StepData) -> Array:
         raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
     parts = [
         Fields({f"lam[{j}]": part}, error=StepDataError).array(f"lam[{j}]", (int(rows),))
-        for j, (part, rows) in enumerate(zip(value, step.contacts.rows, strict=True))
+        for j, (part, rows) in enumerate(zip(value, step.counts, strict=True))
     ]
     return np.concatenate([np.zeros(0), *parts])
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.friction import friction_rows, row_gaps
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +24,8 @@ class StandardForm:
         Block diagonal, positive definite.
     g : ndarray, shape (n_v,)
     A : ndarray, shape (m, n_v)
-        Contact-major; the user's extra rows come last.
+        Contact-major; the user's extra rows come last. A contact in the ellipsoid has four rows,
+        along n, d1, d2 and spin; A delta_q - b is then its motion, which the cone keeps.
     b : ndarray, shape (m,)
     """
 
@@ -51,6 +52,6 @@ def standard_form(step: StepData) -> StandardForm:
     H[n_a:, n_a:] = step.M_u / h
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
-    A = friction_rows(contacts)[contacts.mask]  # Eq. (8)
-    b = -np.repeat(contacts.phi, contacts.rows)  # Eq. (8)
+    A = friction_rows(contacts, step.cone)[step.mask]  # Eq. (8)
+    b = -row_gaps(contacts, step.cone)[step.mask]  # Eq. (8)
     return StandardForm(H, g, np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b]))

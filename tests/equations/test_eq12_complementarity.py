@@ -48,7 +48,7 @@ def test_erratum_lam_without_its_index_does_not_fit_a_contact_of_several(rng):
         step.contacts.phi[1] + contact_row(step.contacts, 1, i) @ delta_q for i in range(4)
     ]
     assert len(slack_of_the_second) != len(lam)  # so (12) cannot mean the whole of lambda
-    assert step.contacts.offsets.tolist() == [0, 6, 10, 16]
+    assert step.offsets.tolist() == [0, 6, 10, 16]
     own = lam[6:10]
     np.testing.assert_allclose(np.multiply(slack_of_the_second, own), 0.0, rtol=0.0, atol=ROUNDING)
     another = lam[0:4] + lam[10:14]  # another contact's multipliers do not complement this slack

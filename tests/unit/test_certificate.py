@@ -60,7 +60,7 @@ def test_words_for_what_is_not_exact(step):
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):
-    rows = range(len(step.contacts.rows) and int(step.contacts.offsets[-1]) + 2)
+    rows = range(len(step.contacts.rows) and int(step.offsets[-1]) + 2)
     pairs = contact_rows(step, rows)
     assert pairs[0] == (0, 0)
     assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each
@@ -147,3 +147,17 @@ def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
     smooth = replace(wider, differentiable=True)
     reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
     assert "differentiable" in reason
+
+
+@pytest.mark.parametrize("phi", [0.0, 1e-3])
+@pytest.mark.parametrize("contacts", [1, 2])
+def test_claims_of_a_sticking_body_are_checked(phi, contacts):
+    """Its idle rows follow from those that press: not unique, but differentiable."""
+    step = resting_point(tau_x=0.1, phi=phi, contacts=contacts)
+    optimum = exact_step(step)
+    claims = exact_certificate(step, optimum)
+    assert (claims.multipliers_unique, claims.differentiable) == (False, True)
+    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    for name in ("multipliers_unique", "differentiable"):
+        false = replace(claims, **{name: not getattr(claims, name)})
+        assert name in verify(step, optimum.delta_q, claims.active, optimum.lam, false).reason

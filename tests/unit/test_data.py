@@ -148,7 +148,7 @@ def test_arrays_cannot_be_written(array):
 
 @pytest.mark.parametrize("name", ["mask", "offsets"])
 def test_derived_arrays_cannot_be_written(name):
-    assert not getattr(CONTACTS, name).flags.writeable
+    assert not getattr(STEP, name).flags.writeable
 
 
 def test_the_caller_s_own_array_is_copied_not_locked():
@@ -165,8 +165,8 @@ def test_numbers_in_lists_become_float64():
 
 def test_counts_are_those_of_the_arrays():
     assert (STEP.n_a, STEP.n_u, STEP.n_v, CONTACTS.n_c) == (2, 3, 5, 2)
-    assert CONTACTS.offsets.tolist() == [0, 6, 10]
-    assert CONTACTS.mask.tolist() == [[True] * 6, [True] * 4 + [False] * 2]
+    assert STEP.offsets.tolist() == [0, 6, 10]
+    assert STEP.mask.tolist() == [[True] * 6, [True] * 4 + [False] * 2]
 
 
 def test_empty_blocks_and_no_contacts_are_steps_too(rng):

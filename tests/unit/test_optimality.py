@@ -62,7 +62,7 @@ def test_a_contact_too_deep_is_the_primal_residual_times_lam_in_complementarity(
     )
     near(found.primal, size)
     near([found.stationarity, found.dual], 0.0)
-    rows = slice(*step.contacts.offsets[j : j + 2])
+    rows = slice(*step.offsets[j : j + 2])
     near(found.complementarity, size * lam[rows].max())
 
 

@@ -280,7 +280,8 @@ REFUSALS = {
     "an unknown cone": (
         "steps = 5",
         'steps = 5\ncone = "cube"',
-        "cone: is not a choice; known: pyramid (got 'cube')",
+        "cone: must be one of pyramid, ellipsoid, product, facets-K, frictionless, "
+        "with K even and 4 to 1024 (got 'cube')",
     ),
     "an unknown record": (
         "steps = 5",

@@ -151,7 +151,7 @@ REFUSED = {
     "another format": (["format"], "quasistatic-ref/solution", "format: is not a choice"),
     "a later version": (["version"], 2, "version: is not known here; this program reads 1 (got 2)"),
     "a version in words": (["version"], "1", "version: must be a whole number"),
-    "an unknown cone": (["cone"], "cube", "cone: is not a choice"),
+    "an unknown cone": (["cone"], "cube", "cone: must be one of pyramid, ellipsoid"),
     "h zero": (["h"], 0.0, "h: must be greater than 0"),
     "h a word": (["h"], "0.01", "h: must be a number (got '0.01')"),
     "h NaN": (["h"], float("nan"), "h: must be a finite number"),

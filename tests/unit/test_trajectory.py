@@ -109,6 +109,8 @@ def test_the_header_says_what_the_run_was(run):
         "version": 1,
         "h": 0.01,
         "backend": "clarabel",
+        "cone": "pyramid",
+        "extra": [],
         "record": "full",
         "n_a": 2,
         "n_u": 6,

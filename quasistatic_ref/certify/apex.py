@@ -1,0 +1,95 @@
+r"""The ellipsoid where it is rational: every contact that bears load sticks, at the cone's apex.
+
+There A_j x = b_j holds for all rows of those contacts: x is the minimiser on independent ones
+among them, a solution of linear equations. Six or more rows may be dependent, so lam is not
+unique; given one in float64, the nearest by changes of the independent rows alone makes
+
+.. math:: H x - g = A^T \lambda
+
+exact. Whether x and that lam are inside of the cones, and lam'(A x - b) = 0, is then a matter of
+rational numbers: by convexity nothing else has to be checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import fmpq, fmpq_mat, fmpz_mat
+
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import friction_coefficients
+
+
+def apex_refutation(
+    step: StepData, form: ExactForm, working: Sequence[int], lam: Array
+) -> str | None:
+    """Why the minimiser on some rows is not the optimum of a step in the ellipsoid; None if it is.
+
+    Parameters
+    ----------
+    step : StepData
+    form : ExactForm
+        That of the step.
+    working : sequence of int
+        Rows of A on which x is the minimiser.
+    lam : ndarray, shape (m,)
+        Impulses; those of the working rows need to be right but for rounding.
+
+    Returns
+    -------
+    str or None
+    """
+    try:
+        solution = rational_solution(form, tuple(working))
+    except ZeroDivisionError:
+        return "the rows of the working set are not independent"
+    slack = [fmpq(s) / solution.denominator for s in solution.slack]
+    net = [fmpq(v) / solution.denominator for v in solution.net]
+    impulse = _balanced(form, working, [_fraction(v) / form.lam_unit for v in lam.tolist()], net)
+    if impulse is None:
+        return "no multipliers on the working set balance the step"
+    names = [*step.contacts.name, *step.extra.names]
+    mu = [[_fraction(v) for v in row] for row in friction_coefficients(step.contacts).tolist()]
+    mu += [[] for _ in step.extra.names]
+    work, start = fmpq(0), 0
+    for name, c in zip(names, mu, strict=True):
+        rows = range(start, start + 1 + len(c))
+        start = rows.stop
+        s, f = [slack[i] for i in rows], [impulse[i] for i in rows]
+        if not _holds(s[0], [m * v for m, v in zip(c, s[1:], strict=True)]):
+            return f"{name} is violated by the minimiser on the working set"
+        if any(v and not m for m, v in zip(c, f[1:], strict=True)) or not _holds(
+            f[0], [v / m for m, v in zip(c, f[1:], strict=True) if m]
+        ):
+            return f"the force at {name} is outside of its cone"
+        work += sum((a * b for a, b in zip(s, f, strict=True)), fmpq(0))
+    return "a contact that is open bears load" if work else None
+
+
+def _balanced(
+    form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
+) -> list[fmpq] | None:
+    """Return lam changed on the working rows so that A'lam = net; None if that does not do."""
+    A = fmpq_mat(form.A)
+    short = fmpq_mat(form.n, 1, net) - A.transpose() * fmpq_mat(form.m, 1, lam)
+    if not working:
+        return None if any(short.entries()) else lam
+    W = fmpq_mat(fmpz_mat([form.row(i) for i in working]))
+    change = (W * W.transpose()).solve(W * short)
+    if any((W.transpose() * change - short).entries()):
+        return None
+    changed = list(lam)
+    for i, d in zip(working, change.entries(), strict=True):
+        changed[i] += d
+    return changed
+
+
+def _holds(first: fmpq, rest: list[fmpq]) -> bool:
+    """Whether first >= ||rest||, without rounding."""
+    return first >= 0 and first * first >= sum((v * v for v in rest), fmpq(0))
+
+
+def _fraction(x: float) -> fmpq:
+    return fmpq(*x.as_integer_ratio())

@@ -1,0 +1,105 @@
+r"""Optimality conditions of a conic program as residuals: the judge of extended steps.
+
+.. math:: \min \tfrac12 x^T P x + c^T x \quad\text{s.t.}\quad A x + s = b,\; s \in K
+
+has the conditions P x + c + A'z = 0, s in K, z in the dual cone, s'z = 0 (by blocks). K is made
+of {0}, s >= 0, second-order cones, and exponential cones cl{(u, v, w) : v exp(u / v) <= w, v > 0}.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.certify.optimality import Residuals
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(frozen=True, eq=False)
+class ConicProgram:
+    """A conic program in float64.
+
+    Parameters
+    ----------
+    P : ndarray, shape (n, n)
+        Symmetric.
+    c : ndarray, shape (n,)
+    A : ndarray, shape (m, n)
+    b : ndarray, shape (m,)
+    zero, nonnegative : int
+        Number of rows of each kind, in this order.
+    second_order : sequence of int
+        Sizes of the second-order cones, which come next.
+    exponential : int
+        Number of exponential cones, three rows each, which come last.
+    """
+
+    P: Array
+    c: Array
+    A: Array
+    b: Array
+    zero: int
+    nonnegative: int
+    second_order: Sequence[int]
+    exponential: int
+
+
+def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:
+    """Largest violation of each condition at an answer.
+
+    Parameters
+    ----------
+    program : ConicProgram
+    x : ndarray, shape (n,)
+    z : ndarray, shape (m,)
+        Multipliers, in the dual cone.
+
+    Returns
+    -------
+    Residuals
+    """
+    s = program.b - program.A @ x
+    ends = np.cumsum(
+        [program.zero, program.nonnegative, *program.second_order, *[3] * program.exponential]
+    )
+    parts, duals = np.split(s, ends[:-1]), np.split(z, ends[:-1])
+    flat, rows = parts[0], parts[1]
+    balls = slice(2, 2 + len(program.second_order))
+    horns = slice(balls.stop, None)
+    primal = [np.abs(flat), -rows, *map(_outside_ball, parts[balls]), *map(_outside, parts[horns])]
+    dual = [-duals[1], *map(_outside_ball, duals[balls]), *map(_outside_dual, duals[horns])]
+    work = [
+        rows * duals[1],
+        *(np.array([u @ v]) for u, v in zip(parts[2:], duals[2:], strict=True)),
+    ]
+    balance = program.P @ x + program.c + program.A.T @ z
+    return Residuals(
+        stationarity=float(np.abs(balance).max(initial=0.0)),
+        primal=float(np.concatenate(primal).max(initial=0.0)),
+        dual=float(np.concatenate(dual).max(initial=0.0)),
+        complementarity=float(np.abs(np.concatenate(work)).max(initial=0.0)),
+    )
+
+
+def _outside_ball(s: Array) -> Array:
+    return np.array([np.linalg.norm(s[1:]) - s[0]])
+
+
+def _outside(s: Array) -> Array:
+    """How far s is outside of an exponential cone, along its third coordinate."""
+    u, v, w = s
+    if v > 0:
+        with np.errstate(over="ignore"):
+            return np.array([v * np.exp(u / v) - w])
+    return np.array([max(u, -v, -w)])
+
+
+def _outside_dual(z: Array) -> Array:
+    """The same of its dual, {(u, v, w) : -u exp(v / u) <= e w, u < 0}."""
+    u, v, w = z
+    if u < 0:
+        with np.errstate(over="ignore"):
+            return np.array([-u * np.exp(v / u - 1) - w])
+    return np.array([max(u, -v, -w)])

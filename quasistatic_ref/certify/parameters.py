@@ -1,0 +1,129 @@
+"""How H, g, A and b of Eqs. (1), (4)-(8), (13) change with the parameters of a step, exactly.
+
+Each derivative is a rational number in SI units; A and b are affine in every parameter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from flint import fmpq
+
+from quasistatic_ref.certify.dyadic import Dyadic
+from quasistatic_ref.certify.rational import contact_motion
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import friction_coefficients
+
+Vector = list[fmpq]
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """Derivatives by one parameter; what is not named does not change.
+
+    Parameters
+    ----------
+    group : str
+        ``"phi"``.
+    name : str
+        ``"phi[left/17]"``.
+    H : dict of (int, int) to fmpq
+    g : list of fmpq
+        All of dg, or empty.
+    A : dict of int to list of fmpq
+        By row.
+    b : dict of int to fmpq
+        By row.
+    at_zero : bool
+        Whether it is a friction coefficient that is used, and zero.
+    """
+
+    group: str
+    name: str
+    H: dict[tuple[int, int], fmpq] = field(default_factory=dict)
+    g: Vector = field(default_factory=list)
+    A: dict[int, Vector] = field(default_factory=dict)
+    b: dict[int, fmpq] = field(default_factory=dict)
+    at_zero: bool = False
+
+
+def parameter_changes(step: StepData) -> list[Change]:
+    """Changes by every parameter that a derivative is given for."""
+    return [*_loads(step), *_gaps(step), *_coefficients(step), _time_step(step)]
+
+
+def _loads(step: StepData) -> list[Change]:
+    n_a, n_v, h = step.n_a, step.n_v, _fraction(step.h)
+    K = [[_fraction(v) for v in row] for row in step.K_q.tolist()]
+    rest = [fmpq(0)] * step.n_u
+    targets = [
+        Change("delta_q_bar_a", f"delta_q_bar_a[{k}]", g=[h * K[i][k] for i in range(n_a)] + rest)
+        for k in range(n_a)
+    ]
+    forces = [
+        Change("tau_a", f"tau_a[{k}]", g=_unit(k, n_v, h))
+        if k < n_a
+        else Change("tau_u", f"tau_u[{k - n_a}]", g=_unit(k, n_v, h))
+        for k in range(n_v)
+    ]
+    stiffness = [
+        Change("K_q", f"K_q[{k}, {k}]", H={(k, k): h}, g=_unit(k, n_v, h * _fraction(target)))
+        for k, target in enumerate(step.delta_q_bar_a.tolist())
+    ]
+    return targets + forces + stiffness
+
+
+def _gaps(step: StepData) -> list[Change]:
+    ends = step.offsets.tolist()
+    return [
+        Change("phi", f"phi[{name}]", b=dict.fromkeys(range(ends[j], ends[j + 1]), fmpq(-1)))
+        for j, name in enumerate(step.contacts.name)
+    ]
+
+
+def _coefficients(step: StepData) -> list[Change]:
+    motion, table = contact_motion(step.contacts), cone(step.cone).table.tolist()
+    mu = friction_coefficients(step.contacts)
+    changes = []
+    for symbol, columns in (("mu_v", (0, 1)), ("mu_omega", (2,))):
+        for j, name in enumerate(step.contacts.name):
+            rows: dict[int, Vector] = {}
+            used = symbol == "mu_v" or step.contacts.rows[j] == 6
+            for i, t in enumerate(table[: int(step.counts[j])]):
+                if used and any(t[c] for c in columns):
+                    rows[int(step.offsets[j]) + i] = _combined(motion, j, t, columns)
+            at_zero = bool(rows) and mu[j, columns[0]] == 0
+            changes.append(Change(symbol, f"{symbol}[{name}]", A=rows, at_zero=at_zero))
+    return changes
+
+
+def _time_step(step: StepData) -> Change:
+    n_a, h = step.n_a, _fraction(step.h)
+    K = [[_fraction(v) for v in row] for row in step.K_q.tolist()]
+    M = [[_fraction(v) for v in row] for row in step.M_u.tolist()]
+    target = [_fraction(v) for v in step.delta_q_bar_a.tolist()]
+    H = {(i, j): v for i, row in enumerate(K) for j, v in enumerate(row)}
+    H |= {(n_a + i, n_a + j): -v / h**2 for i, row in enumerate(M) for j, v in enumerate(row)}
+    pull = [sum((v * t for v, t in zip(row, target, strict=True)), fmpq(0)) for row in K]
+    forces = [_fraction(v) for v in (*step.tau_a.tolist(), *step.tau_u.tolist())]
+    g = [f + (pull[i] if i < n_a else 0) for i, f in enumerate(forces)]
+    return Change("h", "h", H=H, g=g)
+
+
+def _combined(motion: Dyadic, j: int, t: list[float], columns: tuple[int, ...]) -> Vector:
+    """Return sum_c t_c (motion of contact j along axis c + 1)."""
+    unit = fmpq(1 << max(motion.e, 0), 1 << max(-motion.e, 0))
+    n_v = motion.m.shape[2]
+    return [
+        sum((_fraction(t[c]) * unit * int(motion.m[j, c + 1, v]) for c in columns), fmpq(0))
+        for v in range(n_v)
+    ]
+
+
+def _unit(k: int, n: int, value: fmpq) -> Vector:
+    return [value if i == k else fmpq(0) for i in range(n)]
+
+
+def _fraction(x: float) -> fmpq:
+    return fmpq(*float(x).as_integer_ratio())

@@ -1,0 +1,39 @@
+"""Whether a claim holds, and why not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a certificate holds.
+
+    Parameters
+    ----------
+    ok : bool
+    reason : str
+        Why not, in plain words; empty if it holds.
+    """
+
+    ok: bool
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+
+def wrong_bits(name: str, given: Array, right: Array) -> str:
+    """What is wrong with float64 numbers that must be right to the last bit; empty if nothing."""
+    given = np.array(given, dtype=np.float64)
+    if given.shape != right.shape:
+        return f"{name} has shape {given.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(given.view(np.int64) != right.view(np.int64))
+    if not wrong.size:
+        return ""
+    at = int(wrong[0])
+    return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"

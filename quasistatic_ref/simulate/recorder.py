@@ -1,0 +1,131 @@
+"""Steps as they are taken, collected into a trajectory."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.artifacts import boundary_layer, quasi_dynamic_number
+from quasistatic_ref.simulate.trajectory import CONSTANT, FORMAT, RECORDS, VERSION, Trajectory
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import standard_form
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.simulator import StepResult
+
+
+class Recorder:
+    """Collects the results of steps into a trajectory.
+
+    Parameters
+    ----------
+    system : System
+    h : float
+    backend : str
+    record : str
+        ``"full"`` or ``"light"``.
+    q : ndarray, shape (n_q,)
+        Where the run starts.
+    g : float
+        Length of gravity [m/s^2].
+    cone : str
+        Friction cone.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        h: float,
+        backend: str,
+        record: str,
+        q: Array,
+        g: float = 0.0,
+        *,
+        cone: str = PYRAMID,
+    ) -> None:
+        if record not in RECORDS:
+            raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
+        self.system, self.h, self.backend, self.record = system, h, backend, record
+        self.cone = cone
+        self.extra: tuple[str, ...] = ()
+        self.q, self.g = [q], g
+        self.Pi: float | None = None
+        self.layer = 0.0
+        self.rows: list[dict[str, Any]] = []
+        self.names: list[tuple[str, ...]] = []
+        self.seconds: list[dict[str, float]] = []
+        self.constant: dict[str, NDArray[Any]] = {}
+
+    def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
+        """Record one step that succeeded."""
+        step, solution, points = result.step, result.solution, result.points
+        Pi = quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
+        self.Pi = Pi if self.Pi is None or Pi is None else max(Pi, self.Pi)
+        self.layer = max(self.layer, boundary_layer(step, solution))
+        row: dict[str, Any] = {
+            "t": t,
+            "delta_q": solution.delta_q,
+            "q_bar_a": q_bar_a,
+            "phi": points.phi,
+            "alpha": points.alpha,
+            "beta": points.beta,
+            "n": points.n,
+            "d1": step.contacts.d1,
+            "d2": step.contacts.d2,
+            "point": points.point,
+            "lam": solution.lam,
+            "wrench": solution.wrench,
+            "certificate": solution.certificate.kind,
+            "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
+            "digits": _or_nan(solution.statistics.digits),
+        }
+        if self.record == "full":
+            form = standard_form(step)
+            row |= {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
+            for key in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
+                row[key] = getattr(step, key)
+        if step.extra.names:
+            row["lam_extra"] = solution.lam_extra
+            if self.record == "full":
+                row |= {"extra_A": step.extra.A, "extra_b": step.extra.b}
+        self.extra = step.extra.names
+        self.rows.append(row)
+        self.q.append(result.q)
+        self.names.append(step.contacts.name)
+        self.seconds.append(result.seconds)
+        self.constant = {key: getattr(step.contacts, key) for key in CONSTANT}
+
+    def trajectory(self, failed: str | None = None) -> Trajectory:
+        """Everything recorded so far."""
+        header = {
+            "format": FORMAT,
+            "version": VERSION,
+            "h": self.h,
+            "backend": self.backend,
+            "cone": self.cone,
+            "extra": list(self.extra),
+            "record": self.record,
+            "n_a": self.system.n_a,
+            "n_u": self.system.n_u,
+            "coordinates": [c.name for c in self.system.coordinates],
+            "steps": len(self.rows),
+            "failed": failed,
+            "quasi_dynamic_number": self.Pi,
+            "largest_boundary_layer": self.layer,
+            "contacts": self.names if self.record == "full" else [],
+        }
+        keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
+        arrays = {key: np.array([row[key] for row in self.rows]) for key in keys}
+        constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
+        parts = self.seconds[0] if self.seconds else {}
+        seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
+        return Trajectory(header, {"q": np.array(self.q), **arrays, **constant}, seconds)
+
+
+def _or_nan(value: float | None) -> float:
+    return np.nan if value is None else value

@@ -1,0 +1,84 @@
+"""Arrays of a step, checked: real numbers of the right shape, read-only."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
+
+Array = NDArray[np.float64]
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """The same array, which cannot be written any more."""
+    array.setflags(write=False)
+    return array
+
+
+def numbers(value: Any, name: str) -> Array:
+    """A float64 copy of real numbers; strings, booleans and ragged lists are refused."""
+    try:
+        array = np.array(value)
+        if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def columns(value: Any, name: str, ndim: int) -> int:
+    """Number of columns that a matrix, or a stack of matrices, says it has."""
+    shape = numbers(value, name).shape
+    if len(shape) != ndim:
+        raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
+    return int(shape[-1])
+
+
+def names(value: Any, name: str) -> tuple[str, ...]:
+    """A tuple of strings; a single string is refused."""
+    if isinstance(value, str) or not all(isinstance(one, str) for one in value):
+        raise StepDataError("must be a sequence of strings", field=name, value=value)
+    return tuple(value)
+
+
+def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
+    """Replace a field by a read-only float64 copy of the given shape, -0.0 becoming 0.0."""
+    name = f"{prefix}.{key}" if prefix else key
+    array = numbers(getattr(owner, key), name) + 0.0
+    if array.size == 0 and 0 in shape:
+        array = array.reshape(shape)
+    if array.shape != shape:
+        raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
+    if not np.isfinite(array).all():
+        raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
+    object.__setattr__(owner, key, read_only(array))
+
+
+def positive_definite(key: str, S: Array) -> Array:
+    """Return S made exactly symmetric from its lower triangle, or refuse it.
+
+    Raises
+    ------
+    StepDataError
+        About the field `key`, if S is not symmetric or not positive definite.
+    """
+    scale = np.abs(S).max(initial=0.0)
+    if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
+        raise StepDataError("must be symmetric", field=key, value=S.tolist())
+    S = np.tril(S) + np.tril(S, -1).T
+    try:
+        pivots = np.diag(np.linalg.cholesky(S)) ** 2
+    except np.linalg.LinAlgError:
+        pivots = np.full(len(S), -np.inf)
+    # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
+    if (pivots <= DEFINITE * np.diag(S)).any():
+        raise StepDataError(
+            "must be positive definite (no zero stiffness, no massless link)",
+            field=key,
+            value=S.tolist(),
+        )
+    return read_only(S)

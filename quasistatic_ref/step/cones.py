@@ -1,0 +1,141 @@
+"""The friction cones by name: how many rows each gives to a contact, and what they combine.
+
+A polyhedral cone is a table. Its row i forbids motion against n~ + d~_i with
+
+    d~_i = mu_v (t_i1 d1 + t_i2 d2) + mu_omega t_i3 spin,
+
+and its limit surface, the forces at f_n = 1 in units of (mu_v, mu_v, mu_omega), is the convex hull
+of the table's rows. A contact uses a leading part of the table; where ``rows`` is 4, mu_omega is
+not used. The ellipsoid is no polyhedron and has no table; a contact in it has four multipliers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import StepDataError
+
+PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
+CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
+MOST_FACETS = 1024
+"""More sides than that differ from the circle by less than 5e-6 and make steps of many MB."""
+
+PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
+_SPIN = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+_SPIN_NAMES = ("+spin", "-spin")
+
+
+@dataclass(frozen=True, eq=False)
+class Cone:
+    """One friction cone.
+
+    Parameters
+    ----------
+    name : str
+    table : ndarray, shape (R, 3)
+        Coefficients t of all rows [-]; empty for the ellipsoid.
+    row_names : tuple of str
+        A name for each number of lam that a contact with torsion has.
+    short : int
+        How many of them a contact has whose mu_omega is not used.
+    """
+
+    name: str
+    table: NDArray[np.float64]
+    row_names: tuple[str, ...]
+    short: int
+
+    @property
+    def polyhedral(self) -> bool:
+        """Whether the cone is a matter of rows alone."""
+        return self.name != ELLIPSOID
+
+    def counts(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+        """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
+        return np.where(rows == 6, len(self.row_names), self.short)
+
+
+@cache
+def cone(name: str) -> Cone:
+    """The cone of a name.
+
+    Parameters
+    ----------
+    name : str
+        ``"pyramid"``, ``"ellipsoid"``, ``"product"``, ``"facets-K"`` with K even and at least 4,
+        e.g. ``"facets-8"``; or ``"frictionless"``.
+
+    Raises
+    ------
+    StepDataError
+        If there is no such cone.
+    """
+    tangential = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
+    names = ("+d1", "+d2", "-d1", "-d2")
+    if name == PYRAMID:
+        return _cone(name, tangential + _SPIN, names + _SPIN_NAMES, 4)
+    if name == "product":
+        both = [[t1, t2, w] for w in (1.0, -1.0) for t1, t2, _ in tangential]
+        return _cone(name, both, tuple(d + s for s in _SPIN_NAMES for d in names), 4)
+    if name == "frictionless":
+        return _cone(name, [[0, 0, 0]], ("n",), 1)
+    if name == ELLIPSOID:
+        return _cone(name, [], ("n", "d1", "d2", "spin"), 4)
+    prefix, _, sides = str(name).partition("-")
+    if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
+        K = int(sides)
+        if K % 2 == 0 and 4 <= K <= MOST_FACETS:
+            circle = [[*direction(k, K), 0.0] for k in range(K)]
+            sides_named = tuple(f"side {k}" for k in range(K))
+            return _cone(name, circle + _SPIN, sides_named + _SPIN_NAMES, K)
+    raise StepDataError(
+        f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}",
+        field="cone",
+        value=name,
+    )
+
+
+def direction(k: int, K: int) -> tuple[float, float]:
+    """(cos, sin) of k/K of a turn, rounded correctly to float64.
+
+    Each is therefore a definite number on every machine, quarter turns and reflections are exact,
+    and K = 4 gives 0 and 1.
+
+    Examples
+    --------
+    >>> direction(1, 4), direction(4, 8), direction(1, 8)[0] == direction(1, 8)[1]
+    ((0.0, 1.0), (-1.0, 0.0), True)
+    """
+    octant, rest = divmod(8 * k, K)
+    octant %= 8
+    within = rest if octant % 2 == 0 else K - rest  # from the nearest axis, 0 .. 1/8 of a turn
+    c, s = _cos_sin(Decimal(within) / (8 * K) * 2) if within else (1.0, 0.0)
+    along, across = (c, s) if octant % 4 in (0, 3) else (s, c)
+    signed = (
+        along if octant in (0, 1, 6, 7) else -along,
+        across if octant in (0, 1, 2, 3) else -across,
+    )
+    return signed[0] + 0.0, signed[1] + 0.0  # never -0.0
+
+
+def _cos_sin(half_turns: Decimal) -> tuple[float, float]:
+    """Return cos and sin of pi * half_turns, 0 to 1/4, from their series to 50 digits."""
+    with localcontext() as context:
+        context.prec = 55
+        x = PI * half_turns
+        parts, term = [Decimal(1), x], x
+        for k in range(2, 50):
+            term = term * x / k
+            parts.append(term if k % 4 < 2 else -term)
+        return float(sum(parts[0::2])), float(sum(parts[1::2]))
+
+
+def _cone(name: str, table: list[list[float]], row_names: tuple[str, ...], short: int) -> Cone:
+    array = np.array(table, dtype=np.float64).reshape(-1, 3)
+    array.setflags(write=False)
+    return Cone(name, array, row_names, short)

@@ -1,0 +1,74 @@
+"""What a user adds to a step: constraints and costs, written in SI units with CVXPY.
+
+CVXPY itself is not needed to say what an extension is; :mod:`~quasistatic_ref.step.problem` builds
+its symbols and :mod:`~quasistatic_ref.solve.extended` solves with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    import cvxpy as cp
+
+
+@dataclass(frozen=True, eq=False)
+class Symbols:
+    """What an extension may speak of: CVXPY expressions in SI units, whatever the problem's are.
+
+    Parameters
+    ----------
+    delta_q, delta_q_a, delta_q_u : cvxpy.Expression
+        The unknowns [m, rad].
+    delta_q_bar_a : cvxpy.Expression
+        Desired change of the actuated coordinates [m, rad].
+    slack : tuple of cvxpy.Expression
+        phi + [J'(n~ + d~_i)]' delta_q [m] for each row index i, of the contacts that have it. In
+        the ellipsoid, the gap phi + J_n delta_q alone.
+    """
+
+    delta_q: cp.Expression
+    delta_q_a: cp.Expression
+    delta_q_u: cp.Expression
+    delta_q_bar_a: cp.Expression
+    slack: tuple[cp.Expression, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Extension:
+    """Constraints and costs of a user's own.
+
+    Parameters
+    ----------
+    terms : callable
+        Symbols -> constraints and scalar costs, in any order. A cost is added to (13), whose unit
+        is h times an energy [N m s]; parameters and further variables are the user's own.
+    without_stiffness : bool
+        Whether the costs take the place of the impedance (1), which is then left out.
+    """
+
+    terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]]
+    without_stiffness: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Scale:
+    """What the number one means in a problem, for extensions, which are written in SI units.
+
+    Parameters
+    ----------
+    coordinate : ndarray, shape (n_v,)
+        Of each coordinate of delta_q [m, rad].
+    length : float
+        Of phi [m].
+    cost : float
+        Of the objective [N m s].
+    """
+
+    coordinate: Array
+    length: float
+    cost: float

@@ -1,0 +1,59 @@
+"""Two opposed soft fingers hold a bar off its axis: the least squeeze in each cone, (R1) to (R4).
+
+The derivation is in docs/cones.md. Each finger presses with N; at rest each carries m g / 2 along
+d2 and, the torque m g d being shared at will, half of it about the common normal. Below the
+threshold no forces balance the bar and it slips; above they do, and rest is the only optimum.
+"""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.solve.solve import solve_step
+from tests.helpers import pinch
+from tests.tolerances import EXACT, THRESHOLD
+
+M, MU_V, MU_OMEGA, G = 0.2, 0.5, 0.02, 9.81
+SLIDE = M * G / (2 * MU_V)  # what the weight alone needs
+
+THRESHOLDS = {
+    "pyramid": lambda slide, spin: slide + spin,  # (R1)
+    "ellipsoid": np.hypot,  # (R2)
+    "product": max,  # (R3)
+    "facets-8": lambda slide, spin: slide + spin,  # (R4): d2 is a corner of the octagon
+    "facets-6": lambda slide, spin: slide / np.cos(np.pi / 6) + spin,  # (R4): d2 is a side's middle
+}
+OFFSETS = (0.0, 0.005, 0.02, 0.05)
+
+
+def threshold(name, d):
+    """The least N that holds."""
+    return THRESHOLDS[name](SLIDE, M * G * d / (2 * MU_OMEGA))
+
+
+def slipped(name, d, grip):
+    """Motion of the bar relative to the fingers along d2 and about the normal, at the contacts."""
+    step = pinch(m=M, grip=grip, offset=d, mu_v=MU_V, mu_omega=MU_OMEGA).replace(cone=name)
+    answer = solve_step(step, "clarabel")
+    assert answer.certificate.kind in ("exact", "enclosure")
+    motion = step.contacts.J @ answer.delta_q
+    along = np.einsum("ci,ci->c", step.contacts.d2, motion[:, :3])
+    return np.array([*along, *motion[:, 3]])
+
+
+@pytest.mark.parametrize("name", THRESHOLDS)
+@pytest.mark.parametrize("d", OFFSETS)
+def test_above_the_threshold_nothing_slips_at_all(name, d):
+    still = slipped(name, d, threshold(name, d) * (1 + THRESHOLD))
+    np.testing.assert_allclose(still, 0.0, rtol=EXACT, atol=EXACT)
+
+
+@pytest.mark.parametrize("name", THRESHOLDS)
+@pytest.mark.parametrize("d", OFFSETS)
+def test_below_the_threshold_it_slips(name, d):
+    assert np.abs(slipped(name, d, threshold(name, d) * (1 - THRESHOLD))).max() > 1e-12
+
+
+def test_the_ellipsoid_needs_least_but_for_the_product():
+    for d in OFFSETS[1:]:
+        needed = {name: threshold(name, d) for name in ("pyramid", "ellipsoid", "product")}
+        assert needed["product"] < needed["ellipsoid"] < needed["pyramid"]

@@ -1,0 +1,128 @@
+"""What turning the tangent basis leaves, and how polygons approach the circle."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import changed, error, pinch, point_on_floor, random_step
+from tests.tolerances import ACTIVE_SET, ENCLOSED, EXACT
+
+QUARTER = ("pyramid", "product", "facets-4", "facets-8", "facets-12", "frictionless", "ellipsoid")
+EIGHTH = ("facets-8", "facets-16", "facets-64", "frictionless", "ellipsoid")
+SEEDS = range(12)
+
+
+def turned(step, angle):
+    """The same step, its tangents turned about n."""
+    c, s = np.cos(angle), np.sin(angle)
+    d1, d2 = step.contacts.d1, step.contacts.d2
+    return step.replace(contacts=changed(step.contacts, d1=c * d1 + s * d2, d2=c * d2 - s * d1))
+
+
+def quarter(step):
+    """The same, by a quarter turn without rounding."""
+    contacts = step.contacts
+    return step.replace(contacts=changed(contacts, d1=contacts.d2, d2=-contacts.d1))
+
+
+def step_number(seed):
+    return random_step(np.random.default_rng(seed), rows=(6, 4, 6))
+
+
+@pytest.mark.parametrize("name", QUARTER)
+def test_a_quarter_turn_of_the_tangents_leaves_the_answer(name):
+    for seed in SEEDS:
+        step = step_number(seed).replace(cone=name)
+        one, two = (solve_step(s, "none").delta_q for s in (step, quarter(step)))
+        if name == "ellipsoid":
+            assert error(step, two, one) < 2 * ENCLOSED
+        else:  # the same rows in another order: the same bits
+            np.testing.assert_allclose(two, one, rtol=EXACT, atol=EXACT)
+
+
+@pytest.mark.parametrize("name", EIGHTH)
+def test_an_eighth_of_a_turn_leaves_the_round_ones_and_those_with_eight_facets(name):
+    # Turned tangents are rounded, cosines of the table too: answers differ by conditioning alone.
+    for seed in SEEDS:
+        step = step_number(seed).replace(cone=name)
+        one, two = (solve_step(s, "none").delta_q for s in (step, turned(step, np.pi / 4)))
+        assert error(step, two, one) < ACTIVE_SET
+
+
+@pytest.mark.parametrize("name", ["pyramid", "product", "facets-6", "facets-12"])
+def test_an_eighth_of_a_turn_changes_the_others(name):
+    changes = []
+    for seed in SEEDS:
+        step = step_number(seed).replace(cone=name)
+        one, two = (solve_step(s, "none").delta_q for s in (step, turned(step, np.pi / 4)))
+        changes.append(error(step, two, one))
+    assert max(changes) > 1e-4
+
+
+def test_a_quarter_turn_changes_facets_whose_number_four_does_not_divide():
+    steps = [step_number(seed).replace(cone="facets-6") for seed in SEEDS]
+    changes = [
+        error(s, solve_step(quarter(s), "none").delta_q, solve_step(s, "none").delta_q)
+        for s in steps
+    ]
+    assert max(changes) > 1e-4
+
+
+def test_any_turn_leaves_the_ellipsoid_to_its_bound():
+    for seed, angle in zip(SEEDS, np.linspace(0.1, 3.0, 12), strict=True):
+        step = step_number(seed).replace(cone="ellipsoid")
+        one, two = (solve_step(s, "none").delta_q for s in (step, turned(step, angle)))
+        assert error(step, two, one) < ACTIVE_SET
+
+
+def optimal_value(step, delta_q):
+    """The objective of (13)."""
+    form = standard_form(step)
+    return 0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.2, 0.35])
+def test_facets_converge_like_one_over_K_squared_in_energy_and_one_over_K_in_motion(angle):
+    # A point pushed across the floor. Friction of a K-gon in a direction is between mu cos(pi/K)
+    # and mu, so the optimal value is off by O(1/K^2). By strong convexity the motion is off by the
+    # root of that at most, and is: a facet turns the direction of slip by up to pi/K.
+    force = 4.0 * np.array([np.cos(angle), np.sin(angle)])
+    values, motions = [], []
+    for K in (8, 16, 32, 64, 128):
+        value, motion = [], []
+        for turn in np.linspace(0.0, 2 * np.pi / K, 9)[:-1]:
+            step = turned(point_on_floor(force=(*force, -3.0)), turn)
+            circle = solve_step(step.replace(cone="ellipsoid"), "none").delta_q
+            facets = solve_step(step.replace(cone=f"facets-{K}"), "none").delta_q
+            value.append(abs(optimal_value(step, facets) / optimal_value(step, circle) - 1))
+            motion.append(error(step, facets, circle))
+        values.append(max(value))
+        motions.append(max(motion))
+    doublings = np.log2(128 / 8)
+    np.testing.assert_allclose(np.log2(values[0] / values[-1]) / doublings, 2.0, rtol=0.0, atol=0.2)
+    np.testing.assert_allclose(
+        np.log2(motions[0] / motions[-1]) / doublings, 1.0, rtol=0.0, atol=0.2
+    )
+
+
+@pytest.mark.parametrize("d", [0.005, 0.02])
+def test_the_holding_force_of_facets_converges_like_one_over_K_squared(d):
+    # Turned half a side, the weight meets the middle of a side, where the polygon loses most:
+    # slipping starts at N = m g / (2 mu_v cos(pi / K)) + m g d / (2 mu_omega).
+    m, mu_v, mu_omega, weight = 0.2, 0.5, 0.02, 0.2 * 9.81
+    excess = []
+    for K in (4, 8, 16, 32):
+        low, high = 1.0, 20.0
+        for _ in range(30):
+            grip = (low + high) / 2
+            step = pinch(m=m, grip=grip, offset=d, mu_v=mu_v, mu_omega=mu_omega)
+            step = turned(step.replace(cone=f"facets-{K}"), np.pi / K)
+            # Turned tangents are rounded: rest is not exact any more.
+            slips = np.abs(solve_step(step, "none").delta_q[2:]).max() > 1e-12
+            low, high = (grip, high) if slips else (low, grip)
+        excess.append(high - weight / (2 * mu_v) - weight * d / (2 * mu_omega))
+    expected = [weight / (2 * mu_v) * (1 / np.cos(np.pi / K) - 1) for K in (4, 8, 16, 32)]
+    np.testing.assert_allclose(excess, expected, rtol=1e-4, atol=0.0)
+    rates = -np.diff(np.log2(excess))
+    np.testing.assert_allclose(rates[1:], 2.0, rtol=0.0, atol=0.1)
