@@ -94,6 +94,29 @@ larger of the unconstrained step and the longest push-out of a single row.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
+CONVEX: Final = 1e-3
+"""Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
+counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
+
+ON_SURFACE: Final = 1e-12
+"""Distance relative to a polytope's size below which its edges and corners count as its faces [-].
+
+A direction computed from two points that near has fewer than four correct digits."""
+
+UPRIGHT: Final = 1e-9
+"""Tilt of a cylinder or a cone [rad] below which its rim counts as level.
+
+The direction of its lowest point is then rounding; on a rim of 1 m all points are level to 1 nm."""
+
+SUPPORT: Final = 1e-9
+"""Difference between coal's distance and the gap along its normal, relative to the shapes' size, at
+which its answer is taken at once [-]. What is right to rounding is at 1e-12 and below."""
+
+REPEATED: Final = 1e-9
+"""Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
+
+Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
+
 CLOSED_FORM: Final = 1e-12
 """Largest difference of a certified step from its closed form, relative to the largest term.
 

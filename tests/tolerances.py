@@ -80,6 +80,20 @@ DIFFCP: Final = 1e-5
 """Derivatives by diffcp against the largest of their kind: its solver stops at 1e-8, and the linear
 system behind a derivative is solved by iteration."""
 
+CLOSED_FORM: Final = 1e-12
+"""Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
+
+CURVED_PAIR: Final = 1e-6
+"""Distances [m] of curved pairs: coal's answers are taken when they prove themselves to 1e-6."""
+
+WAY_OUT: Final = 1e-8
+"""Distance of witness points from the surfaces [m] where two polytopes are parallel but for 1e-6:
+a gap that is right to 1e-13 leaves its square root of lateral freedom."""
+
 SCENE: Final = 1e-9
 """One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
 are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""
+
+SCENARIO: Final = 1e-6
+"""Steady states of whole scenarios against their closed forms: exact steps, but transients of a few
+hundred of them and poses that are rounded at each."""

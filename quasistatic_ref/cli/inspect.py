@@ -10,22 +10,25 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.ignored import ignored_lines
+from quasistatic_ref.cli.shape_words import shape_words
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.step.cones import cone
-
-IGNORED = (
-    "velocities and accelerations: nothing moves on by itself",
-    "joint limits, effort and velocity limits, damping and friction in the URDF",
-    "visual geometry, and contacts between bodies that no pair names",
-)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument(
         "file", help="a URDF, a scenario (TOML), or the name of a scenario that comes along"
+    )
+    parser.add_argument(
+        "--package-dir",
+        action="append",
+        default=[],
+        metavar="FOLDER",
+        help="where package://NAME/ is looked for as FOLDER/NAME/ (of a URDF; may be repeated)",
     )
     shared.add_set(parser)
     shared.add_json(parser)
@@ -35,8 +38,10 @@ def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        name = re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
-        record = system_record(System([Body(name=name, urdf=path)]))
+        # Actuated: a robot's joints are, and inertias of no body are then not an error.
+        folders = tuple(options.package_dir)
+        body = Body(name=body_name(path), urdf=path, actuated="all", package_dirs=folders)
+        record = system_record(System([body]))
     else:
         record = scenario_record(load_scenario(options.file, options.settings))
     if options.json:
@@ -58,8 +63,9 @@ def system_record(system: System) -> dict[str, Any]:
             {
                 "name": link,
                 "mass": float(system.masses[i]),
+                "inertia": system.inertias[i].tolist(),
                 "shapes": [
-                    {"name": s.name, "kind": type(s.shape).__name__}
+                    {"name": s.name, "kind": type(s.shape).__name__, "size": shape_words(s.shape)}
                     for s in system.shapes
                     if s.link == i
                 ],
@@ -67,8 +73,14 @@ def system_record(system: System) -> dict[str, Any]:
             for i, link in enumerate(system.links)
             if i > 0
         ],
-        "ignored": [*IGNORED, *system.ignored],
+        "ignored": ignored_lines(system),
+        "notes": list(system.notes),
     }
+
+
+def body_name(path: Path) -> str:
+    """A name for the one body of a file: its stem, without what a body's name must not hold."""
+    return re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
 
 
 def scenario_record(scenario: Scenario) -> dict[str, Any]:
@@ -87,8 +99,8 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
 def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
     return {
         "name": pair.name,
-        "alpha": type(pair.alpha.shape).__name__,
-        "beta": type(pair.beta.shape).__name__,
+        "alpha": shape_words(pair.alpha.shape),
+        "beta": shape_words(pair.beta.shape),
         "mu_v": pair.mu_v,
         "mu_omega": pair.mu_omega,
         "contacts": pair.n_c,
@@ -104,10 +116,12 @@ def _print(record: dict[str, Any]) -> None:
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
     print()
-    rows = [("link", "mass [kg]", "collision shapes")]
+    rows = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]", "collision shapes")]
     for link in record["links"]:
-        kinds = ", ".join(shape["kind"] for shape in link["shapes"]) or "none"
-        rows.append((link["name"], f"{link['mass']:g}", kinds))
+        inertia = np.array(link["inertia"])[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        moments = " ".join(f"{moment:.3g}" for moment in inertia) if link["mass"] else ""
+        shapes = "; ".join(shape["size"] for shape in link["shapes"]) or "none"
+        rows.append((link["name"], f"{link['mass']:g}", moments, shapes))
     shared.print_rows(rows)
     if "pairs" in record:
         print()
@@ -123,4 +137,8 @@ def _print(record: dict[str, Any]) -> None:
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
+        print(f"- {sentence}")
+    if record["notes"]:
+        print("\nit takes otherwise than written:")
+    for sentence in record["notes"]:
         print(f"- {sentence}")

@@ -1,4 +1,4 @@
-"""Signed distances of points to primitive shapes, vectorised, and the k closest of them.
+"""Signed distances of points to solid shapes, vectorised, and the k closest of them.
 
 Each ``distance_to_*`` takes points in the shape's own frame, shape (N, 3), and returns phi (N,)
 [m] and the unit outward normal (N, 3): the gradient of phi. The closest point on the shape is
@@ -14,8 +14,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.contact.curved import distance_to_cone, distance_to_ellipsoid
+from quasistatic_ref.contact.hull import distance_to_hull
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, HalfSpace, Shape, Sphere
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    Shape,
+    Sphere,
+)
 from quasistatic_ref.step.data import Array
 
 Distance = tuple[Array, Array]
@@ -26,7 +38,7 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
 
     Parameters
     ----------
-    shape : Sphere, Box, Cylinder, Capsule or HalfSpace
+    shape : Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, HalfSpace or ConvexMesh
     points : ndarray, shape (N, 3)
         In the shape's own frame [m].
 
@@ -44,19 +56,25 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
     """
     match shape:
         case Sphere():
-            return _distance_to_segment(points, 0.0, shape.radius)
+            return distance_to_segment(points, 0.0, shape.radius)
         case Capsule():
-            return _distance_to_segment(points, shape.half_length, shape.radius)
+            return distance_to_segment(points, shape.half_length, shape.radius)
         case Box():
-            return _distance_to_box(points, shape.half_extents)
+            return distance_to_box(points, shape.half_extents)
         case Cylinder():
-            return _distance_to_cylinder(points, shape.radius, shape.half_length)
+            return distance_to_cylinder(points, shape.radius, shape.half_length)
         case HalfSpace():
             phi = _dot(points, shape.normal) - shape.offset
             return phi, np.broadcast_to(shape.normal, points.shape)
+        case Ellipsoid():
+            return distance_to_ellipsoid(points, shape.half_axes)
+        case Cone():
+            return distance_to_cone(points, shape.radius, shape.half_length)
+        case ConvexMesh():
+            return distance_to_hull(points, shape)
         case _:
             kind = type(shape).__name__
-            raise ContactError("a cloud touches primitive shapes only", field="shape", value=kind)
+            raise ContactError("a cloud touches solid shapes only", field="shape", value=kind)
 
 
 def closest(phi: Array, k: int) -> NDArray[np.int64]:
@@ -80,7 +98,7 @@ def closest(phi: Array, k: int) -> NDArray[np.int64]:
     return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
 
 
-def _distance_to_segment(points: Array, half_length: float, radius: float) -> Distance:
+def distance_to_segment(points: Array, half_length: float, radius: float) -> Distance:
     """Sphere (half_length = 0) and capsule: distance to the axis segment minus the radius."""
     offset = points.copy()
     offset[:, 2] -= np.clip(points[:, 2], -half_length, half_length)
@@ -88,7 +106,8 @@ def _distance_to_segment(points: Array, half_length: float, radius: float) -> Di
     return distance - radius, _unit(offset, distance)
 
 
-def _distance_to_box(points: Array, half_extents: Array) -> Distance:
+def distance_to_box(points: Array, half_extents: Array) -> Distance:
+    """Box: outside by components, inside to the nearest face."""
     sign = np.where(points < 0, -1.0, 1.0)
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
@@ -100,7 +119,7 @@ def _distance_to_box(points: Array, half_extents: Array) -> Distance:
     return np.where(is_outside, outside, inside), sign * normal
 
 
-def _distance_to_cylinder(points: Array, radius: float, half_length: float) -> Distance:
+def distance_to_cylinder(points: Array, radius: float, half_length: float) -> Distance:
     """In the half-plane (r, |z|) a cylinder is a rectangle."""
     radial = points.copy()
     radial[:, 2] = 0.0

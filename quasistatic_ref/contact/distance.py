@@ -1,8 +1,9 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
-A pair with a cloud, or with a sphere (a cloud of one point, a radius away), has a closed form
-in :mod:`~quasistatic_ref.contact.cloud`. Any other pair of convex shapes is asked of coal, and
-the answer is checked: a normal that does not agree with its witness points is an error.
+Of a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
+on beta, beta's corners on alpha, and the closest pair, in that order, and the k of least signed
+distance are kept, those that repeat an earlier one after all others. None is nearer than the
+closest pair, so k = 1 asks for that one alone.
 """
 
 from __future__ import annotations
@@ -10,17 +11,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import coal
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
+from quasistatic_ref.contact.corners import corners
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud, Sphere
+from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import WITNESS
+from quasistatic_ref.tolerances import REPEATED
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +39,7 @@ class ClosestPoints:
     n : ndarray, shape (n_c, 3)
         Unit normal from alpha's body to beta's, also in penetration.
     point : ndarray of int, shape (n_c,)
-        Index of the cloud's point; 0 where there is no cloud.
+        Index of the cloud's point; of two solids, the candidate's number, or 0 if one is kept.
     """
 
     phi: Array
@@ -49,6 +52,12 @@ class ClosestPoints:
         """The same contacts with alpha's and beta's bodies exchanged."""
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
+    def chosen(self, index: NDArray[np.int64]) -> ClosestPoints:
+        """Some of the contacts, in the order given."""
+        return ClosestPoints(
+            self.phi[index], self.alpha[index], self.beta[index], self.n[index], self.point[index]
+        )
+
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
     """The contacts of all pairs, in order, each pair's in ascending distance.
@@ -56,9 +65,16 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
     Raises
     ------
     ContactError
-        If a pair has no trustworthy normal.
+        If a pair has no trustworthy normal, or a pose is not finite: of NaN, coal makes the
+        distance 0.
     """
-    found = [pair_closest_points(pair, kinematics) for pair in pairs]
+    if not (np.isfinite(kinematics.R).all() and np.isfinite(kinematics.t).all()):
+        raise ContactError("must be finite", field="poses")
+    return joined([pair_closest_points(pair, kinematics) for pair in pairs])
+
+
+def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
+    """Several lists of contacts as one."""
     if not found:
         empty = np.zeros((0, 3))
         return ClosestPoints(np.zeros(0), empty, empty, empty, np.zeros(0, dtype=np.int64))
@@ -72,79 +88,69 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 
 
 def pair_closest_points(pair: ContactPair, kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of one pair, by the road that suits its shapes."""
-    a, b = pair.alpha, pair.beta
+    """The contacts of one pair, in ascending distance."""
+    a, b = _placed(pair.alpha, kinematics), _placed(pair.beta, kinematics)
     if isinstance(b.shape, PointCloud):
-        return _cloud_on_shape(a, b, b.shape.points, 0.0, pair.k, kinematics)
+        return _points_on_solid(a, b, b.shape.points, 0.0, pair.k)
     if isinstance(a.shape, PointCloud):
-        return _cloud_on_shape(b, a, a.shape.points, 0.0, pair.k, kinematics).swapped()
-    centre = np.zeros((1, 3))
-    if isinstance(b.shape, Sphere):
-        return _cloud_on_shape(a, b, centre, b.shape.radius, 1, kinematics)
-    if isinstance(a.shape, Sphere):
-        return _cloud_on_shape(b, a, centre, a.shape.radius, 1, kinematics).swapped()
-    return _by_coal(pair, kinematics)
+        return _points_on_solid(b, a, a.shape.points, 0.0, pair.k).swapped()
+    found = solid_pair(pair.name, a, b)
+    nearest = ClosestPoints(
+        phi=np.array([found.phi]),
+        alpha=found.alpha[None],
+        beta=found.beta[None],
+        n=found.n[None],
+        point=np.array([pair.corners if pair.n_c > 1 else 0]),
+    )
+    if pair.n_c == 1:
+        return nearest
+    corners_a, radius_a = corners(a.shape, a.R.T @ found.n)
+    corners_b, radius_b = corners(b.shape, -b.R.T @ found.n)
+    candidates = joined(
+        [
+            _points_on_solid(b, a, corners_a, radius_a).swapped(),
+            _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a)),
+            nearest,
+        ]
+    )
+    order = closest(np.where(_repeated(candidates), np.inf, candidates.phi), pair.k)
+    return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
 
 
-def _cloud_on_shape(
-    solid: PlacedShape,
-    cloud: PlacedShape,
-    points: Array,
-    radius: float,
-    k: int,
-    kinematics: Kinematics,
+def _repeated(candidates: ClosestPoints) -> NDArray[np.bool_]:
+    """Which candidates are an earlier one again: they are kept after all others.
+
+    The closest pair mostly is a corner; without this it would take the place of another, and
+    four contacts under a box would be three.
+    """
+    every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
+    same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
+    return np.asarray(np.tril(same, -1).any(axis=1))
+
+
+def _points_on_solid(
+    solid: Placed, other: Placed, points: Array, radius: float, k: int | None = None, first: int = 0
 ) -> ClosestPoints:
-    """The k points, each with a ball of some radius about it, that are closest to a solid."""
-    R_s, t_s = _pose(solid, kinematics)
-    R_c, t_c = _pose(cloud, kinematics)
-    in_solid = _rotated(R_s.T @ R_c, points) + R_s.T @ (t_c - t_s)
+    """Points of another body, each with a ball about it, on a solid: all, or the k closest."""
+    R = solid.R.T @ other.R
+    in_solid = _rotated(R, points) + solid.R.T @ (other.t - solid.t)
     phi, normal = signed_distance(solid.shape, in_solid)
-    index = closest(phi, k)
-    n = _rotated(R_s, normal[index])
-    centre = _rotated(R_c, points[index]) + t_c
+    index = np.arange(len(points)) if k is None else closest(phi, k)
+    n = _rotated(solid.R, normal[index])
+    centre = _rotated(other.R, points[index]) + other.t
     distance = phi[index]
     return ClosestPoints(
         phi=distance - radius,
         alpha=centre - distance[:, None] * n,
         beta=centre - radius * n,
         n=n,
-        point=index,
+        point=first + index,
     )
 
 
-def _by_coal(pair: ContactPair, kinematics: Kinematics) -> ClosestPoints:
-    shape_a, shape_b = pair.alpha.shape, pair.beta.shape
-    if isinstance(shape_a, PointCloud) or isinstance(shape_b, PointCloud):
-        raise ContactError("a cloud has no coal object", field=pair.name)
-    R_a, t_a = _pose(pair.alpha, kinematics)
-    R_b, t_b = _pose(pair.beta, kinematics)
-    request, result = coal.DistanceRequest(), coal.DistanceResult()
-    request.enable_signed_distance = True
-    phi = coal.distance(
-        shape_a.coal,
-        coal.Transform3s(R_a, t_a),
-        shape_b.coal,
-        coal.Transform3s(R_b, t_b),
-        request,
-        result,
-    )
-    alpha, beta = np.array(result.getNearestPoint1()), np.array(result.getNearestPoint2())
-    n = np.array(result.normal)
-    # `not <=` so that NaN is refused as well.
-    consistent = np.abs(beta - alpha - phi * n).max() <= WITNESS
-    if not (consistent and abs(n @ n - 1) <= WITNESS):
-        raise ContactError(
-            "no trustworthy contact normal at this pose; move the bodies slightly, or use a cloud",
-            field=pair.name,
-            value={"phi": phi, "n": n.tolist()},
-        )
-    one = np.zeros(1, dtype=np.int64)
-    return ClosestPoints(np.array([phi]), alpha[None], beta[None], n[None], one)
-
-
-def _pose(placed: PlacedShape, kinematics: Kinematics) -> tuple[Array, Array]:
+def _placed(placed: PlacedShape, kinematics: Kinematics) -> Placed:
     R, t = kinematics.R[placed.link], kinematics.t[placed.link]
-    return R @ placed.R, R @ placed.t + t
+    return Placed(placed.shape, R @ placed.R, R @ placed.t + t)
 
 
 def _rotated(R: Array, points: Array) -> Array:

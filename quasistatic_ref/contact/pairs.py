@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.contact.corners import corner_count
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
 
@@ -29,7 +31,9 @@ class ContactPair:
     rows : int
         6, or 4 for contacts without torsion.
     k : int
-        How many of the closest points are kept.
+        How many of the closest points are kept; fewer where there are fewer candidates.
+    hull : bool
+        Whether a mesh that is not convex may be taken for its hull.
 
     Raises
     ------
@@ -44,6 +48,7 @@ class ContactPair:
     mu_omega: float
     rows: int
     k: int
+    hull: bool = False
 
     def __post_init__(self) -> None:
         clouds = [isinstance(s.shape, PointCloud) for s in (self.alpha, self.beta)]
@@ -54,19 +59,29 @@ class ContactPair:
             )
         if self.alpha.link == self.beta.link:
             raise ContactError("both shapes are fixed to the same link", field=self.name)
-        if not any(clouds) and self.k != 1:
-            raise ContactError(
-                "two convex shapes have one closest pair; k must be 1",
-                field=self.name,
-                value=self.k,
-            )
+        if all(isinstance(s.shape, HalfSpace) for s in (self.alpha, self.beta)):
+            raise ContactError("two half-spaces always meet; bound one of them", field=self.name)
+        for side in (self.alpha, self.beta):
+            if isinstance(side.shape, ConvexMesh) and not (side.shape.is_convex or self.hull):
+                raise ContactError(
+                    f"the mesh of {side.name} is not convex: its hull holds "
+                    f"{100 * side.shape.excess:.2g} % more; say hull = true to use the hull, "
+                    "give the body a cloud, or write the mesh as several convex ones",
+                    field=self.name,
+                )
+
+    @property
+    def corners(self) -> int:
+        """Number of corners of both shapes: the candidates beside the closest pair."""
+        return corner_count(self.alpha.shape) + corner_count(self.beta.shape)
 
     @property
     def n_c(self) -> int:
         """Number of contacts that this pair makes at every step."""
-        shapes = (self.alpha.shape, self.beta.shape)
-        sizes = [len(shape.points) for shape in shapes if isinstance(shape, PointCloud)]
-        return min([self.k, *sizes])
+        for shape in (self.alpha.shape, self.beta.shape):
+            if isinstance(shape, PointCloud):
+                return min(self.k, len(shape.points))
+        return min(self.k, self.corners + 1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
 
-BASES = ("fixed", "floating")
+BASES = ("fixed", "floating", "planar")
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +25,12 @@ class Body:
         Prefix of its links and joints, e.g. ``gripper`` for ``gripper/left_finger``.
     urdf : str or Path
     base : str
-        ``"fixed"`` or ``"floating"``.
+        ``"fixed"``, ``"floating"`` or ``"planar"``: moving in the horizontal plane at the height
+        of xyz, turning about the vertical.
     actuated : tuple of str, or "all"
-        Names of joints in this URDF, without the prefix; ``"base"`` is the floating base.
+        Names of joints in this URDF, without the prefix; ``"base"`` is the base.
     xyz : array_like, shape (3,)
-        Where the root link is (fixed) or starts (floating), in the world [m].
+        Where the root link is (fixed) or starts (floating, planar), in the world [m].
     rpy : array_like, shape (3,)
         Its orientation, R = Rz(yaw) Ry(pitch) Rx(roll) [rad].
     positions : mapping of str to float
@@ -70,6 +71,9 @@ class Body:
             object.__setattr__(self, "actuated", tuple(self.actuated))
         for key in ("xyz", "rpy"):
             object.__setattr__(self, key, self._vector(key))
+        if self.base == "planar" and np.any(np.asarray(self.rpy)[:2]):
+            problem = "must be [0, 0, yaw]: a planar base stays upright"
+            raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
         positions = {name: self._position(name) for name in self.positions}
         object.__setattr__(self, "positions", MappingProxyType(positions))
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))

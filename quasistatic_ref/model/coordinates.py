@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
-_TWIST = ("x", "y", "z", "rx", "ry", "rz")
+_TWISTS = {
+    "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),
+    "planar": (("x", "m"), ("y", "m"), ("rz", "rad")),
+}
 
 
 @dataclass(frozen=True)
@@ -46,12 +49,14 @@ class Joint:
     ----------
     name : str
     kind : str
-        ``"floating"``, ``"revolute"``, ``"continuous"`` or ``"prismatic"``.
+        ``"floating"``, ``"planar"``, ``"revolute"``, ``"continuous"`` or ``"prismatic"``.
     actuated : bool
     q : slice
-        Its entries of q: 7 (x y z, then a quaternion x y z w), 1, 2 (cos, sin) or 1.
+        Its entries of q: 7 (x y z, then a quaternion x y z w), 4 (x y, then cos and sin of the
+        angle), 1, 2 (cos, sin) or 1.
     v : slice
-        Its entries of delta_q: 6 (body-frame twist, linear then angular) or 1.
+        Its entries of delta_q: 6 (body-frame twist, linear then angular), 3 (x and y along the
+        body's own axes, then the angle) or 1.
     """
 
     name: str
@@ -63,11 +68,10 @@ class Joint:
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Its entries of delta_q."""
-        if self.kind == "floating":
-            units = ("m",) * 3 + ("rad",) * 3
+        if self.kind in _TWISTS:
             return tuple(
                 Coordinate(f"{self.name}.{axis}", self.name, unit, self.actuated)
-                for axis, unit in zip(_TWIST, units, strict=True)
+                for axis, unit in _TWISTS[self.kind]
             )
         unit = "m" if self.kind == "prismatic" else "rad"
         return (Coordinate(self.name, self.name, unit, self.actuated),)

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.model.frozen import finite, freeze_array, freeze_lengths, freeze_size
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
@@ -23,7 +25,7 @@ class Sphere:
     radius: float
 
     def __post_init__(self) -> None:
-        _freeze_size(self, "radius")
+        freeze_size(self, "radius")
 
     @cached_property
     def coal(self) -> Any:
@@ -38,13 +40,7 @@ class Box:
     half_extents: Array
 
     def __post_init__(self) -> None:
-        _freeze_array(self, "half_extents", (3,))
-        if not (self.half_extents > 0).all():
-            raise ModelError(
-                "must be three positive lengths",
-                field="half_extents",
-                value=self.half_extents.tolist(),
-            )
+        freeze_lengths(self, "half_extents")
 
     @cached_property
     def coal(self) -> Any:
@@ -60,8 +56,8 @@ class Cylinder:
     half_length: float
 
     def __post_init__(self) -> None:
-        _freeze_size(self, "radius")
-        _freeze_size(self, "half_length")
+        freeze_size(self, "radius")
+        freeze_size(self, "half_length")
 
     @cached_property
     def coal(self) -> Any:
@@ -80,13 +76,48 @@ class Capsule:
     half_length: float
 
     def __post_init__(self) -> None:
-        _freeze_size(self, "radius")
-        _freeze_size(self, "half_length")
+        freeze_size(self, "radius")
+        freeze_size(self, "half_length")
 
     @cached_property
     def coal(self) -> Any:
         """The same shape as a coal geometry."""
         return coal.Capsule(self.radius, 2 * self.half_length)
+
+
+@dataclass(frozen=True)
+class Cone:
+    """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
+
+    radius [m] is that of the base.
+    """
+
+    radius: float
+    half_length: float
+
+    def __post_init__(self) -> None:
+        freeze_size(self, "radius")
+        freeze_size(self, "half_length")
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Cone(self.radius, 2 * self.half_length)
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipsoid:
+    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m]."""
+
+    half_axes: Array
+
+    def __post_init__(self) -> None:
+        freeze_lengths(self, "half_axes")
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Ellipsoid(self.half_axes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,8 +137,8 @@ class HalfSpace:
     offset: float
 
     def __post_init__(self) -> None:
-        _freeze_array(self, "normal", (3,))
-        offset = _finite(self.offset, "offset")
+        freeze_array(self, "normal", (3,))
+        offset = finite(self.offset, "offset")
         # hypot scales first: a tiny or huge normal neither underflows nor overflows.
         length = float(np.hypot.reduce(self.normal))
         if not (length > 0 and np.isfinite(offset / length)):
@@ -137,11 +168,11 @@ class PointCloud:
                 field="points",
                 value=points.shape,
             )
-        _freeze_array(self, "points", (points.shape[0], 3))
+        freeze_array(self, "points", (points.shape[0], 3))
 
 
-Primitive = Sphere | Box | Cylinder | Capsule | HalfSpace
-Shape = Primitive | PointCloud
+Solid = Sphere | Box | Cylinder | Capsule | Cone | Ellipsoid | HalfSpace | ConvexMesh
+Shape = Solid | PointCloud
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,43 +204,8 @@ class PlacedShape:
     shape: Shape
 
     def __post_init__(self) -> None:
-        _freeze_array(self, "R", (3, 3))
-        _freeze_array(self, "t", (3,))
+        freeze_array(self, "R", (3, 3))
+        freeze_array(self, "t", (3,))
         defect = np.abs(self.R.T @ self.R - np.eye(3)).max()
         if not (defect <= ORTHONORMAL and np.linalg.det(self.R) > 0):
             raise ModelError("must be a rotation", field=f"{self.name}.R", value=self.R.tolist())
-
-
-def _finite(value: Any, key: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise ModelError("must be a finite number", field=key, value=value) from None
-    if not np.isfinite(number):
-        raise ModelError("must be a finite number", field=key, value=value)
-    return number
-
-
-def _freeze_size(owner: Any, key: str) -> None:
-    """Replace a field by a float, which must be positive."""
-    value = getattr(owner, key)
-    number = _finite(value, key)
-    # Twice the size is what coal is given.
-    if not (number > 0 and np.isfinite(2 * number)):
-        raise ModelError("must be a positive length", field=key, value=value)
-    object.__setattr__(owner, key, number)
-
-
-def _freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
-    """Replace a field by a read-only float64 copy, finite and of the given shape."""
-    value = getattr(owner, key)
-    try:
-        array = np.array(value, dtype=np.float64) + 0.0
-    except (TypeError, ValueError):
-        raise ModelError("must be numbers", field=key, value=value) from None
-    if array.shape != shape:
-        raise ModelError(f"must have shape {shape}", field=key, value=array.shape)
-    if not np.isfinite(array).all():
-        raise ModelError("must hold finite numbers only", field=key, value=array.tolist())
-    array.setflags(write=False)
-    object.__setattr__(owner, key, array)

@@ -2,7 +2,8 @@
 
 Every configuration and every generalised vector given or returned here is in the paper's
 order, q = [q_a; q_u]; quaternions are [x y z w]. A floating base's entries of delta_q are its
-twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(delta_q).
+twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(delta_q). A planar
+base has x, y and the angle of the same twist, in the plane.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 __all__ = ["Body", "Kinematics", "System"]
 
 Array = NDArray[np.float64]
+_UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
+"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,11 +72,15 @@ class System:
         ``"world"``, then ``"gripper/left_finger"``, ...
     masses : ndarray, shape (L,)
         Mass of each link as its file says [kg].
+    inertias : ndarray, shape (L, 3, 3)
+        About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
     ignored : tuple of str
         What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
+    notes : tuple of str
+        What was taken otherwise than written, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
     Raises
     ------
@@ -88,8 +95,10 @@ class System:
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
-        self.masses, self.ignored = world.masses, world.ignored
-        self.masses.setflags(write=False)
+        self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
+        self.inertias = world.inertias
+        for array in (self.masses, self.inertias):
+            array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
@@ -169,9 +178,9 @@ class System:
             field = f"q[{joint.name}]"
             if not np.isfinite(part).all():
                 raise ModelError("must be finite", field=field, value=part.tolist())
-            if joint.kind not in ("floating", "continuous"):
+            if joint.kind not in _UNIT_PART:
                 continue
-            unit = part[3:] if joint.kind == "floating" else part
+            unit = part[_UNIT_PART[joint.kind] :]
             length = np.hypot.reduce(unit)
             if abs(length - 1) > UNIT_QUATERNION:
                 what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
@@ -247,7 +256,7 @@ class System:
             problem = "has a fixed base, on which a wrench does nothing"
             raise ModelError(problem, field="body", value=body_name)
         kinematics = self.kinematics(q)
-        # The root link's frame is that of the floating joint.
+        # The root link's frame is that of the base's joint.
         arm = kinematics.R[root] @ self._model.inertias[joint].lever
         moment = np.asarray(torque, dtype=np.float64) + np.cross(arm, np.asarray(force))
         generalised: Array = kinematics.J[root].T @ np.concatenate([np.asarray(force), moment])

@@ -18,13 +18,16 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.shapes import PlacedShape
-from quasistatic_ref.model.urdf_file import FileLink, UrdfFile, urdf_file
-from quasistatic_ref.model.urdf_tree import link_poses, rigid_groups
+from quasistatic_ref.model.urdf_file import UrdfFile, urdf_file
+from quasistatic_ref.model.urdf_inertia import checked_inertias, group_inertias
+from quasistatic_ref.model.urdf_shapes import checked_shapes, resolved_text
+from quasistatic_ref.model.urdf_tree import link_poses
 from quasistatic_ref.tolerances import LOADED
 
 Array = NDArray[np.float64]
 BASE = "base"
-"""Name of the joint of a floating base."""
+"""Name of the joint of a floating or planar base."""
+BASES = {"floating": pin.JointModelFreeFlyer, "planar": pin.JointModelPlanar}
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,33 +38,44 @@ class Urdf:
     ----------
     file : UrdfFile
         What it says.
-    floating : bool
-        Whether its root link floats (joint ``base``) or is fixed.
+    base : str
+        How its root link moves (joint ``base``): ``"fixed"``, ``"floating"`` or ``"planar"``.
     model : pinocchio.Model
         Its kinematics and inertias.
     links : tuple of str
         Its links, the root first, parents before children.
     shapes : tuple of PlacedShape
         Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
+    notes : tuple of str
+        What was taken otherwise than written: meshes as hulls, inertias that do not matter.
     """
 
     file: UrdfFile
-    floating: bool
+    base: str
     model: Any
     links: tuple[str, ...]
     shapes: tuple[PlacedShape, ...]
+    notes: tuple[str, ...]
 
 
 def loaded_urdf(
-    path: str | Path, *, floating: bool = False, package_dirs: Sequence[str | Path] = ()
+    path: str | Path,
+    *,
+    base: str = "fixed",
+    actuated: Sequence[str] = (),
+    package_dirs: Sequence[str | Path] = (),
 ) -> Urdf:
     """One URDF, loaded and compared with its file.
 
     Parameters
     ----------
     path : str or Path
-    floating : bool
-        Put a six-dimensional joint named ``base`` under the root link.
+    base : str
+        ``"fixed"``, or ``"floating"`` or ``"planar"``: a joint named ``base`` of six or three
+        dimensions under the root link.
+    actuated : sequence of str, or "all"
+        Joints that have a stiffness. An inertia that is moved by nothing else plays no part,
+        and may be that of no body.
     package_dirs : sequence of str or Path
         Where ``package://`` addresses are looked for.
 
@@ -72,16 +86,19 @@ def loaded_urdf(
     """
     file = urdf_file(path)
     try:
-        _check_moving_masses(file, floating)
-        model, geometry = _loaded(file, floating, package_dirs)
-        _check_names(file, model, floating)
+        moving = _moving_joints(file, base)
+        free = [] if actuated == "all" else [name for name in moving if name not in actuated]
+        inertias = checked_inertias(file, free)
+        model, geometry = _loaded(file, base, package_dirs)
+        _check_names(file, model, base)
         _check_poses(file, model)
         _check_inertias(file, model)
         links = (file.root, *(joint.child for joint in file.joints))
-        shapes = _checked_shapes(file, model, geometry, links)
+        frames = [body_frame(model, link) for link in links]
+        shapes, meshes = checked_shapes(file, model, geometry, links, frames)
     except ModelError as error:
         raise error.in_file(file.path) from None
-    return Urdf(file, floating, model, links, shapes)
+    return Urdf(file, base, model, links, shapes, (*inertias, *meshes))
 
 
 def body_frame(model: Any, link: str) -> int:
@@ -89,30 +106,24 @@ def body_frame(model: Any, link: str) -> int:
     return int(model.getFrameId(link, pin.FrameType.BODY))
 
 
-def _check_moving_masses(file: UrdfFile, floating: bool) -> None:
-    if floating and any(joint.name == BASE for joint in file.joints):
-        problem = "this name is taken by the floating base; rename the joint"
+def _moving_joints(file: UrdfFile, base: str) -> list[str]:
+    """Names of the joints that are not fixed, the base's last."""
+    moving = [joint.name for joint in file.joints if joint.kind != "fixed"]
+    if base == "fixed":
+        return moving
+    if any(joint.name == BASE for joint in file.joints):
+        problem = f"this name is taken by the {base} base; rename the joint"
         raise ModelError(problem, field=f"joint[{BASE}]")
-    group = rigid_groups(file.root, file.joints)
-    mover = {joint.child: f"joint {joint.name!r}" for joint in file.joints}
-    for first in dict.fromkeys(group.values()):
-        moves = mover.get(first, "the floating base" if floating else None)
-        if moves and not any(file.links[link].mass for link in group if group[link] == first):
-            problem = f"is missing, but {moves} moves this link: every moving link needs a mass"
-            raise ModelError(problem, field=f"link[{first}].inertial")
+    return [*moving, BASE]
 
 
-def _loaded(file: UrdfFile, floating: bool, package_dirs: Sequence[str | Path]) -> tuple[Any, Any]:
+def _loaded(file: UrdfFile, base: str, package_dirs: Sequence[str | Path]) -> tuple[Any, Any]:
     # From the text, not the path: what is loaded is what was read and checked.
-    root = (pin.JointModelFreeFlyer(), BASE) if floating else ()
+    text = resolved_text(file, package_dirs)
+    root = () if base == "fixed" else (BASES[base](), BASE)
     try:
-        model = pin.buildModelFromXML(file.text, *root, mimic=True)
-        geometry = pin.buildGeomFromUrdfString(
-            model,
-            file.text,
-            pin.GeometryType.COLLISION,
-            package_dirs=[str(folder) for folder in package_dirs],
-        )
+        model = pin.buildModelFromXML(text, *root, mimic=True)
+        geometry = pin.buildGeomFromUrdfString(model, text, pin.GeometryType.COLLISION)
     except (ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         if "not in the kinematic tree" in reason:
@@ -126,12 +137,12 @@ def _loaded(file: UrdfFile, floating: bool, package_dirs: Sequence[str | Path]) 
     return model, geometry
 
 
-def _check_names(file: UrdfFile, model: Any, floating: bool) -> None:
+def _check_names(file: UrdfFile, model: Any, base: str) -> None:
     frames = [frame.name for frame in model.frames if frame.type == pin.FrameType.BODY]
     said = {
         "links": (sorted(file.links), sorted(frames)),
         "joints": (
-            sorted([j.name for j in file.joints if j.kind != "fixed"] + [BASE] * floating),
+            sorted([j.name for j in file.joints if j.kind != "fixed"] + [BASE] * (base != "fixed")),
             sorted(list(model.names)[1:]),
         ),
     }
@@ -162,53 +173,9 @@ def _check_poses(file: UrdfFile, model: Any) -> None:
 
 def _check_inertias(file: UrdfFile, model: Any) -> None:
     """Compare the spatial inertia of each rigid group, about the frame of its first link."""
-    group = rigid_groups(file.root, file.joints)
-    zero = {joint.name: 0.0 for joint in file.joints}
-    poses = {
-        name: pin.SE3(*pose) for name, pose in link_poses(file.root, file.joints, zero).items()
-    }
-    for first in dict.fromkeys(group.values()):
-        written = np.zeros((6, 6))
-        for link, other in group.items():
-            if other == first:
-                inertia = _spatial_inertia(file.links[link])
-                written += poses[first].actInv(poses[link]).act(inertia).matrix()
+    for first, written in group_inertias(file).items():
         joint = model.frames[body_frame(model, first)].parentJoint
         loaded = model.inertias[joint].matrix()
         if np.abs(written - loaded).max() > LOADED * np.abs(written).max():
             problem = f"mass, centre or inertia was not loaded as written ({loaded[0, 0]:g} kg)"
             raise ModelError(problem, field=f"link[{first}].inertial", value=float(written[0, 0]))
-
-
-def _spatial_inertia(link: FileLink) -> Any:
-    return pin.Inertia(link.mass, link.com, link.inertia)
-
-
-def _checked_shapes(
-    file: UrdfFile, model: Any, geometry: Any, links: tuple[str, ...]
-) -> tuple[PlacedShape, ...]:
-    """Every collision shape in the frame of its link, as loaded."""
-    shapes = []
-    for number, link in enumerate(links):
-        said, frame = file.links[link].collisions, body_frame(model, link)
-        loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
-        where = f"link[{link}].collision"
-        if len(loaded) != len(said):
-            capsules = any(shape.coal.__class__.__name__ == "Capsule" for shape, _, _ in said)
-            hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
-            problem = (
-                f"only {len(loaded)} of the shapes written were loaded, "
-                f"for the reason printed on standard error{hint}"
-            )
-            raise ModelError(problem, field=where, value=len(said))
-        for count, ((shape, R, t), given) in enumerate(zip(said, loaded, strict=True)):
-            placement = model.frames[frame].placement.actInv(given.placement)
-            off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
-            off |= np.abs(placement.rotation - R).max() > LOADED
-            if off or given.geometry != shape.coal or not (given.meshScale == 1).all():
-                problem = "was not loaded as written"
-                raise ModelError(problem, field=f"{where}[{count}]", value=shape)
-            name = f"{link}#{count}"
-            at = (placement.rotation, placement.translation)
-            shapes.append(PlacedShape(name, number, *at, shape))
-    return tuple(shapes)

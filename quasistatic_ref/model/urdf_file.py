@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.files import bytes_read, text_of
-from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Primitive, Sphere
+from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf_xml import (
     at_most_one,
@@ -36,6 +36,18 @@ _VERSIONS = ("1.0", "1.1", "1.2")
 _GEOMETRIES = ("box", "sphere", "cylinder", "capsule", "mesh")
 
 
+Defect = tuple[str, str, object]
+"""What is wrong with an inertia: ``"mass"`` or ``"inertia"``, the problem, the value."""
+
+
+@dataclass(frozen=True, eq=False)
+class FileMesh:
+    """A mesh as written: its address, and the factor of each coordinate, shape (3,) [-]."""
+
+    address: str
+    scale: Array
+
+
 @dataclass(frozen=True, eq=False)
 class FileLink:
     """A link as written.
@@ -49,15 +61,19 @@ class FileLink:
         Centre of mass in the link's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of (Primitive, R (3, 3), t (3,))
+    collisions : tuple of (Solid or FileMesh, R (3, 3), t (3,))
         Each shape and its frame in the link's.
+    defect : Defect or None
+        What makes its inertia that of no body; it only matters where something un-actuated
+        moves the link.
     """
 
     name: str
     mass: float
     com: Array
     inertia: Array
-    collisions: tuple[tuple[Primitive, Array, Array], ...]
+    collisions: tuple[tuple[Solid | FileMesh, Array, Array], ...]
+    defect: Defect | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,29 +146,31 @@ def _link(element: Element, ignored: list[str]) -> FileLink:
     name = attribute(element, "link", "name")
     where = f"link[{name}]"
     ignored += ignored_children(element, where, ("inertial", "collision"))
-    mass, com, inertia = _inertial(element, where, ignored)
+    mass, com, inertia, defect = _inertial(element, where, ignored)
     collisions = []
     for number, collision in enumerate(element.findall("collision")):
         at = f"{where}.collision[{number}]"
         ignored += ignored_children(collision, at, ("origin", "geometry"))
         R, t = frame(collision, at)
         collisions.append((_geometry(exactly_one(collision, at, "geometry"), at), R, t))
-    return FileLink(name, mass, com, inertia, tuple(collisions))
+    return FileLink(name, mass, com, inertia, tuple(collisions), defect)
 
 
-def _inertial(link: Element, where: str, ignored: list[str]) -> tuple[float, Array, Array]:
-    """Mass [kg], centre of mass (3,) [m] and inertia (3, 3) [kg m^2] along the link's axes."""
+def _inertial(
+    link: Element, where: str, ignored: list[str]
+) -> tuple[float, Array, Array, Defect | None]:
+    """Mass [kg], centre of mass (3,) [m], inertia (3, 3) [kg m^2] along the link's axes."""
     element = at_most_one(link, where, "inertial")
     if element is None:
-        return 0.0, np.zeros(3), np.zeros((3, 3))
+        return 0.0, np.zeros(3), np.zeros((3, 3)), None
     where = f"{where}.inertial"
     ignored += ignored_children(element, where, ("origin", "mass", "inertia"))
     R, com = frame(element, where)
     child = exactly_one(element, where, "mass")
     only_attributes(child, f"{where}.mass", ("value",))
     mass = float(numbers(child, f"{where}.mass", "value", 1)[0])
-    if not mass > 0:
-        raise ModelError("must be greater than 0", field=f"{where}.mass", value=mass)
+    if mass < 0:
+        raise ModelError("must not be negative", field=f"{where}.mass", value=mass)
     child = exactly_one(element, where, "inertia")
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     only_attributes(child, f"{where}.inertia", names)
@@ -160,29 +178,37 @@ def _inertial(link: Element, where: str, ignored: list[str]) -> tuple[float, Arr
         float(numbers(child, f"{where}.inertia", name, 1)[0]) for name in names
     )
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    defect = inertia_defect(inertia)
+    if not mass > 0:
+        defect = ("mass", "must be greater than 0", mass)
+    return mass, com, R @ inertia @ R.T, defect
+
+
+def inertia_defect(inertia: Array) -> Defect | None:
+    """What makes an inertia (3, 3) about a centre of mass that of no body, or None."""
     principal = np.linalg.eigvalsh(inertia)
-    written = [xx, yy, zz, xy, xz, yz]
+    written = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()
+    order = "(ixx iyy izz ixy ixz iyz)"
     if not principal[0] > 0:
-        problem = "must be positive definite (ixx iyy izz ixy ixz iyz)"
-        raise ModelError(problem, field=f"{where}.inertia", value=written)
+        return "inertia", f"must be positive definite {order}", written
     if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE):
-        problem = (
-            "is that of no body: the largest principal moment exceeds the sum of the others "
-            "(ixx iyy izz ixy ixz iyz)"
-        )
-        raise ModelError(problem, field=f"{where}.inertia", value=written)
-    return mass, com, R @ inertia @ R.T
+        problem = "is that of no body: the largest principal moment exceeds the sum of the others"
+        return "inertia", f"{problem} {order}", written
+    return None
 
 
-def _geometry(element: Element, where: str) -> Primitive:
+def _geometry(element: Element, where: str) -> Solid | FileMesh:
     if len(element) != 1:
         tags = [child.tag for child in element]
         raise ModelError("must hold exactly one shape", field=f"{where}.geometry", value=tags)
     child = element[0]
     where = f"{where}.{child.tag}"
     if child.tag == "mesh":
-        problem = "meshes are not supported in this version; use box, sphere, cylinder or capsule"
-        raise ModelError(problem, field=where, value=child.get("filename"))
+        only_attributes(child, where, ("filename", "scale"))
+        scale = numbers(child, where, "scale", 3, default=1.0)
+        if not (scale != 0).all():
+            raise ModelError("must not be zero", field=f"{where}.scale", value=scale.tolist())
+        return FileMesh(attribute(child, where, "filename").strip(), scale)
     if child.tag not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(child.tag, _GEOMETRIES)}", field=where)
     written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
@@ -231,7 +257,11 @@ def _joint(element: Element, ignored: list[str]) -> FileJoint:
             raise ModelError("must not be zero", field=f"{where}.axis.xyz", value=axis.tolist())
         axis = axis / length
     _check_limit(element, where, needed=kind in ("revolute", "prismatic"))
-    return FileJoint(name, kind, ends[0], ends[1], R, t, axis, _mimic(element, where))
+    mimic = _mimic(element, where)
+    if kind == "fixed" and mimic is not None:
+        ignored.append(f"{where}.mimic")
+        mimic = None
+    return FileJoint(name, kind, ends[0], ends[1], R, t, axis, mimic)
 
 
 def _check_limit(joint: Element, where: str, *, needed: bool) -> None:

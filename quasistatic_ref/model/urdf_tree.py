@@ -100,8 +100,6 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
     if joint.mimic is None:
         return
     field, of = f"joint[{joint.name}].mimic", joint.mimic.of
-    if joint.kind == "fixed":
-        raise ModelError("a fixed joint cannot mimic", field=field, value=of)
     if of not in named:
         raise ModelError(f"is no joint{suggestion(of, named)}", field=field, value=of)
     leader = named[of]

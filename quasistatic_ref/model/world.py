@@ -36,6 +36,8 @@ class World:
         The pinocchio frame of each link but the world.
     masses : ndarray, shape (L,)
         Mass of each link as its file says; the world has none [kg].
+    inertias : ndarray, shape (L, 3, 3)
+        About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
     roots : dict of str to int
         Number of each body's root link.
@@ -43,6 +45,8 @@ class World:
         Initial configuration in pinocchio's order.
     ignored : tuple of str
         What the URDFs say and the model does not use.
+    notes : tuple of str
+        What was taken otherwise than the URDFs say.
     """
 
     model: Any
@@ -51,10 +55,12 @@ class World:
     links: tuple[str, ...]
     frames: tuple[int, ...]
     masses: Array
+    inertias: Array
     shapes: tuple[PlacedShape, ...]
     roots: dict[str, int]
     start: Array
     ignored: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 def world_of(bodies: Sequence[Body]) -> World:
@@ -71,17 +77,19 @@ def world_of(bodies: Sequence[Body]) -> World:
     for body in bodies:
         if body.name in urdfs:
             raise ModelError("is the name of two bodies", field="body.name", value=body.name)
-        floating = body.base == "floating"
-        urdf = loaded_urdf(body.urdf, floating=floating, package_dirs=body.package_dirs)
+        urdf = loaded_urdf(
+            body.urdf, base=body.base, actuated=body.actuated, package_dirs=body.package_dirs
+        )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
-        placement = pin.SE3.Identity() if floating else _placement(body)
-        model = pin.appendModel(model, _prefixed(urdf.model, body.name), 0, placement)
+        model = pin.appendModel(model, _prefixed(urdf.model, body.name), 0, _anchor(body))
     links, masses, roots, shapes = ["world"], [0.0], {}, []
+    inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
         masses += [urdf.file.links[link].mass for link in urdf.links]
+        inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
     joints, start = [], pin.neutral(model)
@@ -96,10 +104,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         links=tuple(links),
         frames=tuple(body_frame(model, link) for link in links[1:]),
         masses=np.array(masses),
+        inertias=np.array(inertias),
         shapes=tuple(shapes),
         roots=roots,
         start=start,
         ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
+        notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
     )
 
 
@@ -122,6 +132,15 @@ def _prefixed(model: Any, name: str) -> Any:
     return model
 
 
+def _anchor(body: Body) -> Any:
+    """Where pinocchio's model of a body hangs: a base's own coordinates place the rest."""
+    if body.base == "floating":
+        return pin.SE3.Identity()
+    if body.base == "planar":
+        return pin.SE3(np.eye(3), np.array([0.0, 0.0, np.asarray(body.xyz)[2]]))
+    return _placement(body)
+
+
 def _placement(body: Body) -> Any:
     return pin.SE3(rotation(np.asarray(body.rpy)), np.asarray(body.xyz))
 
@@ -129,7 +148,8 @@ def _placement(body: Body) -> Any:
 def _check_joint_names(body: Body, urdf: Urdf) -> None:
     kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != "fixed"}
     scalar = {name for name, joint in kinds.items() if joint.mimic is None}
-    known = scalar | {BASE} if urdf.floating else scalar
+    moves = urdf.base != "fixed"
+    known = scalar | {BASE} if moves else scalar
     actuated = () if body.actuated == "all" else body.actuated
     for field, names, allowed in (
         ("actuated", actuated, known),
@@ -142,10 +162,10 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             problem = f"has no such joint{suggestion(str(name), allowed)}"
             if joint is not None and joint.mimic is not None:
                 problem = f"mimics {joint.mimic.of!r} and has no coordinate of its own"
-            elif name == BASE and urdf.floating:
+            elif name == BASE and moves:
                 problem = "is placed by xyz and rpy"
             elif name == BASE:
-                problem = 'is fixed; say base = "floating" to move it'
+                problem = 'is fixed; say base = "floating" or "planar" to move it'
             raise ModelError(problem, field=f"{body.name}.{field}", value=name)
         if len(set(names)) != len(names):
             raise ModelError("names a joint twice", field=f"{body.name}.{field}", value=names)
@@ -153,7 +173,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
 
 def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]]:
     """Joints with coordinates of one body, each with its start."""
-    kinds = {BASE: "floating"} if urdf.floating else {}
+    kinds = {} if urdf.base == "fixed" else {BASE: urdf.base}
     kinds |= {j.name: j.kind for j in urdf.file.joints if j.kind != "fixed" and j.mimic is None}
     found = []
     for name, kind in kinds.items():
@@ -163,6 +183,9 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]
             placement = _placement(body)
             quaternion = pin.Quaternion(placement.rotation).normalized()
             start = np.concatenate([placement.translation, quaternion.coeffs()])
+        elif kind == "planar":
+            (x, y, _), yaw = np.asarray(body.xyz), np.asarray(body.rpy)[2]
+            start = np.array([x, y, np.cos(yaw), np.sin(yaw)])
         elif kind == "continuous":
             start = np.array([np.cos(position), np.sin(position)])
         else:

@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
@@ -85,7 +86,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     urdf = path_in(folder, table, "urdf")
     if urdf is None:
         raise table.fail("urdf", "is missing")
-    base = table.text("base", "fixed", ("fixed", "floating"))
+    base = table.text("base", "fixed", BASES)
     actuated = table.take("actuated", [])
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
@@ -94,6 +95,9 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     xyz, rpy = _pose(table.table("pose", {}))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
+    package_dirs = table.sequence("package_dirs", [])
+    if not all(isinstance(given, str) for given in package_dirs):
+        raise table.fail("package_dirs", "must be a list of folders", package_dirs)
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
@@ -106,6 +110,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
             xyz=tuple(xyz),
             rpy=tuple(rpy),
             positions=start,
+            package_dirs=tuple(folder / given for given in package_dirs),
         ),
         table=table,
         K_q=table.take("K_q", None),
@@ -163,6 +168,8 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             if joints[name].kind == "floating":
                 xyz, rpy = _pose(waypoint.table(name))
                 value: Any = np.concatenate([xyz, quaternion(rpy)])
+            elif joints[name].kind == "planar":
+                value = _planar(waypoint, name, entry.body)
             else:
                 value = [waypoint.number(name)]
             times.setdefault(name, []).append(t)
@@ -185,6 +192,18 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
     if not (diagonal > 0).all():
         raise given.fail(name, "must be greater than 0 in every entry", value)
     return np.diag(diagonal)
+
+
+def _planar(waypoint: Fields, name: str, body: Body) -> Array:
+    """Entries of q of a planar base, from the same table as a floating one's."""
+    pose = waypoint.table(name)
+    xyz, rpy = pose.array("xyz", (3,), np.array(body.xyz)), pose.array("rpy", (3,), ZERO)
+    pose.close()
+    height = float(np.asarray(body.xyz)[2])
+    if xyz[2] != height or rpy[:2].any():
+        problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
+        raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
+    return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
 
 
 def _positive_definite(block: Array, field: str) -> Array:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
 
 import numpy as np
 
@@ -10,32 +12,26 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.clouds import point_cloud
-from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cylinder,
-    HalfSpace,
-    PlacedShape,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.bodies import BodyEntry
+from quasistatic_ref.simulate.world_shapes import WORLD, world_shape
 
-WORLD = 0
 Shapes = dict[str, list[PlacedShape]]
 
 
-def placed_shapes(system: System, entries: Mapping[str, BodyEntry], world: Fields) -> Shapes:
+def placed_shapes(
+    system: System, entries: Mapping[str, BodyEntry], world: Fields, folder: Path
+) -> Shapes:
     """Every name that ``[contacts]`` may use, with its shapes.
 
     A link has the collision shapes of its URDF; a body's name means its cloud, or else its root
-    link; a name from ``[shapes]`` is fixed in the world.
+    link; a name from ``[shapes]`` is fixed in the world. A pattern such as ``hand/*`` means every
+    link that it matches and that has shapes.
     """
     named: Shapes = {}
     for name in world.names():
-        named[name] = [_world_shape(name, world.table(name))]
+        named[name] = [world_shape(name, world.table(name), folder)]
     world.close()
     for i, link in enumerate(system.links):
         if i != WORLD:
@@ -66,12 +62,13 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
         if rows == 4 and mu_omega > 0:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
         k = table.integer("k", 1, least=1)
+        hull = table.boolean("hull", False)
         table.close()
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"
                 try:
-                    pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k))
+                    pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull))
                 except InputError as error:
                     error.field = table.where
                     raise
@@ -81,11 +78,13 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
 
 def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
     value = table.take(key)
-    names = value if isinstance(value, list) else [value]
     found: list[PlacedShape] = []
-    for name in names:
+    for name in value if isinstance(value, list) else [value]:
         if not isinstance(name, str):
             raise table.fail(key, "must be a name or a list of names", value)
+        if any(c in name for c in "*?["):
+            found += _matching(table, key, name, shapes)
+            continue
         if name not in shapes:
             raise table.fail(key, f"names nothing here{suggestion(name, shapes)}", name)
         if not shapes[name]:
@@ -93,34 +92,19 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
         found += shapes[name]
     if not found:
         raise table.fail(key, "must name at least one shape", value)
+    names = [shape.name for shape in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise table.fail(key, f"names {twice} twice: its friction would count twice", value)
     return found
 
 
-def _world_shape(name: str, table: Fields) -> PlacedShape:
-    pose = table.table("pose", {})
-    zero = np.zeros(3)
-    t, rpy = pose.array("xyz", (3,), zero), pose.array("rpy", (3,), zero)
-    pose.close()
-    kinds = [kind for kind in table.names() if kind in _KINDS]
-    if len(kinds) != 1:
-        raise table.fail("shape", f"must be exactly one of {', '.join(_KINDS)}", table.names())
-    sizes = table.table(kinds[0])
-    try:
-        shape = _KINDS[kinds[0]](sizes)
-    except InputError as error:
-        error.field = error.field if error.field and "." in error.field else sizes.where
-        raise
-    sizes.close()
-    table.close()
-    return PlacedShape(name, WORLD, rotation(rpy), t, shape)
-
-
-_KINDS: dict[str, Callable[[Fields], Shape]] = {
-    "halfspace": lambda s: HalfSpace(s.array("normal", (3,)), s.number("offset", 0.0)),
-    "box": lambda s: Box(s.array("size", (3,)) / 2),
-    "sphere": lambda s: Sphere(s.number("radius", above=0.0)),
-    "cylinder": lambda s: Cylinder(
-        s.number("radius", above=0.0), s.number("length", above=0.0) / 2
-    ),
-    "capsule": lambda s: Capsule(s.number("radius", above=0.0), s.number("length", above=0.0) / 2),
-}
+def _matching(table: Fields, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
+    """Shapes of all links that a pattern matches, in the order of the links."""
+    names = [name for name in shapes if "/" in name and fnmatchcase(name, pattern)]
+    if not names:
+        raise table.fail(key, "matches no link; a pattern looks like 'hand/*'", pattern)
+    found = [shape for name in names for shape in shapes[name]]
+    if not found:
+        raise table.fail(key, "matches no link with a collision shape", pattern)
+    return found

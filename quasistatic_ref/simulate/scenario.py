@@ -185,7 +185,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     if not entries:
         raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
-    shapes = placed_shapes(system, entries, top.table("shapes", {}))
+    shapes = placed_shapes(system, entries, top.table("shapes", {}), path.parent)
     pairs = contact_pairs(top.table("contacts", {}), shapes)
     top.close()
     check_motion(system, pairs)

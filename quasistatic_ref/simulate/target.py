@@ -58,7 +58,7 @@ class JointTrack:
 
     def at(self, t: float) -> Array:
         """The joint's entries of q at time t."""
-        if self.joint.kind != "floating":
+        if self.joint.kind not in ("floating", "planar"):
             value = piecewise_linear(self.times, self.values, t)
             if self.joint.kind == "continuous":
                 return np.array([np.cos(value[0]), np.sin(value[0])])

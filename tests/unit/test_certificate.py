@@ -161,3 +161,17 @@ def test_a_working_row_without_load_does_not_count_as_strictly_active():
     assert verify(step, np.zeros(3), claims.active, np.zeros(4), claims)
     smooth = replace(claims, differentiable=True)
     assert "differentiable" in verify(step, np.zeros(3), claims.active, np.zeros(4), smooth).reason
+
+
+@pytest.mark.parametrize("phi", [0.0, 1e-3])
+@pytest.mark.parametrize("contacts", [1, 2])
+def test_claims_of_a_sticking_body_are_checked(phi, contacts):
+    """Its idle rows follow from those that press: not unique, but differentiable."""
+    step = resting_point(tau_x=0.1, phi=phi, contacts=contacts)
+    optimum = exact_step(step)
+    claims = exact_certificate(step, optimum)
+    assert (claims.multipliers_unique, claims.differentiable) == (False, True)
+    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    for name in ("multipliers_unique", "differentiable"):
+        false = replace(claims, **{name: not getattr(claims, name)})
+        assert name in verify(step, optimum.delta_q, claims.active, optimum.lam, false).reason

@@ -190,11 +190,13 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     record = json.loads(capsys.readouterr().out)
     assert [c["name"] for c in record["coordinates"]] == ["rail/slide", "rail/turn"]
     assert [c["unit"] for c in record["coordinates"]] == ["m", "rad"]
-    assert (record["n_a"], record["n_u"]) == (0, 2)
+    assert (record["n_a"], record["n_u"]) == (2, 0)
     masses = {link["name"]: link["mass"] for link in record["links"]}
     assert masses == {"rail/rail": 2, "rail/plate": 2, "rail/wheel": 2}
-    assert record["links"][1]["shapes"] == [{"name": "rail/plate#0", "kind": "Box"}]
-    assert "rail: joint[slide].limit" in record["ignored"]
+    assert record["links"][1]["shapes"] == [
+        {"name": "rail/plate#0", "kind": "Box", "size": "box 0.02 x 0.2 x 0.2 m"}
+    ]
+    assert "rail: joint limits: position, effort and velocity (2)" in record["ignored"]
     assert main(["inspect", path]) == 0
     text = capsys.readouterr().out
     assert "rail/slide" in text

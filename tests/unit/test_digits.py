@@ -49,6 +49,16 @@ def test_wrench_is_measured_by_the_displacement_that_it_causes(k):
     assert found.delta_q == 16.0
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
+def test_slack_is_measured_by_the_displacement_that_changes_it_however_long_its_row(scale):
+    """A row scale * y >= -1 and an error of 1e-7 along y: seven digits."""
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    step = step.replace(extra=Extra(("y",), scale * np.eye(3)[1:2], np.array([-1.0])))
+    exact = exact_step(step).delta_q
+    off = exact + np.linalg.norm(exact) * 1e-7 * np.eye(3)[1]
+    assert correct_digits(step, off, exact).slack == pytest.approx(7, abs=1e-6)
+
+
 def test_without_forces_only_the_exact_answer_has_digits():
     step = point_between_walls([EAST], [1.0])
     zero, nearly = np.zeros(3), np.array([1e-300, 0, 0])

@@ -10,6 +10,7 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.step.data import Contacts, Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
+from tests.helpers import no_contacts
 
 
 def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
@@ -133,3 +134,27 @@ def test_length_is_relative_to_the_unconstrained_step():
     idle = point_between_walls([EAST], [1.0])
     assert relative_length(idle, np.zeros(3)) == 0.0
     assert relative_length(idle, np.ones(3)) == np.inf
+
+
+@pytest.mark.parametrize(
+    ("target", "tau_a", "tau_u"),
+    [(3.0, 1.0, 2.0), (1.0, 3.0, 2.0), (1.0, 2.0, 3.0), (0.0, 3.0, 4.0)],
+)
+def test_length_is_relative_to_the_largest_of_the_loads(target, tau_a, tau_u):
+    """K_q = 4, M_u = 1/4, h = 1/2, so H = (2, 1/2).
+
+    Forces of 4 tau_a and 2 tau_u alone move by tau_a and 2 tau_u: sqrt 2 tau_a and sqrt 2 tau_u in
+    the H norm, beside sqrt 2 target.
+    """
+    step = StepData(
+        h=0.5,
+        K_q=[[4.0]],
+        M_u=[[0.25]],
+        tau_a=[4 * tau_a],
+        tau_u=[2 * tau_u],
+        delta_q_bar_a=[target],
+        contacts=no_contacts(2),
+    )
+    largest = np.sqrt(2) * max(target, tau_a, tau_u)
+    delta_q = np.array([5.0, 0.0])
+    assert relative_length(step, delta_q) == pytest.approx(np.sqrt(2) * 5 / largest, rel=1e-12)

@@ -5,6 +5,7 @@ import pytest
 
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import Box, HalfSpace, PlacedShape, PointCloud, Sphere
 
 CLOUD, BALL = PointCloud(np.eye(3)), Sphere(0.1)
@@ -21,7 +22,7 @@ REFUSALS = {
     "two clouds": ((CLOUD, CLOUD), {}, "grip: two clouds cannot touch"),
     "one link": ((BOX, BALL), {"link_alpha": 2, "link_beta": 2}, "grip: both shapes are fixed to"),
     "two shapes of the world": ((FLOOR, BOX), {"link_beta": 0}, "grip: both shapes are fixed to"),
-    "k of two convex shapes": ((BOX, BALL), {"k": 2}, "grip: two convex shapes have one closest"),
+    "two half-spaces": ((FLOOR, FLOOR), {}, "grip: two half-spaces always meet"),
 }
 
 
@@ -32,9 +33,20 @@ def test_a_pair_is_refused(shapes, more, says):
     assert str(caught.value).startswith(says)
 
 
-def test_the_refused_k_is_shown():
-    with pytest.raises(ContactError, match=r"k must be 1 \(got 5\)$"):
-        pair(BOX, FLOOR, k=5)
+def test_two_solids_make_k_contacts_or_as_many_as_they_have_candidates():
+    # A box has 8 corners, a ball and a half-space none; the closest pair is one more.
+    assert [pair(FLOOR, BOX, k=k).n_c for k in (1, 4, 9, 100)] == [1, 4, 9, 9]
+    assert pair(BOX, BOX, k=100).n_c == 17
+    assert pair(FLOOR, BALL, k=100).n_c == 1
+
+
+def test_a_mesh_that_is_not_convex_is_refused_unless_its_hull_will_do():
+    dented = convex_hull(np.eye(4)[:, :3], excess=0.2)
+    with pytest.raises(ContactError, match=r"the mesh of b is not convex: .* 20 % more; say hull"):
+        pair(FLOOR, dented)
+    a = PlacedShape("a", 0, np.eye(3), np.zeros(3), FLOOR)
+    b = PlacedShape("b", 1, np.eye(3), np.zeros(3), dented)
+    assert ContactPair("grip", a, b, 0.5, 0.01, 6, 5, hull=True).n_c == 5
 
 
 def test_a_cloud_makes_k_contacts_or_as_many_as_it_has_points():

@@ -65,6 +65,13 @@ def test_ball_is_rounded_only_where_all_its_numbers_agree():
         assert nearest_in(arb(1) / arb(0)) is None
 
 
+def test_ball_that_underflows_is_written_without_sign():
+    with ctx.workprec(200):
+        rounded = nearest_in(-(arb(2) ** -1100) / 3)
+    assert rounded == 0.0
+    assert math.copysign(1.0, rounded) == 1.0
+
+
 def test_nearest_above_is_above():
     with ctx.workprec(200):
         assert F(nearest_above(arb(1) / 3)) > F(1, 3)

@@ -22,13 +22,14 @@ from tests.unit.urdf_texts import (
     inertial,
     joint,
     link,
+    mimic,
     robot,
     written,
 )
 
 
 def test_a_chain_is_loaded_as_written(tmp_path: Path) -> None:
-    urdf = loaded_urdf(written(tmp_path, CHAIN), floating=True)
+    urdf = loaded_urdf(written(tmp_path, CHAIN), base="floating")
     assert urdf.links == ("base_link", "upper", "lower", "slider", "follower", "tool")
     assert [shape.name for shape in urdf.shapes] == ["base_link#0", "upper#0", "tool#0"]
     assert [shape.link for shape in urdf.shapes] == [0, 1, 5]
@@ -74,22 +75,43 @@ def test_a_link_and_a_joint_may_share_a_name(tmp_path: Path) -> None:
 
 def test_a_welded_frame_needs_no_mass(tmp_path: Path) -> None:
     text = robot(link("dummy", inertial=""), link("real"), joint("w", "dummy", "real", "fixed"))
-    assert loaded_urdf(written(tmp_path, text), floating=True).links == ("dummy", "real")
+    assert loaded_urdf(written(tmp_path, text), base="floating").links == ("dummy", "real")
 
 
 def test_a_fixed_base_needs_no_mass(tmp_path: Path) -> None:
     text = robot(link("stand", inertial=""))
     assert loaded_urdf(written(tmp_path, text)).links == ("stand",)
     with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
-        loaded_urdf(written(tmp_path, text), floating=True)
+        loaded_urdf(written(tmp_path, text), base="floating")
 
 
 def test_a_flat_plate_is_a_body_and_a_needle_beyond_it_is_not(tmp_path: Path) -> None:
     plate = robot(link("a", inertial=inertial(moments=("0.1", "0.2", "0.3000001"))))
-    assert loaded_urdf(written(tmp_path, plate)).links == ("a",)
+    assert loaded_urdf(written(tmp_path, plate), base="floating").notes == ()
     beyond = robot(link("a", inertial=inertial(moments=("0.1", "0.2", "0.30001"))))
     with pytest.raises(ModelError, match="inertia: is that of no body"):
-        loaded_urdf(written(tmp_path, beyond))
+        loaded_urdf(written(tmp_path, beyond), base="floating")
+
+
+def test_what_a_fixed_joint_would_mimic_is_ignored(tmp_path: Path) -> None:
+    text = robot(
+        link("a"), link("b"), link("c"), joint("j", "a", "b"),
+        joint("k", "b", "c", "fixed", more=mimic("j")),
+    )  # fmt: skip
+    assert "joint[k].mimic" in loaded_urdf(written(tmp_path, text)).file.ignored
+
+
+def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
+    text = robot(
+        link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
+    )
+    path = written(tmp_path, text)
+    notes = loaded_urdf(path, base="floating", actuated="all").notes
+    assert notes == ("link[a].inertial.mass: must be greater than 0; harmless here",)
+    with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
+        loaded_urdf(path, base="floating", actuated=("base",))
+    with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
+        loaded_urdf(path, base="floating", actuated=("j",))
 
 
 def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:

@@ -1,0 +1,82 @@
+"""Signed distances of points to an ellipsoid and to a cone, vectorised closed forms.
+
+As in :mod:`~quasistatic_ref.contact.cloud`: points in the shape's own frame in, phi [m] and unit
+outward normals out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+
+HALVINGS = 140
+"""Bisections of an ellipsoid's root: the bracket ratio, 1e308 at most, halves in its logarithm ten
+times and then in its width 130 times, past the last bit."""
+
+
+def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
+    """Signed distance and outward normal of points (N, 3) against an ellipsoid.
+
+    The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
+    root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
+    every sum of the denominators is free of cancellation; w > 0 is bracketed and bisected.
+    (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
+    """
+    least = half_axes.min()
+    r = (half_axes / least) ** 2
+    sign = np.where(points < 0, -1.0, 1.0)
+    z = np.abs(points) / half_axes
+    # On the plane of the medial axis the closest point is not unique: one side, always the same,
+    # is taken by moving the point off that plane by less than any number matters.
+    z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
+    low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
+    high = np.sqrt(np.sum((r * z) ** 2, axis=1))
+    high = np.maximum(high, low)
+    for _ in range(HALVINGS):
+        middle = np.where(high > 4 * low, np.sqrt(low) * np.sqrt(high), (low + high) / 2)
+        above = np.sum((r * z / (middle[:, None] + (r - 1))) ** 2, axis=1) > 1
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    on = z * r / (((low + high) / 2)[:, None] + (r - 1))  # x / e, of length one
+    on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
+    normal = on / half_axes
+    normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]
+    # Along the normal, which is exact to rounding also where the distance is next to nothing.
+    phi = np.sum((np.abs(points) - on * half_axes) * normal, axis=1)
+    return phi, sign * normal
+
+
+def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
+    """Signed distance and outward normal of points (N, 3) against a cone, tip up.
+
+    In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
+    """
+    r = np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
+    degenerate = r == 0
+    outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
+    outward[degenerate] = (1.0, 0.0)
+    p = np.stack([r, points[:, 2]], axis=1)
+    rim, tip = np.array([radius, -half_length]), np.array([0.0, half_length])
+    slant = np.hypot(radius, 2 * half_length)
+    side = np.array([2 * half_length, radius]) / slant  # outward normal of rim - tip
+    above_side = (p[:, 0] - rim[0]) * side[0] + (p[:, 1] - rim[1]) * side[1]
+    above_base = -half_length - p[:, 1]
+    along = (tip - rim) / slant
+    s = np.clip((p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1], 0.0, slant)
+    on_side = rim + s[:, None] * along
+    on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
+    d_side, d_base = _length(p - on_side), _length(p - on_base)
+    nearest = np.where((d_side <= d_base)[:, None], on_side, on_base)
+    away = p - nearest
+    distance = _length(away)
+    flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
+    level = np.maximum(above_side, above_base)
+    # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
+    face = (level <= 0) | (distance <= level)
+    flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
+    phi = np.where(face, level, distance)
+    return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
+
+
+def _length(vectors: Array) -> Array:
+    return np.hypot(vectors[:, 0], vectors[:, 1])

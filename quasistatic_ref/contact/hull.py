@@ -1,0 +1,90 @@
+"""Signed distance of points to a convex polytope, vectorised over points and triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import ON_SURFACE
+
+CHUNK = 1 << 17
+"""Points times triangles handled at once: some tens of megabytes."""
+
+
+def distance_to_hull(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
+    """Signed distance and outward normal of points (N, 3) against a convex polytope.
+
+    Inside, the largest of the signed distances to the planes of its faces, which is exact;
+    outside, the distance to the nearest triangle. Each point is computed by itself, the same
+    bits in any company.
+
+    Returns
+    -------
+    phi : ndarray, shape (N,)
+        [m].
+    normal : ndarray, shape (N, 3)
+        That of the face, unless an edge or a corner is the closest feature.
+    """
+    phi, normal = np.empty(len(points)), np.empty((len(points), 3))
+    count = max(1, CHUNK // len(hull.triangles))
+    for start in range(0, len(points), count):
+        some = slice(start, start + count)
+        phi[some], normal[some] = _distance(points[some], hull)
+    return phi, normal
+
+
+def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
+    x, y, z = points.T[:, :, None]
+    level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
+    face = level.argmax(axis=1)
+    phi, normal = level[np.arange(len(points)), face], hull.normals[face].copy()
+    outside = np.flatnonzero(phi > 0)
+    if len(outside):
+        away = nearest_offsets(points[outside], hull)
+        distance = _norm(away)
+        # Near the surface p - x is all rounding; the face's normal is right to that distance.
+        size = np.abs(hull.vertices).max()
+        edge = distance - phi[outside] > ON_SURFACE * size
+        at = outside[edge]
+        phi[at], normal[at] = distance[edge], away[edge] / distance[edge, None]
+    return phi, normal
+
+
+def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
+    """From the nearest point of the surface's triangles to each point, shape (N, 3)."""
+    corners = hull.vertices[hull.triangles]
+    best = np.full(len(points), np.inf)
+    offset = np.zeros((len(points), 3))
+    rows = np.arange(len(points))
+    for k in range(3):
+        # The nearest point of an edge, clamped to its ends.
+        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        arm = points[:, None] - tail
+        s = np.clip(_dot(arm, along) / _dot(along, along), 0.0, 1.0)
+        away = arm - s[..., None] * along
+        square = _dot(away, away)
+        i = square.argmin(axis=1)
+        nearer = square[rows, i] < best
+        best = np.where(nearer, square[rows, i], best)
+        offset = np.where(nearer[:, None], away[rows, i], offset)
+    # Inside a face, where the projection on its plane falls within the triangle.
+    n = hull.normals
+    within = np.ones((len(points), len(n)), dtype=bool)
+    for k in range(3):
+        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        within &= _dot(points[:, None] - tail, np.cross(n, along)) >= 0
+    level = _dot(points[:, None] - corners[:, 0], n)
+    square = np.where(within, level * level, np.inf)
+    i = square.argmin(axis=1)
+    nearer = square[rows, i] < best
+    return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    # Not `@` or einsum: the order of the sum must not depend on the number of points.
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
+
+
+def _norm(vectors: Array) -> Array:
+    return np.sqrt(_dot(vectors, vectors))

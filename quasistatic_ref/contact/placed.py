@@ -1,0 +1,38 @@
+"""A shape with its pose in the world, and what a pair of them is asked for."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from quasistatic_ref.contact.support import support_point, support_value
+from quasistatic_ref.model.shapes import Shape
+from quasistatic_ref.step.data import Array
+
+
+class Placed(NamedTuple):
+    """A shape and its pose in the world: x_world = R x + t."""
+
+    shape: Shape
+    R: Array
+    t: Array
+
+    def farthest(self, direction: Array) -> Array:
+        """The farthest point along a direction; both in the world frame."""
+        return self.R @ support_point(self.shape, self.R.T @ direction) + self.t
+
+    def reach(self, directions: Array) -> Array:
+        """How far it reaches along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+        return support_value(self.shape, directions @ self.R) + directions @ self.t
+
+
+class Witness(NamedTuple):
+    """Closest points of two solids, in one frame: beta - alpha = phi n."""
+
+    phi: float
+    alpha: Array
+    beta: Array
+    n: Array
+
+    def swapped(self) -> Witness:
+        """The same with alpha and beta exchanged."""
+        return Witness(self.phi, self.beta, self.alpha, -self.n)

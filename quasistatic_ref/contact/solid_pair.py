@@ -1,0 +1,59 @@
+"""Signed distance, closest points and normal of two solids, by the road that suits them.
+
+A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
+have closed forms, right to rounding. The others, curved solids (cylinder, cone, ellipsoid)
+among themselves and on polytopes, are asked of coal and proved.
+"""
+
+from __future__ import annotations
+
+from quasistatic_ref.contact.by_coal import coal_witness
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.polytope import polytope
+from quasistatic_ref.contact.polytope_pair import polytope_pair
+from quasistatic_ref.model.shapes import HalfSpace, Sphere
+
+
+def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
+    """Closest points of two solids in the world frame.
+
+    Parameters
+    ----------
+    name : str
+        Of the pair, for messages.
+    a, b : Placed
+        Not two half-spaces.
+
+    Raises
+    ------
+    ContactError
+        If there is no closed form and coal has no answer that proves itself.
+    """
+    if isinstance(b.shape, Sphere):
+        return _sphere_on_solid(a, b, b.shape.radius)
+    if isinstance(a.shape, Sphere):
+        return _sphere_on_solid(b, a, a.shape.radius).swapped()
+    if isinstance(a.shape, HalfSpace):
+        return _solid_on_plane(a, a.shape, b)
+    if isinstance(b.shape, HalfSpace):
+        return _solid_on_plane(b, b.shape, a).swapped()
+    P, Q = polytope(a.shape), polytope(b.shape)
+    if P is None or Q is None:
+        return coal_witness(name, a, b)
+    found = polytope_pair(P, Q, a.R.T @ b.R, a.R.T @ (b.t - a.t))
+    return Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
+
+
+def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:
+    distance, normal = signed_distance(solid.shape, ((sphere.t - solid.t) @ solid.R)[None])
+    n = solid.R @ normal[0]
+    phi = float(distance[0])
+    return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)
+
+
+def _solid_on_plane(plane: Placed, half_space: HalfSpace, solid: Placed) -> Witness:
+    n = plane.R @ half_space.normal
+    lowest = solid.farthest(-n)
+    phi = float(n @ (lowest - plane.t) - half_space.offset)
+    return Witness(phi, lowest - phi * n, lowest, n)

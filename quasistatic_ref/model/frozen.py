@@ -1,0 +1,53 @@
+"""Fields of frozen dataclasses, checked and made read-only."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+
+
+def finite(value: Any, key: str) -> float:
+    """A finite float; ModelError naming the field otherwise."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise ModelError("must be a finite number", field=key, value=value) from None
+    if not np.isfinite(number):
+        raise ModelError("must be a finite number", field=key, value=value)
+    return number
+
+
+def freeze_size(owner: Any, key: str) -> None:
+    """Replace a field by a float, which must be positive."""
+    value = getattr(owner, key)
+    number = finite(value, key)
+    # Twice the size is what coal is given.
+    if not (number > 0 and np.isfinite(2 * number)):
+        raise ModelError("must be a positive length", field=key, value=value)
+    object.__setattr__(owner, key, number)
+
+
+def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
+    """Replace a field by a read-only float64 copy, finite and of the given shape."""
+    value = getattr(owner, key)
+    try:
+        array = np.array(value, dtype=np.float64) + 0.0
+    except (TypeError, ValueError):
+        raise ModelError("must be numbers", field=key, value=value) from None
+    if array.shape != shape:
+        raise ModelError(f"must have shape {shape}", field=key, value=array.shape)
+    if not np.isfinite(array).all():
+        raise ModelError("must hold finite numbers only", field=key, value=array.tolist())
+    array.setflags(write=False)
+    object.__setattr__(owner, key, array)
+
+
+def freeze_lengths(owner: Any, key: str) -> None:
+    """Replace a field by three positive lengths, read-only."""
+    freeze_array(owner, key, (3,))
+    lengths = getattr(owner, key)
+    if not ((lengths > 0).all() and np.isfinite(2 * lengths).all()):
+        raise ModelError("must be three positive lengths", field=key, value=lengths.tolist())

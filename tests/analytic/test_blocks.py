@@ -1,0 +1,37 @@
+"""Boxes on flat faces: each claim is that of the scenario's README."""
+
+import numpy as np
+
+from quasistatic_ref import load_scenario
+from tests.tolerances import SCENARIO
+
+G, H = 9.81, 0.01
+
+
+def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
+    mu_v, m, v, K_q = 0.4, 0.5, 0.01, 1000.0
+    trajectory = load_scenario("block_push").run(progress=False)
+    lag = trajectory["q_bar_a"][:, 0] - trajectory["q"][1:, 0]
+    expected = (mu_v * m * G + m * v / H) / K_q
+    np.testing.assert_allclose(lag[200:], expected, rtol=SCENARIO, atol=0)
+    height = trajectory["q"][-1, 3] - 0.05
+    np.testing.assert_allclose(height, mu_v * H * v, rtol=SCENARIO, atol=0)
+
+
+def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
+    scenario = load_scenario("block_incline")
+    q = scenario.run(progress=False)["q"]
+    rough, smooth = (scenario.system.joint(f"{name}/base").q for name in ("rough", "smooth"))
+    np.testing.assert_allclose(q[-1, rough], q[0, rough], rtol=0, atol=SCENARIO)
+    a = np.radians(25)
+    v = G * H * (np.sin(a) - 0.3 * np.cos(a))
+    step = (q[-1] - q[-2])[smooth][:3]
+    np.testing.assert_allclose(step @ [np.cos(a), 0, -np.sin(a)], v * H, rtol=SCENARIO, atol=0)
+
+
+def test_a_stack_stands_and_each_contact_carries_what_is_above() -> None:
+    trajectory = load_scenario("stack").run(progress=False)
+    q, n_z = trajectory["q"], trajectory["wrench"][-1][:, 2]
+    np.testing.assert_allclose(q[-1], q[0], rtol=0, atol=SCENARIO)
+    loads = n_z.reshape(3, 4).sum(axis=1)
+    np.testing.assert_allclose(loads, [1.0 * G, 0.5 * G, 0.2 * G], rtol=SCENARIO, atol=0)

@@ -1,0 +1,150 @@
+"""Every pair of solids against an independent computation, on a sample of poses.
+
+The whole table, 1,000 poses a pair, is printed by validation/pair_distances.py.
+"""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points, pair_closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.solid_pair import solid_pair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.convex_mesh import convex_hull
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cylinder,
+    HalfSpace,
+    PlacedShape,
+    Shape,
+)
+from quasistatic_ref.model.system import Kinematics
+from tests import closest
+from tests.tolerances import CLOSED_FORM, CURVED_PAIR, EXACT, WAY_OUT
+
+CURVED = {"cylinder", "cone", "ellipsoid"}
+SOLIDS = closest.solids()
+STEP = 1e-3
+
+
+def by_coal(names: tuple[str, str]) -> bool:
+    return bool(CURVED & set(names)) and not {"sphere", "half-space"} & set(names)
+
+
+@pytest.mark.parametrize("names", closest.pairs(), ids="-".join)
+def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, str]) -> None:
+    a, b = (SOLIDS[name] for name in names)
+    atol = CURVED_PAIR if by_coal(names) else CLOSED_FORM
+    random = np.random.default_rng(5)
+    directions = random.normal(size=(2000, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    here, answered = Placed(a, np.eye(3), np.zeros(3)), 0
+    for R, t in closest.poses(16, 11):
+        try:
+            phi, alpha, beta, n = solid_pair("p", here, Placed(b, R, t))
+            moved = solid_pair("p", here, Placed(b, R, t + STEP * n)).phi
+        except ContactError:
+            assert by_coal(names)
+            continue
+        answered += 1
+        on_a = signed_distance(a, alpha[None])[0]
+        on_b = signed_distance(b, ((beta - t) @ R)[None])[0]
+        np.testing.assert_allclose(n @ n, 1, rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose([on_a, on_b], 0, rtol=EXACT, atol=max(atol, WAY_OUT))
+        np.testing.assert_allclose(beta - alpha, phi * n, rtol=EXACT, atol=CLOSED_FORM)
+        # Moving beta's body by d along n makes the distance d larger, exactly.
+        np.testing.assert_allclose(moved, phi + STEP, rtol=EXACT, atol=atol)
+        if "half-space" not in names:
+            gaps = closest.gap(a, b, R, t, np.vstack([n, directions]))
+            np.testing.assert_allclose(gaps[0], phi, rtol=EXACT, atol=max(atol, CLOSED_FORM))
+            assert gaps.max() <= phi + atol
+        expected = closest.signed_distance(a, b, R, t)
+        if expected is not None:
+            np.testing.assert_allclose(phi, expected, rtol=EXACT, atol=atol)
+    assert answered >= 12  # a curved pair may be refused where one is deep inside the other
+
+
+def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
+    still = Kinematics(np.array([np.eye(3), R]), np.array([np.zeros(3), t]), np.zeros((2, 6, 0)))
+    alpha = PlacedShape("a", 0, np.eye(3), np.zeros(3), a)
+    beta = PlacedShape("b", 1, np.eye(3), np.zeros(3), b)
+    pair = ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
+    points = pair_closest_points(pair, still)
+    assert len(points.phi) == pair.n_c
+    return points
+
+
+CUBE = Box(np.full(3, 0.05))
+CUBE_MESH = convex_hull(
+    [[x, y, z] for x in (-0.05, 0.05) for y in (-0.05, 0.05) for z in (-0.05, 0.05)]
+)
+
+
+@pytest.mark.parametrize("box", [CUBE, CUBE_MESH], ids=["box", "mesh"])
+@pytest.mark.parametrize(
+    "floor", [HalfSpace(np.eye(3)[2], 0.1), Box(np.array([0.3, 0.3, 0.1]))], ids=["plane", "table"]
+)
+@pytest.mark.parametrize("gap", [-1e-3, 0.0, 1e-3])
+def test_a_box_that_lies_flat_touches_with_its_four_lower_corners(box, floor, gap) -> None:
+    R = Rotation.from_rotvec([0, 0, 0.3]).as_matrix()
+    points = found(floor, box, R, np.array([0.02, 0.01, 0.15 + gap]), 4)
+    np.testing.assert_allclose(points.phi, gap, rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(points.n, [[0, 0, 1]] * 4, rtol=EXACT, atol=CLOSED_FORM)
+    corners = [[x, y, -0.05] for x in (-0.05, 0.05) for y in (-0.05, 0.05)]
+    expected = np.array(corners) @ R.T + [0.02, 0.01, 0.15 + gap]
+    order = np.lexsort(points.beta.round(6).T)
+    np.testing.assert_allclose(
+        points.beta[order], expected[np.lexsort(expected.round(6).T)], rtol=EXACT, atol=CLOSED_FORM
+    )
+
+
+def test_candidates_are_alphas_corners_betas_corners_and_the_closest_pair() -> None:
+    cube, shelf = Box(np.full(3, 0.05)), Box(np.array([0.3, 0.3, 0.1]))
+    points = found(cube, shelf, np.eye(3), np.array([0.02, 0.01, -0.15]), 17)
+    # alpha's corners are 0..7 (binary: x lowest), beta's 8..15, the pair 16. The four lower
+    # corners of the cube touch, and the pair, which is one of them again.
+    assert sorted(points.point[:5].tolist()) == [0, 1, 2, 3, 16]
+    np.testing.assert_allclose(points.phi[:5], 0, rtol=EXACT, atol=CLOSED_FORM)
+    assert (points.phi[5:] > 0.05).all()
+    four = found(cube, shelf, np.eye(3), np.array([0.02, 0.01, -0.15]), 4)
+    assert sorted(four.point.tolist()) == [0, 1, 2, 3]
+
+
+def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
+    floor = HalfSpace(np.eye(3)[2], 0.0)
+    lying = Rotation.from_rotvec([0, np.pi / 2, 0]).as_matrix()
+    height = np.array([0, 0, 0.03])
+    caps = found(floor, Capsule(0.03, 0.1), lying, height, 2)
+    rims = found(floor, Cylinder(0.03, 0.1), lying, height, 2)
+    for points in (caps, rims):
+        np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose(
+            np.sort(points.beta[:, 0]), [-0.1, 0.1], rtol=EXACT, atol=CLOSED_FORM
+        )
+    standing = found(floor, Cylinder(0.03, 0.1), np.eye(3), np.array([0, 0, 0.1]), 4)
+    np.testing.assert_allclose(standing.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
+    around = np.hypot(standing.beta[:, 0], standing.beta[:, 1])
+    np.testing.assert_allclose(around, 0.03, rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_parallel_and_crossing_capsules_have_a_normal_at_right_angles_to_both() -> None:
+    one = Placed(Capsule(0.03, 0.1), np.eye(3), np.zeros(3))
+    crossing = Rotation.from_rotvec([0, np.pi / 3, 0]).as_matrix()
+    for R in (np.eye(3), crossing):
+        phi, _, _, n = solid_pair("p", one, Placed(Capsule(0.02, 0.1), R, np.zeros(3)))
+        np.testing.assert_allclose(phi, -0.05, rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose([n[2], n @ R[:, 2]], 0, rtol=EXACT, atol=CLOSED_FORM)
+    end_to_end = Placed(Capsule(0.02, 0.1), np.eye(3), np.array([0, 0, 0.3]))
+    phi, _, _, n = solid_pair("p", one, end_to_end)
+    np.testing.assert_allclose(phi, 0.1 - 0.05, rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(n, [0, 0, 1], rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_a_pose_that_is_not_finite_is_refused() -> None:
+    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((1, 6, 0)))
+    with pytest.raises(ContactError, match="poses: must be finite"):
+        closest_points([], still)
