@@ -137,13 +137,15 @@ def test_false_claims_are_refused(step, optimum, field, value):
 
 
 def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
-    """At the limit of friction one row carries all; an idle one beside it changes no claim."""
-    step = resting_point(tau_x=1.0)
+    """The unconstrained step of 0.75 m just touches x >= 0.75: a kink, whatever set it is in."""
+    row = np.eye(4)[:1]
+    step = resting_point(tau_x=3.0, contacts=0)
+    step = step.replace(extra=Extra(("touched",), row, np.array([0.75])))
     optimum = exact_step(step)
-    assert optimum.working_set == (2,)
     claims = exact_certificate(step, optimum)
-    wider = replace(claims, active=contact_rows(step, (2, 1)), smallest_active_multiplier=0.0)
-    assert not wider.differentiable
+    assert optimum.working_set == ()
+    assert not claims.differentiable
+    wider = replace(claims, active=((0, 0),), smallest_active_multiplier=0.0)
     assert verify(step, optimum.delta_q, wider.active, optimum.lam, wider)
     smooth = replace(wider, differentiable=True)
     reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
