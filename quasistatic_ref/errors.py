@@ -213,10 +213,14 @@ def one_line(text: str) -> str:
 def suggestion(name: str, known: Iterable[str]) -> str:
     """Return ``"; did you mean 'x'? Known: ..."`` for an unknown name."""
     names = sorted(known)
-    by_lower = {known_name.lower(): known_name for known_name in names}
+    return f"{nearest_name(name, names) or ';'} known: {', '.join(names) or 'none'}"
+
+
+def nearest_name(name: str, known: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'?"`` for an unknown name, or nothing if none is near."""
+    by_lower = {known_name.lower(): known_name for known_name in known}
     near = difflib.get_close_matches(name.lower(), by_lower, n=1)
-    hint = f"; did you mean {by_lower[near[0]]!r}?" if near else ""
-    return f"{hint or ';'} known: {', '.join(names) or 'none'}"
+    return f"; did you mean {by_lower[near[0]]!r}?" if near else ""
 
 
 def _rebuilt(

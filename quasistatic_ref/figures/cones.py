@@ -70,9 +70,9 @@ def pinch_thresholds(
     d = np.linspace(0.0, 0.06, offsets)
     slide, spin = mass * GRAVITY / (2 * mu_v), mass * GRAVITY * d / (2 * mu_omega)
     least = {
-        PYRAMID: slide + spin,  # (R1)
-        ELLIPSOID: np.hypot(slide, spin),  # (R2)
-        "product": np.maximum(slide, spin),  # (R3)
+        PYRAMID: slide + spin,  # (R21)
+        ELLIPSOID: np.hypot(slide, spin),  # (R22)
+        "product": np.maximum(slide, spin),  # (R23)
     }
     with paper_style():
         figure, axes = plt.subplots(figsize=(4.8, 3.4))
@@ -95,7 +95,7 @@ def pinch_thresholds(
                 )
         axes.set_xlabel("distance d of the centre of mass from the fingers' axis [mm]")
         axes.set_ylabel("squeeze N [N]")
-        axes.set_title("lines: (R1)-(R3); open: a step slips, filled: it holds", loc="left")
+        axes.set_title("lines: (R21)-(R23); open: a step slips, filled: it holds", loc="left")
         axes.legend(loc="upper left", title="cone")
     return figure
 

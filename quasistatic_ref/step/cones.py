@@ -18,7 +18,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import StepDataError, nearest_name
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
@@ -94,7 +94,8 @@ def cone(name: str) -> Cone:
             sides_named = tuple(f"side {k}" for k in range(K))
             return _cone(name, circle + _SPIN, sides_named + _SPIN_NAMES, K)
     raise StepDataError(
-        f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}",
+        f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
+        f"{nearest_name(str(name), CONES)}",
         field="cone",
         value=name,
     )

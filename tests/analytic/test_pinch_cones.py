@@ -1,4 +1,4 @@
-"""Two opposed soft fingers hold a bar off its axis: the least squeeze in each cone, (R1) to (R4).
+"""Two opposed soft fingers hold a bar off its axis: the least squeeze in each cone, (R21) to (R24).
 
 The derivation is in docs/cones.md. Each finger presses with N; at rest each carries m g / 2 along
 d2 and, the torque m g d being shared at will, half of it about the common normal. Below the
@@ -16,11 +16,13 @@ M, MU_V, MU_OMEGA, G = 0.2, 0.5, 0.02, 9.81
 SLIDE = M * G / (2 * MU_V)  # what the weight alone needs
 
 THRESHOLDS = {
-    "pyramid": lambda slide, spin: slide + spin,  # (R1)
-    "ellipsoid": np.hypot,  # (R2)
-    "product": max,  # (R3)
-    "facets-8": lambda slide, spin: slide + spin,  # (R4): d2 is a corner of the octagon
-    "facets-6": lambda slide, spin: slide / np.cos(np.pi / 6) + spin,  # (R4): d2 is a side's middle
+    "pyramid": lambda slide, spin: slide + spin,  # (R21)
+    "ellipsoid": np.hypot,  # (R22)
+    "product": max,  # (R23)
+    "facets-8": lambda slide, spin: slide + spin,  # (R24): d2 is a corner of the octagon
+    "facets-6": lambda slide, spin: (
+        slide / np.cos(np.pi / 6) + spin
+    ),  # (R24): d2 is a side's middle
 }
 OFFSETS = (0.0, 0.005, 0.02, 0.05)
 

@@ -10,6 +10,7 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import Certificate
+from tests.helpers import point_on_floor
 from tests.unit.test_exact import resting_point
 from validation.random_steps import grasp_step
 
@@ -149,6 +150,19 @@ def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
     smooth = replace(wider, differentiable=True)
     reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
     assert "differentiable" in reason
+
+
+def test_a_working_row_without_load_does_not_count_as_strictly_active():
+    # A body at rest on a smooth floor that nothing presses on: four equal rows, all multipliers 0.
+    # Naming one of them as the working set is valid; it holds on one side only all the same.
+    step = point_on_floor(mu_v=0.0)
+    honest = exact_certificate(step, exact_step(step))
+    assert honest.active == ()
+    assert not honest.differentiable
+    claims = replace(honest, active=((0, 0),), smallest_active_multiplier=0.0)
+    assert verify(step, np.zeros(3), claims.active, np.zeros(4), claims)
+    smooth = replace(claims, differentiable=True)
+    assert "differentiable" in verify(step, np.zeros(3), claims.active, np.zeros(4), smooth).reason
 
 
 @pytest.mark.parametrize("phi", [0.0, 1e-3])
