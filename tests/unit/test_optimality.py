@@ -159,3 +159,14 @@ def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, ex
     assert found.primal == 0.0
     inside = ellipsoid_residuals(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
     assert inside.dual == 0.0
+
+
+def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
+    """x >= 0.3 and y >= 0.1 at rest; multipliers of -0.7 and -0.2."""
+    step = sphere_on_floor().replace(
+        cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], np.array([0.3, 0.1]))
+    )
+    found = ellipsoid_residuals(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
+    near(found.primal, 0.3)
+    near(found.dual, 0.7)
+    near(found.complementarity, 0.3 * 0.7)
