@@ -162,7 +162,7 @@ def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, ex
 
 
 def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
-    """x >= 0.3 and y >= 0.1 at rest; multipliers of -0.7 and -0.2."""
+    """At rest with x >= 0.3 and y >= 0.1; multipliers of -0.7 and -0.2."""
     step = sphere_on_floor().replace(
         cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], np.array([0.3, 0.1]))
     )
