@@ -25,7 +25,7 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
     q = trajectory["q"]
     held, pivoting = (scenario.system.joint(f"{name}/base") for name in ("held", "pivoting"))
     np.testing.assert_allclose(q[-1, held.q], q[0, held.q], rtol=0, atol=SCENARIO)
-    # delta_q is the twist at the centre of mass: it sinks by the slip and by omega times the offset.
+    # delta_q is the twist at the centre of mass, which sinks by slip and turn.
     expected = H * omega * np.array([0, 0, -(a + offset), 1, 0, 0])
     twist = trajectory["delta_q"][0, pivoting.v]
     np.testing.assert_allclose(twist, expected, rtol=SCENARIO, atol=SCENARIO * H * omega)
