@@ -97,3 +97,6 @@ are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the
 SCENARIO: Final = 1e-6
 """Steady states of whole scenarios against their closed forms: exact steps, but transients of a few
 hundred of them and poses that are rounded at each."""
+
+FIRST_ORDER: Final = 1e-3
+"""Steady motions whose closed form holds to first order in h, or at the start of a slow turn."""

@@ -14,7 +14,7 @@ from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.simulate.paths import path_in
+from quasistatic_ref.simulate.paths import path_in, shared_folders
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
 
@@ -110,7 +110,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
             xyz=tuple(xyz),
             rpy=tuple(rpy),
             positions=start,
-            package_dirs=tuple(folder / given for given in package_dirs),
+            package_dirs=(*(folder / given for given in package_dirs), *shared_folders(urdf)),
         ),
         table=table,
         K_q=table.take("K_q", None),

@@ -3,14 +3,22 @@
 A path in a scenario file is relative to the file's folder and leads to a file inside it, symbolic
 links followed: a scenario from somebody else reads nothing but what came with it. A path given by
 ``--set`` is the user's own, and may lead anywhere.
+
+``package://NAME/PATH`` is a file of an installed Python package that keeps robots, as those of
+PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, beside the modules of Python.
 """
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.model.mesh_files import PACKAGE
+
+SHARED = Path("cmeel.prefix", "share")
+"""Where installed packages keep robots, beside the modules of Python."""
 
 
 class OwnWord(str):
@@ -25,13 +33,16 @@ def path_in(folder: Path, table: Fields, field: str) -> Path | None:
     Raises
     ------
     ScenarioError
-        If it leads out of the folder, or cannot be a path.
+        If it leads out of the folder, cannot be a path, or names a package or a file of one that
+        is not installed.
     """
     text = table.text(field, None)
     if text is None:
         return None
     if not text.strip():
         raise table.fail(field, "must name a file", text)
+    if text.startswith(PACKAGE):
+        return _installed(table, field, text)
     path = folder / text
     if isinstance(text, OwnWord):
         return path
@@ -42,6 +53,30 @@ def path_in(folder: Path, table: Fields, field: str) -> Path | None:
     if not inside:
         raise _leaves(table, field, text)
     return path
+
+
+def shared_folders(path: Path) -> list[Path]:
+    """Folders of installed packages that a file lies in: where its own ``package://`` is sought."""
+    return [folder for folder in _shared() if path.is_relative_to(folder)]
+
+
+def _shared() -> list[Path]:
+    return [Path(place) / SHARED for place in dict.fromkeys(sys.path)]
+
+
+def _installed(table: Fields, field: str, text: str) -> Path:
+    name, _, inside = text.removeprefix(PACKAGE).partition("/")
+    try:
+        for shared in _shared():
+            path, package = shared / name / inside, (shared / name).resolve()
+            if path.is_file() and package.parent == shared.resolve():
+                if path.resolve().is_relative_to(package):
+                    return path
+                raise table.fail(field, "leads out of the package", text)
+    except (ValueError, RuntimeError, OSError) as error:
+        raise table.fail(field, f"cannot be a path: {error}", text) from None
+    remedy = "robots come with pip install quasistatic-ref[robots]"
+    raise table.fail(field, f"is no file of an installed package; {remedy}", text)
 
 
 def _leaves(table: Fields, field: str, text: str) -> ScenarioError:

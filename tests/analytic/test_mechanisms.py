@@ -1,0 +1,72 @@
+"""Grippers, hinges and gantries: each claim is that of the scenario's README."""
+
+import numpy as np
+
+from quasistatic_ref import load_scenario
+from quasistatic_ref.simulate.trajectory import certified
+from tests.tolerances import FIRST_ORDER, SCENARIO
+
+G, H = 9.81, 0.01
+
+
+def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
+    m, inertia, K_q, N_0 = 0.2, 1.0666666666666667e-3, 1e3, 5.0
+    mu_v, mu_omega, offset = 0.5, 0.02, 0.069
+    assert 0.055 < mu_omega * (2 * N_0 / (m * G) - 1 / mu_v) < offset
+    a = mu_omega / mu_v
+    omega = (
+        H
+        * (m * G * (a + offset) - 2 * mu_omega * N_0)
+        / (m * (a + offset) ** 2 + inertia + 2 * K_q * mu_omega**2 * H**2)
+    )
+    scenario = load_scenario("two_finger_pinch")
+    trajectory = scenario.run(progress=False)
+    assert certified(trajectory) == "100 of 100 steps exact"
+    q = trajectory["q"]
+    held, pivoting = (scenario.system.joint(f"{name}/base") for name in ("held", "pivoting"))
+    np.testing.assert_allclose(q[-1, held.q], q[0, held.q], rtol=0, atol=SCENARIO)
+    # delta_q is the twist at the centre of mass, which sinks by slip and turn.
+    expected = H * omega * np.array([0, 0, -(a + offset), 1, 0, 0])
+    twist = trajectory["delta_q"][0, pivoting.v]
+    np.testing.assert_allclose(twist, expected, rtol=SCENARIO, atol=SCENARIO * H * omega)
+    angle = 2 * np.arcsin(q[-1, pivoting.q][3])
+    np.testing.assert_allclose(angle, omega * 100 * H, rtol=FIRST_ORDER, atol=0)
+    np.testing.assert_allclose(trajectory["phi"][1, 2:], mu_omega * H * omega, rtol=SCENARIO)
+
+
+def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
+    inertia, K_q, r, w = 0.1 + 2 * 0.4**2, 2000.0, 0.6, 0.045
+    scenario = load_scenario("door")
+    trajectory = scenario.run(progress=False)
+    assert certified(trajectory) == "500 of 500 steps exact"
+    M_u = scenario.system.M_u(scenario.system.q_start)
+    np.testing.assert_allclose(M_u, [[inertia]], rtol=SCENARIO, atol=0)
+    x, theta = trajectory["q"][1:].T
+    pushed = slice(120, 400)  # in touch, on the move
+    place = r * np.tan(theta) - w / np.cos(theta)
+    np.testing.assert_allclose(x[120:], place[120:], rtol=0, atol=SCENARIO)
+    before = trajectory["q"][:-1, 1]
+    s = r / np.cos(before) - w * np.tan(before)
+    v = trajectory["delta_q"][:, 0] / H
+    lag = trajectory["q_bar_a"][:, 0] - x
+    expected = inertia * v * np.cos(before) ** 2 / (H * K_q * s**2)
+    np.testing.assert_allclose(v[pushed], 0.1, rtol=0.011, atol=0)
+    np.testing.assert_allclose(lag[pushed], expected[pushed], rtol=FIRST_ORDER, atol=0)
+    np.testing.assert_allclose(x[-1], 0.345, rtol=0, atol=SCENARIO)
+    np.testing.assert_allclose(theta[-50:], theta[-1], rtol=0, atol=SCENARIO)
+    np.testing.assert_allclose(np.degrees(theta[-1]), 33.63, rtol=0, atol=0.005)
+
+
+def test_a_peg_finds_its_hole_and_lags_by_the_friction_of_two_walls() -> None:
+    v, mu_v, c, K = 0.01, 0.2, 0.0005, np.array([500.0, 500.0, 2000.0])
+    e = np.array([0.003, 0.002])
+    trajectory = load_scenario("peg_in_hole").run(progress=False)
+    assert certified(trajectory) == "400 of 400 steps exact"
+    b = mu_v * H * v
+    N = K[:2] * (e - c + b)
+    q, forces = trajectory["q"][201:], trajectory["wrench"][200:, :, 2]
+    east_west_north_south = np.array([N[0], 0, N[1], 0])
+    np.testing.assert_allclose(forces - east_west_north_south, 0, rtol=0, atol=SCENARIO)
+    np.testing.assert_allclose(q[:, :2] - (c - b), 0, rtol=0, atol=SCENARIO * c)
+    lag = q[:, 2] - trajectory["q_bar_a"][200:, 2]
+    np.testing.assert_allclose(lag, mu_v * N.sum() / K[2], rtol=SCENARIO, atol=0)

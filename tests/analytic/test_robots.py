@@ -1,0 +1,28 @@
+"""Robots of the extra `robots`, found where they are installed: each claim is its README's."""
+
+import numpy as np
+
+from quasistatic_ref import load_scenario
+from quasistatic_ref.simulate.trajectory import certified
+from tests.tolerances import FIRST_ORDER, SCENARIO
+
+G, H = 9.81, 0.01
+
+
+def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None:
+    m, mu_v, K_q = 0.4, 0.4, 7000.0
+    scenario = load_scenario("panda_push")
+    trajectory = scenario.run(progress=False)
+    assert certified(trajectory) == "400 of 400 steps exact"
+    system, q = scenario.system, trajectory["q"]
+    block = system.joint("block/base")
+    axes = [system.link(f"panda/panda_link{i}") for i in (2, 4, 6)]
+    for k in (100, 250, 399):
+        F = mu_v * m * G + m * trajectory["delta_q"][k, block.v][0] / H**2
+        z_2, z_4, z_6 = system.kinematics(q[k]).t[axes, 2]
+        tau = K_q * (trajectory["q_bar_a"][k] - q[k + 1, : system.n_q_a])[:7]
+        np.testing.assert_allclose(tau[1] + tau[3], F * (z_4 - z_2), rtol=FIRST_ORDER, atol=0)
+        np.testing.assert_allclose(tau[3] - tau[5], F * (z_4 - z_6), rtol=FIRST_ORDER, atol=0)
+        np.testing.assert_allclose(tau[[0, 2, 4, 6]], 0, rtol=0, atol=SCENARIO)
+    pushed = q[-1, block.q][:3] - q[0, block.q][:3]
+    np.testing.assert_allclose(pushed[:2], [0.0386, 0], rtol=0, atol=5e-5)
