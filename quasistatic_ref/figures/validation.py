@@ -138,7 +138,13 @@ def planar_push(picture: Picture) -> Figure:
     rho = picture["rho"]
     line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
-        axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), color="black", linewidth=1)
+        axes.plot(
+            line,
+            (1 + line) / (1 + line * (rho / c) ** 2),
+            color="black",
+            linewidth=1,
+            linestyle="-",
+        )
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
         axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
     axes.set(xscale="log", xlabel=r"quasi-dynamic number $\Pi$", ylabel="turn / Lynch's turn")
