@@ -132,6 +132,27 @@ def pushed_block(picture: Picture) -> Figure:
     return figure
 
 
+def planar_push(picture: Picture) -> Figure:
+    """Turn of a pushed slider over that of the quasi-static law, against its speed."""
+    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    rho = picture["rho"]
+    line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
+    for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
+        axes.plot(
+            line,
+            (1 + line) / (1 + line * (rho / c) ** 2),
+            color="black",
+            linewidth=1,
+            linestyle="-",
+        )
+        label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
+        axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
+    axes.set(xscale="log", xlabel=r"quasi-dynamic number $\Pi$", ylabel="turn / Lynch's turn")
+    axes.set_title(f"h = {1e3 * picture['h']:g} ms, friction ellipsoid; lines: (R28)", loc="right")
+    axes.legend()
+    return figure
+
+
 def patch_torsion(picture: Picture) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
     figure, axes = plt.subplots(figsize=(4.6, 2.8))
@@ -213,6 +234,7 @@ PICTURES: Final[dict[str, Callable[[Picture], Figure]]] = {
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
         patch_torsion, flat_patch, peg_wedging, mujoco_friction,
+        planar_push,
     )
 }  # fmt: skip
 """Claim -> its figure."""

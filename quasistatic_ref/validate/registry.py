@@ -1,8 +1,4 @@
-"""Every claim by name.
-
-Claims about the ellipsoidal cone (planar pushing under a limit surface) belong behind the closed
-forms, when that cone can be solved.
-"""
+"""Every claim by name."""
 
 from __future__ import annotations
 
@@ -20,6 +16,7 @@ from quasistatic_ref.validate.closed_forms import (
     patch_torsion,
     peg,
     pinch,
+    planar_push,
     pushed_block,
     rolling,
     sliding_point,
@@ -39,7 +36,7 @@ SECTIONS: Final[dict[str, tuple[ModuleType, ...]]] = {
     "The paper's claims": (grasp, contact_geometry, boundary_layer, step_time, structure, sticking),
     "Closed forms": (
         impedance, fall, spinning_sphere, sliding_point, octahedron, incline, rolling, pushed_block,
-        pinch, patch_torsion, flat_patch, peg, couple,
+        pinch, patch_torsion, flat_patch, peg, couple, planar_push,
     ),
     "Independent engines": (mujoco_rows, mujoco_friction, by_hand, drake),
 }  # fmt: skip

@@ -1,0 +1,64 @@
+"""A slider pushed on the plane, (R28) of docs/derivations.md, against its formulas as written.
+
+`quasistatic-ref validate planar_push` sweeps steps against the closed form; here the closed form
+is held against what it has to satisfy, and steps against laws that do not need it.
+"""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.validate.slider import push, push_step, sliding_motion, sticking_motion
+from tests.tolerances import ROUNDING
+
+X_C, Y_C, U_X, U_Y, C = 0.03, -0.02, 0.6, 0.8, 0.025
+POINT, MOVED = np.array([X_C, Y_C]), np.array([U_X, U_Y])
+
+
+def test_a_sticking_push_is_lynchs_formula_by_components():
+    # v_x = ((c^2 + x^2) u_x + x y u_y) / (c^2 + x^2 + y^2), v_y alike;
+    # omega = (x v_y - y v_x) / c^2.
+    below = C**2 + X_C**2 + Y_C**2
+    v_x = ((C**2 + X_C**2) * U_X + X_C * Y_C * U_Y) / below
+    v_y = (X_C * Y_C * U_X + (C**2 + Y_C**2) * U_Y) / below
+    expected = [v_x, v_y, (X_C * v_y - Y_C * v_x) / C**2]
+    motion = sticking_motion(POINT, MOVED, C**2)
+    np.testing.assert_allclose(motion, expected, rtol=ROUNDING, atol=0.0)
+    # The touched point moves as the pusher: u = v + omega (-y, x).
+    touched = motion[:2] + motion[2] * np.array([-Y_C, X_C])
+    np.testing.assert_allclose(touched, MOVED, rtol=ROUNDING, atol=0.0)
+
+
+def test_a_push_without_friction_turns_by_its_arm():
+    # v along n; omega / v = (x n_y - y n_x) / c^2; the point advances by 1 along n.
+    motion = sliding_motion(POINT, MOVED, C**2)
+    arm = X_C * U_Y - Y_C * U_X
+    speed = motion[:2] @ MOVED
+    np.testing.assert_allclose(motion[:2], speed * MOVED, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(motion[2] / speed, arm / C**2, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(speed + arm * motion[2], 1.0, rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("sticks", [True, False])
+def test_the_support_moves_along_the_normal_of_its_limit_surface_at_any_speed(sticks):
+    of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.8, lifted=0.5, sticks=sticks)
+    answer = solve_step(push_step(of), "clarabel")
+    assert answer.certificate.kind == "enclosure"
+    f_1, f_2, N, tau = answer.wrench[0]
+    mu_omega = 0.4 * C
+    on_it = (f_1**2 + f_2**2) / (0.4 * N) ** 2 + tau**2 / (mu_omega * N) ** 2
+    np.testing.assert_allclose(on_it, 1.0, rtol=ROUNDING, atol=0.0)
+    # The gradient of that, against which it slips; in lengths, at the radius c.
+    gradient = -np.array([f_1, f_2, tau / C**2]) * [1, 1, C]
+    motion = answer.delta_q[[2, 3, 5]] * [1, 1, C]
+    unit = motion / np.linalg.norm(motion)
+    np.testing.assert_allclose(gradient / np.linalg.norm(gradient), unit, rtol=0.0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("lifted", [0.0, 1.0])
+def test_lynchs_law_with_the_wrong_c_is_told_apart(lifted):
+    # At Pi = 0.5 and rho = 30 mm beside c = 25 mm: 1.5 / (1 + 0.5 * 1.44) of Lynch's turn.
+    of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.5, lifted=lifted, sticks=True)
+    _, _, v_x, v_y, _, omega = solve_step(push_step(of), "clarabel").delta_q
+    ratio = C**2 * omega / (X_C * v_y - Y_C * v_x)
+    np.testing.assert_allclose(ratio, 1.5 / 1.72, rtol=ROUNDING, atol=0.0)
