@@ -154,6 +154,7 @@ class Workbench:
         """
         folder = self._free.get()
         path = folder / "quasistatic_ref" / mutant.file
+        kept = shutil.copy2(path, path.with_suffix(".kept"))
         try:
             path.write_text(mutant.source)
             first, *others = TESTS[mutant.file]
@@ -163,7 +164,7 @@ class Workbench:
                 return said
             return self._tried(folder, others, SECONDS["others"])
         finally:
-            shutil.copy2(PACKAGE / mutant.file, path)
+            os.replace(kept, path)  # not from the checkout, which may have changed meanwhile
             self._free.put(folder)
 
     @staticmethod

@@ -7,6 +7,8 @@ an ordinary :class:`cvxpy.Problem`: print it, inspect it, extend it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cvxpy as cp
 import numpy as np
 
@@ -68,25 +70,6 @@ class StepProblem:
             friction = [cp.SOC(slack[0], cp.vstack([A_i @ delta_q for A_i in A[1:]]))]
         extra = [A_x @ delta_q >= b_x] if like.extra.names else []
 
-        # A user's own terms, in SI units.
-        one = scale or Scale(np.ones(n_v), 1.0, 1.0)
-        own = (
-            []
-            if extension is None
-            else extension.terms(
-                Symbols(
-                    delta_q=cp.multiply(one.coordinate, delta_q),
-                    delta_q_a=cp.multiply(one.coordinate[:n_a], delta_q_a),
-                    delta_q_u=cp.multiply(one.coordinate[n_a:], delta_q_u),
-                    delta_q_bar_a=cp.multiply(one.coordinate[:n_a], delta_q_bar_a),
-                    slack=tuple(one.length * slack_i for slack_i in slack),
-                )
-            )
-        )
-        own_constraints = [term for term in own if isinstance(term, cp.Constraint)]
-        own_costs = [term for term in own if not isinstance(term, cp.Constraint)]
-        own_cost = sum(own_costs) / one.cost if own_costs else 0
-
         # Eq. (13); a term without coordinates is left out.
         impedance = n_a and not (extension is not None and extension.without_stiffness)
         stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if impedance else 0
@@ -94,15 +77,14 @@ class StepProblem:
         work_a = h * ((tau_k + tau_a) if impedance else tau_a) @ delta_q_a if n_a else 0
         work_u = h * tau_u @ delta_q_u if n_u else 0
         objective = stiffness + inertia - work_a - work_u
-        self.problem = cp.Problem(
-            cp.Minimize(objective + own_cost), friction + extra + own_constraints
-        )
 
         self.delta_q_a, self.delta_q_u, self.delta_q = delta_q_a, delta_q_u, delta_q
         self.K_q, self.M_u, self.tau_k, self.tau_a, self.tau_u = K_q, M_u, tau_k, tau_a, tau_u
         self.delta_q_bar_a, self.phi, self.A, self.A_x, self.b_x = delta_q_bar_a, phi, A, A_x, b_x
-        self.having, self.friction, self.extra = having, friction, extra
-        self.own_constraints, self.own_costs = own_constraints, own_costs
+        self.having, self.slack, self.friction, self.extra = having, slack, friction, extra
+        own_cost = self._add_own(extension, scale or Scale(np.ones(n_v), 1.0, 1.0))
+        constraints = friction + extra + self.own_constraints
+        self.problem = cp.Problem(cp.Minimize(objective + own_cost), constraints)
 
     def fits(self, step: StepData) -> bool:
         """Tell whether a step can be filled in without building another problem."""
@@ -158,6 +140,23 @@ class StepProblem:
                 lam[j, i] = constraint.dual_value
         own = [constraint.dual_value for constraint in self.extra]
         return np.concatenate([lam[self.mask], *own])
+
+    def _add_own(self, extension: Extension | None, one: Scale) -> cp.Expression | float:
+        """Keep a user's constraints and costs, and return the costs in units of the problem."""
+        own: Sequence[cp.Constraint | cp.Expression] = ()
+        if extension is not None:
+            a, u = one.coordinate[: self.n_a], one.coordinate[self.n_a :]
+            symbols = Symbols(
+                delta_q=cp.multiply(one.coordinate, self.delta_q),
+                delta_q_a=cp.multiply(a, self.delta_q_a),
+                delta_q_u=cp.multiply(u, self.delta_q_u),
+                delta_q_bar_a=cp.multiply(a, self.delta_q_bar_a),
+                slack=tuple(one.length * slack_i for slack_i in self.slack),
+            )
+            own = extension.terms(symbols)
+        self.own_constraints = [term for term in own if isinstance(term, cp.Constraint)]
+        self.own_costs = [term for term in own if not isinstance(term, cp.Constraint)]
+        return sum(self.own_costs) / one.cost if self.own_costs else 0
 
 
 def _set(parameter: cp.Parameter, value: Array) -> None:

@@ -3,9 +3,20 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.certify.optimality import (
+    Residuals,
+    ellipsoid_residuals,
+    optimality_residuals,
+)
 from quasistatic_ref.step.data import Extra
-from tests.helpers import changed, contact_row, no_contacts, planted_step, random_step
+from tests.helpers import (
+    changed,
+    contact_row,
+    no_contacts,
+    planted_step,
+    random_step,
+    sphere_on_floor,
+)
 from tests.tolerances import ROUNDING
 
 SIZES = [1e-6, 1e-3, 1.0]
@@ -128,3 +139,23 @@ def test_without_contacts_only_stationarity_is_left(rng):
     found = optimality_residuals(step, rng.normal(size=7), np.zeros(0))
     assert found.stationarity > 0
     assert (found.primal, found.dual, found.complementarity) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("mu_omega", "tau_n", "excess"),
+    [
+        (0.02, 0.0, 3.0),  # ||(3, 4, 0)|| - 2
+        (0.02, 0.02 * 12, 11.0),  # ||(3, 4, 12)|| - 2
+        (0.0, 0.0, 3.0),
+        (0.0, 7.0, 7.0),  # a torque without a coefficient is itself the excess
+    ],
+)
+def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, excess):
+    """f_n = 2 and tangential impulses of (3, 4) mu_v, in the order (n, d1, d2, spin)."""
+    step = sphere_on_floor(mu_v=0.5, mu_omega=mu_omega).replace(cone="ellipsoid")
+    lam = np.array([2.0, 0.5 * 3, 0.5 * 4, tau_n])
+    found = ellipsoid_residuals(step, np.zeros(6), lam)
+    assert found.dual == pytest.approx(excess, rel=1e-12)
+    assert found.primal == 0.0
+    inside = ellipsoid_residuals(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
+    assert inside.dual == 0.0

@@ -10,9 +10,6 @@ from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import planted_step
 from tests.tolerances import DIFFCP
 
-# An optional extra ("diff"): nothing else in the package needs it.
-pytest.importorskip("diffcp", reason="the optional extra 'diff' is not installed")
-
 
 @pytest.mark.parametrize("seed", range(5))
 def test_derivatives_by_forces_and_gaps_agree_with_diffcp(seed):
