@@ -26,3 +26,31 @@ def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None
         np.testing.assert_allclose(tau[[0, 2, 4, 6]], 0, rtol=0, atol=SCENARIO)
     pushed = q[-1, block.q][:3] - q[0, block.q][:3]
     np.testing.assert_allclose(pushed[:2], [0.0386, 0], rtol=0, atol=5e-5)
+
+
+def test_a_finger_of_the_allegro_hand_rolls_on_the_drum_that_it_turns() -> None:
+    R, rho, axle = 0.03, 0.012, np.array([0.055, 0.0, 0.0525])
+    scenario = load_scenario("allegro_turn")
+    trajectory = scenario.run(progress=False)
+    assert certified(trajectory) == "300 of 300 steps exact"
+    system = scenario.system
+    tip, drum = system.link("hand/link_7.0_tip"), system.joint("roller/axle")
+    poses = [system.kinematics(q) for q in trajectory["q"]]
+    x, _, z = np.transpose([pose.t[tip] - axle for pose in poses])
+    turned = np.array([pose.R[tip] for pose in poses])
+    gamma = np.arctan2(x, z)
+    psi = np.arctan2(turned[:, 0, 2], turned[:, 2, 2])  # about y, the axle's direction
+    theta = np.concatenate([np.zeros(1), np.cumsum(trajectory["delta_q"][:, drum.v])])
+    touch = 1 + int(np.argmax(trajectory["wrench"][:, 1, 2] > 0))
+    rolled = ((R + rho) * gamma - rho * psi) / R
+    since = (theta - theta[touch])[touch:]
+    np.testing.assert_allclose(since, (rolled - rolled[touch])[touch:], rtol=0, atol=FIRST_ORDER)
+    np.testing.assert_allclose(theta[-1] - theta[50], 1.03, rtol=0, atol=0.005)
+
+
+def test_without_friction_the_hand_does_not_turn_the_drum() -> None:
+    scenario = load_scenario("allegro_turn", ["contacts.tips.mu_v=0"])
+    trajectory = scenario.run(progress=False)
+    assert (trajectory["wrench"][-1, :, 2] > 0).all()
+    drum = scenario.system.joint("roller/axle")
+    np.testing.assert_allclose(trajectory["delta_q"][:, drum.v], 0, rtol=0, atol=SCENARIO)
