@@ -34,7 +34,7 @@ def main() -> None:
         (wheel,) = folder.glob("*.whl")
         output([sys.executable, "-m", "venv", folder / "venv"], folder)
         binary = folder / "venv" / "bin"
-        output([binary / "pip", "install", "-q", f"{wheel}[engines]"], folder)
+        output([binary / "pip", "install", "-q", f"{wheel}[engines,robots]"], folder)
         empty = folder / "empty"
         empty.mkdir()
 
@@ -63,8 +63,13 @@ def main() -> None:
                 print(f"  {claim['name']}: {claim['verdict']}")
         good = good and validated < VALIDATE_SECONDS
         good = good and (empty / "validation" / "claims.md").stat().st_size > 0
+        for scenario in sorted(path.stem for path in (ROOT / "models").glob("*/*.toml")):
+            done = json.loads(
+                output([binary / "quasistatic-ref", "run", scenario, "--json"], empty)
+            )
+            good = good and done["certified"] == f"{done['steps']} of {done['steps']} steps exact"
+            print(f"run {scenario}: {done['certified']}")
         for command in (
-            ["run", "sphere_spin"],
             ["extract", "results/sphere_spin.npz", "--step", "150", "-o", "step.json"],
             ["solve", "step.json", "-o", "solution.json"],
             ["verify", "step.json", "solution.json"],

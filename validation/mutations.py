@@ -1,4 +1,4 @@
-"""Mutants of the paper's page and of the judge: which of them the tests notice.
+"""Mutants of the paper's page, the judge, contacts and coordinates: which the tests notice.
 
 Run ``python -m validation.mutations`` (about half an hour on two cores; name files of the package
 to try only theirs, or ``--sample 100``). Each mutant is put into a temporary copy of the package,
@@ -56,6 +56,12 @@ EXACT = (
     "properties/test_exact_against_enumeration.py",
 )
 
+SYSTEM = ("unit/test_system.py", "unit/test_system_forces.py", "unit/test_system_refusals.py")
+CONTACT = (
+    "equations/test_eq02_relative_velocity.py",
+    "equations/test_eq03_contact_jacobian.py",
+)
+
 
 def ordered(own: str) -> tuple[str, ...]:
     """The tests of the exact method, those of one unit first."""
@@ -83,6 +89,12 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/certificate.py": ordered("certificate"),
     "certify/norm.py": ("unit/test_digits.py", "unit/test_farkas.py"),
     "certify/digits.py": ("unit/test_digits.py",),
+    "model/coordinates.py": ("unit/test_system.py",),
+    "model/rotation.py": ("unit/test_system.py", "unit/test_target.py", "unit/test_urdf.py"),
+    "model/system.py": SYSTEM,
+    "contact/jacobian.py": ("unit/test_jacobian.py", *CONTACT),
+    "contact/cloud.py": ("unit/test_cloud.py",),
+    "contact/pairs.py": ("unit/test_pairs.py", "unit/test_jacobian.py"),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""
 
