@@ -8,7 +8,6 @@ import sys
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
-from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.grasp import CASES, CLOSED, grasp_report
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -37,8 +36,6 @@ def run(options: argparse.Namespace) -> int:
             runs[case] = scenario.run()
         except RunFailed as failure:
             return shared.failed_run_saved(failure, options.out, stem)
-        if fast := warning(runs[case].header):
-            print(fast, file=sys.stderr)
         runs[case].save(options.out / f"{stem}.npz")
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
-from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
 from quasistatic_ref.step.cones import cone
@@ -50,9 +48,6 @@ def run(options: argparse.Namespace) -> int:
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
         "milliseconds_per_step": milliseconds,
     }
-    fast = warning(trajectory.header)
-    if fast is not None:
-        print(f"quasistatic-ref: {fast}", file=sys.stderr)
     if options.json:
         shared.print_json(summary)
         return 0

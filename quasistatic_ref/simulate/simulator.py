@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.recorder import Recorder
@@ -79,7 +81,7 @@ class Simulator:
     extension : callable, optional
         q -> constraints and costs of the user's own at q, for every step.
     limits : Limits, optional
-        Beyond which no step is taken.
+        Beyond which no step is taken; those of :class:`Limits` by default.
     """
 
     def __init__(
@@ -96,7 +98,7 @@ class Simulator:
         certify: str = "full",
         cone: str = PYRAMID,
         extension: Callable[[Array], Extension] | None = None,
-        limits: Limits = Limits(),  # noqa: B008 - it is frozen
+        limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
@@ -104,7 +106,7 @@ class Simulator:
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
         self.cone, self.extension = cone, extension
-        self.limits = limits
+        self.limits = Limits() if limits is None else limits
         self.problem: StepProblem | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -202,7 +204,8 @@ def simulate(
     record : str
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
-        Whether to show a progress bar on standard error, where that is a terminal.
+        Whether to show a progress bar on standard error, where that is a terminal, and to warn
+        there, in a sentence, of a run that is not slow (docs/artifacts.md).
 
     Returns
     -------
@@ -237,7 +240,10 @@ def simulate(
                 raise RunFailed(reason, recorder.trajectory(reason), step) from failure
             recorder.add(t, goal, result)
             q = result.q
-    return recorder.trajectory()
+    trajectory = recorder.trajectory()
+    if progress and (fast := warning(trajectory.header)):
+        print(f"quasistatic-ref: {fast}", file=sys.stderr)
+    return trajectory
 
 
 def _target_function(simulator: Simulator, target: Target | Array, steps: int) -> Target:

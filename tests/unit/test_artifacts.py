@@ -86,3 +86,4 @@ def test_a_falling_body_is_warned_of_in_one_sentence_on_standard_error(tmp_path,
     assert errors.startswith("quasistatic-ref: the quasi-dynamic number of this run reaches 2:")
     run = load_scenario("sphere_spin", settings).run(progress=False)
     np.testing.assert_allclose(run.header["quasi_dynamic_number"], 2.0, rtol=ROUNDING, atol=0.0)
+    assert capsys.readouterr().err == ""  # nor is it said where no progress is shown
