@@ -185,7 +185,8 @@ def full_disk(size):
 
 @pytest.mark.parametrize("size", [0, 3000])
 def test_a_full_folder_leaves_nothing_half_written(tmp_path, refused, size):
-    scene, soft = scene_written(tmp_path), resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+    slow = changed(SCENE, ("bodies/rail/targets/1/t", 100.0), ("bodies/ball/wrenches", ...))
+    scene, soft = scene_written(tmp_path, slow), resource.getrlimit(resource.RLIMIT_FSIZE)[0]
     (tmp_path / "out").mkdir()
     full_disk(size)
     try:
