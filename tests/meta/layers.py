@@ -20,6 +20,7 @@ ROOMS = (
     "study",
     "validate",
     "figures",
+    "examples",
     "cli",
 )
 
