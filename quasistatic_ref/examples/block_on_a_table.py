@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 M, MU_V, H, HALF = 0.5, 0.4, 0.01, 0.05
 """Mass [kg], friction [-], time step [s], half of the block's side [m]."""
 
+SETTINGS = ("steps=5", "bodies.pusher.pose.xyz=[-1, 0, 0.05]")
+"""Of the scenario block_push: at rest, the pusher far away."""
+
 PULLS = np.linspace(0.0, 2.0, 21)
 """Over mu_v m g [-]."""
 
@@ -43,7 +46,7 @@ def slips(pulls: Array) -> Array:
 
 def main() -> Numbers:
     """The load of the corners at rest, and slips on both sides of the threshold."""
-    _, run = ran("block_push", "steps=10")
+    _, run = ran("block_push", *SETTINGS)
     below, beyond = slips(np.array([0.99, 1.5]))
     return {
         "load on the four corners [N]": run["wrench"][-1, :4, 2].sum(),
@@ -57,8 +60,8 @@ def main() -> Numbers:
 def figure() -> Figure:
     """The block at rest with its forces; slip against pull."""
     page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("block_push", "steps=10")
-    draw_scene(left, moment(scenario, run, -1), view="xz")
+    scenario, run = ran("block_push", *SETTINGS)
+    draw_scene(left, moment(scenario, run, -1), view="xz", around=(HALF * Z, 1.6 * HALF))
     right.plot(PULLS, 1e3 * slips(PULLS), marker="o", markersize=3)
     right.set(xlabel=r"pull / ($\mu_v m g$) [-]", ylabel="slip in one step [mm]")
     right.set_title(f"h = {1e3 * H:g} ms, friction pyramid", loc="right")

@@ -49,7 +49,7 @@ def figure() -> Figure:
         right.plot(run["t"], force, label=wall)
     right.set(xlabel="time t [s]", ylabel="normal force of a wall [N]")
     right.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-    right.legend()
+    right.legend(loc="center right")
     return page
 
 

@@ -42,7 +42,7 @@ def limit_surfaces() -> Figure:
                         alpha=0.5,
                     )
                 )
-            axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1), box_aspect=(1, 1, 1))
+            axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), box_aspect=(1, 1, 1))
             axes.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zticks=(-1, 0, 1))
             axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=-6)
             axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=-6)

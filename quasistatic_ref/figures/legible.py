@@ -28,7 +28,9 @@ DRAWING: Final = "drawing"
 """Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
 
 UNIT = re.compile(r"\[[^\]]+\]$")
-NUMBER = re.compile(r"^(\\mathdefault|\\times|[-+\u2212.$^{}e\s])*\d(\\times|[-+\u2212.$^{}e\d\s])*$")
+NUMBER = re.compile(
+    r"^(\\mathdefault|\\times|[-+\u2212.$^{}e\s])*\d(\\times|[-+\u2212.$^{}e\d\s])*$"
+)
 
 
 def faults(figure: Figure, style: str = "paper") -> list[str]:
@@ -60,7 +62,7 @@ def _axis_map(axes: Any) -> list[tuple[str, Any]]:
 
 def _small_text(figure: Figure, shrunk: float, least: float) -> Iterator[str]:
     for text in figure.findobj(Text):
-        size = text.get_fontsize() * shrunk
+        size = float(text.get_fontsize()) * shrunk
         if text.get_text().strip() and text.get_visible() and size < least - 0.01:
             yield f"{text.get_text()!r} is printed at {size:.1f} pt, less than {least:g}"
 
@@ -96,9 +98,10 @@ def _alike(axes: Axes) -> Iterator[str]:
         if _dress(one) == _dress(other) and to_rgb(one.get_color()) != to_rgb(other.get_color()):
             yield f"the lines {one.get_label()!r} and {other.get_label()!r} differ in colour only"
     for kind, members in _fills(axes).items():
-        for one, other in combinations(members, 2):
-            if abs(one[1] - other[1]) < GREY and one[2] == other[2] and one[3] != other[3]:
-                yield f"the {kind} {one[0]!r} and {other[0]!r} differ in colour only"
+        for first, second in combinations(members, 2):
+            same = abs(first[1] - second[1]) < GREY and first[2] == second[2]
+            if same and first[3] != second[3]:
+                yield f"the {kind} {first[0]!r} and {second[0]!r} differ in colour only"
 
 
 def _dress(line: Line2D) -> tuple[Any, ...]:

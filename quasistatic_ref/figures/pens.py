@@ -80,7 +80,12 @@ class Pen2D:
             outline = outline[ConvexHull(outline).vertices]
         except QhullError:  # seen edge on
             return
-        style: dict[str, Any] = {"facecolor": CONE_FACE, "edgecolor": CONE_EDGE, "linewidth": 0.6, "alpha": 0.35}
+        style: dict[str, Any] = {
+            "facecolor": CONE_FACE,
+            "edgecolor": CONE_EDGE,
+            "linewidth": 0.6,
+            "alpha": 0.35,
+        }
         self.axes.add_patch(Polygon(outline, zorder=6, **style))
 
     def arrow(self, start: Array, along: Array) -> None:

@@ -71,7 +71,7 @@ def _draw_shape(axes: Axes, placed: PlacedShape, seen: Array, zorder: float) -> 
         order = seen[:, 2].argsort()
         x, y, depth = seen[order].T
         near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
-        size, opacity = 1.2 + 1.6 * near, 0.25 + 0.6 * near
+        size, opacity = 0.8 + 1.1 * near, 0.25 + 0.6 * near
         axes.scatter(x, y, s=size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder)
         return
     outline = seen[ConvexHull(seen[:, :2]).vertices, :2]
@@ -105,6 +105,6 @@ def draw_contacts(axes: Axes, camera: Camera, points: Array, bearing: NDArray[np
     bearing : ndarray of bool, shape (n_c,)
     """
     seen = camera.seen(points)
-    for chosen, size, colour in ((~bearing, 8, "white"), (bearing, 20, CONTACT)):
+    for chosen, size, colour in ((~bearing, 5, "white"), (bearing, 13, CONTACT)):
         x, y = seen[chosen, 0], seen[chosen, 1]
-        axes.scatter(x, y, s=size, c=colour, linewidths=0.8, edgecolors="black", zorder=9)
+        axes.scatter(x, y, s=size, c=colour, linewidths=0.6, edgecolors="black", zorder=9)

@@ -79,7 +79,7 @@ def triangles(points: Array) -> NDArray[np.int64]:
     corners = points[hull.simplices]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
-    found = hull.simplices.astype(np.int64)
+    found = np.array(hull.simplices, dtype=np.int64)
     found[inward] = found[inward][:, [0, 2, 1]]
     return found
 

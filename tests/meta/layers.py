@@ -32,6 +32,7 @@ WALLS = {
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
     "matplotlib": ("figures",),
+    "meshcat": ("figures",),
     "flint": ("certify",),
 }
 
