@@ -134,8 +134,6 @@ def test_a_style_is_a_file_that_pyplot_reads(name):
 
 
 def test_an_unknown_style_is_refused_with_the_nearest():
-    with (
-        pytest.raises(InputError, match="is no style; did you mean 'slides'"),
-        figure_style("slide"),
-    ):
+    nearest = pytest.raises(InputError, match="is no style; did you mean 'slides'")
+    with nearest, figure_style("slide"):
         pass

@@ -1,4 +1,4 @@
-"""The viewer's commands are the trajectory; the page itself is tried by validation/check_viewer.py."""
+"""The viewer's commands are the trajectory; validation/check_viewer.py tries the page itself."""
 
 import json
 import re
