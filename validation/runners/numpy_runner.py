@@ -1,0 +1,371 @@
+"""Every layer of the reference vectors in plain NumPy, from their README alone.
+
+Usage: python numpy_runner.py VECTORS ANSWERS [LAYER ...]. Shares no code with quasistatic_ref.
+Distances are in runner_distance.py beside it, quadratic programs in runner_qp.py.
+"""
+
+import json
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from runner_distance import closest_points, transformed
+from runner_qp import conic_answer, qp_answer
+
+LAYERS = ("distance", "selection", "jacobian", "rows", "qp", "wrench", "integrate", "step")
+ENTRIES = {  # of q, of delta_q
+    "fixed": (0, 0),
+    "revolute": (1, 1),
+    "prismatic": (1, 1),
+    "continuous": (2, 1),
+    "floating": (7, 6),
+    "planar": (4, 3),
+}
+
+
+def skew(w):
+    """[w x]."""
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def rotation(quaternion):
+    """Rotation of q/|q|, q = [x, y, z, w]."""
+    x, y, z, w = np.array(quaternion) / np.linalg.norm(quaternion)
+    V = skew([x, y, z])
+    return np.eye(3) + 2 * w * V + 2 * V @ V
+
+
+def turn(axis, c, s):
+    """Rotation about an axis by the angle of cosine c and sine s."""
+    a = np.array(axis) / np.linalg.norm(axis)
+    return c * np.eye(3) + s * skew(a) + (1 - c) * np.outer(a, a)
+
+
+def joint_pose(body, q):
+    """(R, t) of a joint at its entries of q."""
+    kind, none = body["joint"], np.zeros(3)
+    if kind == "floating":
+        return rotation(q[3:]), np.array(q[:3])
+    if kind == "planar":
+        c, s = np.array(q[2:]) / np.hypot(*q[2:])
+        return turn([0, 0, 1], c, s), np.array([*q[:2], 0])
+    if kind == "revolute":
+        return turn(body["axis"], np.cos(q[0]), np.sin(q[0])), none
+    if kind == "continuous":
+        c, s = np.array(q) / np.hypot(*q)
+        return turn(body["axis"], c, s), none
+    if kind == "prismatic":
+        return np.eye(3), q[0] * np.array(body["axis"]) / np.linalg.norm(body["axis"])
+    return np.eye(3), none
+
+
+def slices(mechanism):
+    """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first, each in file order."""
+    found, i, k, n_a = {}, 0, 0, 0
+    for actuated in (True, False):
+        for body in mechanism["bodies"]:
+            if bool(body.get("actuated")) == actuated:
+                size_q, size_v = ENTRIES[body["joint"]]
+                found[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
+                i, k = i + size_q, k + size_v
+        n_a = k if actuated else n_a
+    return found, n_a, k
+
+
+def kinematics(mechanism, q):
+    """{body: (R, t, J)}: J (6 x n_v) of the velocity of its origin and its angular velocity."""
+    at, _, n_v = slices(mechanism)
+    found = {None: (np.eye(3), np.zeros(3), np.zeros((6, n_v)))}
+    for body in mechanism["bodies"]:
+        R0, t0, J0 = found[body["parent"]]
+        placement = body["placement"]
+        Rp, tp = R0 @ rotation(placement["quaternion"]), R0 @ placement["xyz"] + t0
+        R_q, t_q = joint_pose(body, q[at[body["name"]][0]])
+        R, t = Rp @ R_q, Rp @ t_q + tp
+        J, columns = J0.copy(), at[body["name"]][1]
+        J[:3] -= skew(t - t0) @ J0[3:]
+        if body["joint"] == "floating":
+            J[:3, columns.start : columns.start + 3] = J[3:, columns.start + 3 : columns.stop] = R
+        elif body["joint"] == "planar":
+            J[:3, columns.start : columns.start + 2] = R[:, :2]
+            J[3:, columns.stop - 1] = R[:, 2]
+        elif body["joint"] != "fixed":
+            along = Rp @ body["axis"] / np.linalg.norm(body["axis"])
+            J[0 if body["joint"] == "prismatic" else 3 :, columns.start][:3] += along
+        found[body["name"]] = R, t, J
+    return found
+
+
+def point_jacobian(at, point):
+    """Velocity of a material point, and the angular velocity."""
+    _, t, J = at
+    return J[:3] - skew(np.array(point) - t) @ J[3:], J[3:]
+
+
+def jacobian(case):
+    """Layer 3."""
+    at = kinematics(case["mechanism"], np.array(case["q"]))
+    found = []
+    for contact in case["contacts"]:
+        v_beta, w_beta = point_jacobian(at[contact["beta_body"]], contact["beta"])
+        v_alpha, w_alpha = point_jacobian(at[contact["alpha_body"]], contact["alpha"])
+        found.append(np.vstack([v_beta - v_alpha, np.array(contact["n"]) @ (w_beta - w_alpha)]))
+    return {"J": found}
+
+
+def selection(case):
+    """Layer 2: a stable sort is a tie broken by index."""
+    k = case["k"]
+    return {"indices": [np.argsort(phi, kind="stable")[:k].tolist() for phi in case["phi"]]}
+
+
+def cone_table(cone, rows):
+    """t of each row of a contact, in units of (mu_v, mu_v, mu_omega)."""
+    sides = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    spins = [[0, 0, 1], [0, 0, -1]]
+    if cone == "frictionless":
+        return np.zeros((1, 3))
+    if cone == "product":
+        both = [[a, b, s if rows == 6 else 0] for s in (1, -1) for a, b, _ in sides]
+        return np.array(both if rows == 6 else both[:4], dtype=float)
+    if cone != "pyramid":
+        K = int(cone.split("-")[1])
+        angles = 2 * np.pi * np.arange(K) / K
+        sides = [[np.cos(a), np.sin(a), 0] for a in angles]
+    return np.array(sides + (spins if rows == 6 else []), dtype=float)
+
+
+def rows(case):
+    """Layer 4."""
+    A, b = [], []
+    for c in case["contacts"]:
+        T = cone_table(case["cone"], c["rows"])
+        linear = np.array(c["n"]) + c["mu_v"] * T[:, :2] @ np.array([c["d1"], c["d2"]])
+        J = np.array(c["J"], dtype=float)
+        A.extend(np.column_stack([linear, c["mu_omega"] * T[:, 2]]) @ J)
+        b.extend([-c["phi"]] * len(T))
+    return {"A": A, "b": b}
+
+
+def qp(case):
+    """Layer 5."""
+    H, g = np.array(case["H"]), np.array(case["g"])
+    if "second_order" in case:
+        return conic_answer(H, g, [(np.array(c["F"]), np.array(c["f"])) for c in case["second_order"]])
+    return qp_answer(H, g, np.array(case["A"]).reshape(-1, len(g)), np.array(case["b"]))
+
+
+def wrench(case):
+    """Layer 6."""
+    wrenches, net = [], {name: np.zeros(6) for name in case["bodies"]}
+    for c in case["contacts"]:
+        lam, T = np.array(c["lam"]) / case["h"], cone_table(case["cone"], c["rows"])
+        f1, f2, tau = np.array([c["mu_v"], c["mu_v"], c["mu_omega"]]) * (lam @ T)
+        wrenches.append([f1, f2, lam.sum(), tau])
+        n = np.array(c["n"])
+        force = f1 * np.array(c["d1"]) + f2 * np.array(c["d2"]) + lam.sum() * n
+        for side, sign in (("beta", 1), ("alpha", -1)):
+            body = c[f"{side}_body"]
+            if body in net:
+                arm = np.array(c[side]) - case["bodies"][body]["point"]
+                net[body] += sign * np.concatenate([force, np.cross(arm, force) + tau * n])
+    return {"wrench": wrenches, "net": net}
+
+
+def coefficients(t):
+    """sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3, by series where they would cancel."""
+    if t < 0.3:
+        ratios = []
+        for first in (1, 2, 3):
+            term = total = 1 / np.prod(np.arange(1, first + 1))
+            for k in range(first + 1, first + 16, 2):
+                term *= -t * t / (k * (k + 1))
+                total += term
+            ratios.append(total)
+        return ratios
+    return [np.sin(t) / t, (1 - np.cos(t)) / t**2, (t - np.sin(t)) / t**3]
+
+
+def quaternion_product(p, q):
+    """Product of [x y z w] quaternions."""
+    return np.append(p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3]), p[3] * q[3] - p[:3] @ q[:3])
+
+
+def moved(body, q, d):
+    """q (+) d of one joint."""
+    kind = body["joint"]
+    if kind == "floating":
+        v, w, R = d[:3], d[3:], rotation(q[3:])
+        t = np.linalg.norm(w)
+        _, b, c = coefficients(t)
+        shift = v + b * np.cross(w, v) + c * np.cross(w, np.cross(w, v))
+        half = np.append(coefficients(t / 2)[0] / 2 * w, np.cos(t / 2))
+        turned = quaternion_product(q[3:] / np.linalg.norm(q[3:]), half)
+        return np.concatenate([q[:3] + R @ shift, turned / np.linalg.norm(turned)])
+    if kind in ("planar", "continuous"):
+        c, s = q[-2:] / np.hypot(*q[-2:])
+        turned = np.array([[c, -s], [s, c]]) @ [np.cos(d[-1]), np.sin(d[-1])]
+        turned /= np.hypot(*turned)
+        if kind == "continuous":
+            return turned
+        a, b, _ = coefficients(abs(d[2]))
+        x, y = a * d[0] - b * d[2] * d[1], a * d[1] + b * d[2] * d[0]
+        return np.array([q[0] + c * x - s * y, q[1] + s * x + c * y, *turned])
+    return q + d
+
+
+def difference(body, target, q):
+    """The d with q (+) d = target, of one joint."""
+    kind = body["joint"]
+    if kind == "floating":
+        inverse = q[3:] / np.linalg.norm(q[3:]) * [-1, -1, -1, 1]
+        p = quaternion_product(inverse, target[3:] / np.linalg.norm(target[3:]))
+        p = -p if p[3] < 0 else p
+        s = np.linalg.norm(p[:3])
+        w = p[:3] * (2 * np.arctan2(s, p[3]) / s if s > 0 else 2.0)
+        _, b, c = coefficients(np.linalg.norm(w))
+        W = skew(w)
+        V = np.eye(3) + b * W + c * W @ W
+        return np.concatenate([np.linalg.solve(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w])
+    if kind in ("planar", "continuous"):
+        (c, s), (c1, s1) = q[-2:], target[-2:]
+        w = np.arctan2(c * s1 - s * c1, c * c1 + s * s1)
+        if kind == "continuous":
+            return np.array([w])
+        a, b, _ = coefficients(abs(w))
+        c, s = np.array([c, s]) / np.hypot(c, s)
+        shift = np.array([[c, s], [-s, c]]) @ (target[:2] - q[:2])
+        return np.append(np.linalg.solve([[a, -b * w], [b * w, a]], shift), w)
+    return target - q
+
+
+def integrate(case):
+    """Layer 7."""
+    at, _, _ = slices(case["mechanism"])
+    q, delta_q = np.array(case["q"]), np.array(case["delta_q"])
+    for body in case["mechanism"]["bodies"]:
+        i, k = at[body["name"]]
+        if i.stop > i.start:
+            q[i] = moved(body, q[i], delta_q[k])
+    return {"q": q}
+
+
+def tangents(n):
+    """d1, d2 of a normal."""
+    i = int(np.argmin(np.abs(n)))
+    d1 = np.eye(3)[i] - n[i] * n
+    d1 /= np.linalg.norm(d1)
+    return d1, np.cross(n, d1)
+
+
+def step_contacts(case, at):
+    """The contacts of a step, pair by pair, without J."""
+    found = []
+    for pair in case["pairs"]:
+        alpha, beta = case["shapes"][pair["alpha"]], case["shapes"][pair["beta"]]
+        placed = []
+        for shape in (alpha, beta):
+            R, t, _ = at[shape["body"]]
+            pose = shape["pose"]
+            placed.append((R @ rotation(pose["quaternion"]), R @ pose["xyz"] + t))
+        phi, a, b, n = (np.array(v) for v in closest_points(alpha["shape"], placed[0], beta["shape"], placed[1]))
+        phi, (a, b, n) = np.atleast_1d(phi), (v.reshape(-1, 3) for v in (a, b, n))
+        for i in np.argsort(phi, kind="stable")[: pair["k"]]:
+            d1, d2 = tangents(n[i])
+            bodies = {"alpha_body": alpha["body"], "beta_body": beta["body"]}
+            common = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+            found.append({"pair": pair["name"], "index": int(i), "phi": phi[i], "alpha": a[i],
+                          "beta": b[i], "n": n[i], "d1": d1, "d2": d2, **bodies, **common})  # fmt: skip
+    return found
+
+
+def masses(case, at, n_a, n_v):
+    """M, and tau of gravity (un-actuated only) and of the wrenches."""
+    M, tau = np.zeros((n_v, n_v)), np.zeros(n_v)
+    centre = {}
+    for body in case["mechanism"]["bodies"]:
+        R, t, _ = at[body["name"]]
+        mass = body.get("mass", 0.0)
+        centre[body["name"]] = R @ body.get("com", np.zeros(3)) + t
+        v, w = point_jacobian(at[body["name"]], centre[body["name"]])
+        M += mass * v.T @ v + w.T @ R @ body.get("inertia", np.zeros((3, 3))) @ R.T @ w
+        tau += mass * v.T @ case["gravity"]
+    tau[:n_a] = 0
+    for given in case.get("wrenches", []):
+        v, w = point_jacobian(at[given["body"]], centre[given["body"]])
+        tau += v.T @ given["force"] + w.T @ given["torque"]
+    return M, tau
+
+
+def step(case):
+    """Layer 8: all of it."""
+    mechanism, q, h = case["mechanism"], np.array(case["q"]), case["h"]
+    at = kinematics(mechanism, q)
+    places, n_a, n_v = slices(mechanism)
+    contacts = step_contacts(case, at)
+    J = jacobian({"mechanism": mechanism, "q": q, "contacts": contacts})["J"]
+    for contact, block in zip(contacts, J, strict=True):
+        contact["J"] = block
+    M, tau = masses(case, at, n_a, n_v)
+    delta_q_bar_a = np.zeros(n_a)
+    for body in mechanism["bodies"]:
+        i, k = places[body["name"]]
+        if body.get("actuated") and k.stop > k.start:
+            delta_q_bar_a[k] = difference(body, np.array(case["q_bar_a"])[i], q[i])
+    K_q = np.array(case["K_q"]).reshape(n_a, n_a)
+    H, g = np.zeros((n_v, n_v)), h * tau
+    H[:n_a, :n_a], H[n_a:, n_a:] = h * K_q, M[n_a:, n_a:] / h
+    g[:n_a] += h * (K_q @ delta_q_bar_a)
+    AB = rows({"cone": case["cone"], "contacts": contacts})
+    A, b = np.array(AB["A"]).reshape(-1, n_v), np.array(AB["b"])
+    found = qp_answer(H, g, A, b)
+    if "farkas" in found:
+        return found
+    counts = [len(cone_table(case["cone"], c["rows"])) for c in contacts]
+    lam = np.split(found["lam"], np.cumsum(counts)[:-1]) if counts else []
+    loaded = [{**c, "lam": part} for c, part in zip(contacts, lam, strict=True)]
+    wrenches = wrench({"h": h, "cone": case["cone"], "contacts": loaded, "bodies": {}})["wrench"]
+    q_next = integrate({"mechanism": mechanism, "q": q, "delta_q": found["delta_q"]})["q"]
+    told = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
+    return {"contacts": [{key: c[key] for key in told} for c in contacts], "H": H, "g": g,
+            "A": A, "b": b, **{key: found[key] for key in ("delta_q", "lam", "A_lam")},
+            "wrench": wrenches, "q_next": q_next}  # fmt: skip
+
+
+def distance(case):
+    """Layer 1."""
+    poses = [(rotation(p["quaternion"]), np.array(p["xyz"])) for p in (case["pose_alpha"], case["pose_beta"])]
+    found = closest_points(case["alpha"], poses[0], case["beta"], poses[1])
+    return dict(zip(("phi", "alpha", "beta", "n"), found, strict=True))
+
+
+def plain(value):
+    """Arrays as lists."""
+    if isinstance(value, dict):
+        return {key: plain(v) for key, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+
+
+def answers(layer, inputs):
+    """The content of answers/LAYER.json."""
+    solve = globals()[layer]
+    found = [{"id": case["id"], "output": plain(solve(case["input"]))} for case in inputs["cases"]]
+    return {"format": "quasistatic-ref/vectors-answers", "version": 1, "layer": layer,
+            "implementation": "numpy_runner", "answers": found}  # fmt: skip
+
+
+def main(vectors, out, *layers):
+    """Answer every layer that has inputs."""
+    Path(out).mkdir(parents=True, exist_ok=True)
+    for layer in layers or LAYERS:
+        path = Path(vectors, "inputs", f"{layer}.json")
+        if path.exists():
+            text = json.dumps(answers(layer, json.loads(path.read_text())))
+            Path(out, f"{layer}.json").write_text(text + "\n")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
