@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final, cast
 
-from flint import fmpq, fmpq_mat, fmpz_mat
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
@@ -111,6 +111,6 @@ def _absolute(M: fmpz_mat) -> fmpz_mat:
     return fmpz_mat(M.nrows(), M.ncols(), [abs(v) for v in M.entries()])
 
 
-def _largest(values: Sequence[fmpq], unit: fmpq) -> Fraction:
-    value = max((abs(v) * unit for v in values), default=fmpq(0))
+def _largest(values: Sequence[fmpq | fmpz], unit: fmpq) -> Fraction:
+    value = max((unit * abs(v) for v in values), default=fmpq(0))
     return Fraction(int(value.p), int(value.q))
