@@ -1,0 +1,116 @@
+r"""What a careful float64 solver can reach on one quadratic program: the tolerances of its answer.
+
+On the working set W the optimum solves K z = r, with K = [[H, -A_w'], [A_w, 0]], z = [x; lam] and
+r = [g; b_w]. Data and elimination that are rounded componentwise leave
+
+.. math:: |z - z^*| \le c\,2^{-53}\,|K^{-1}|\,(|K|\,|z^*| + |r|),
+
+the bound of Oettli and Prager (1964) with the condition of Skeel (1979): scaling rows or columns
+does not change it. c counts the roundings of one entry of an elimination, generously.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final, cast
+
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
+
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.vectors.rational import UNIT
+
+ROUNDINGS: Final = 8
+"""c is that many times the size of K."""
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Largest error of an entry of each part of an answer.
+
+    Parameters
+    ----------
+    x : Fraction
+        [m, rad].
+    lam : Fraction
+        [N s].
+    net : Fraction
+        Of A'lam [N s, N m s].
+    slack : Fraction
+        [m].
+    """
+
+    x: Fraction
+    lam: Fraction
+    net: Fraction
+    slack: Fraction
+
+
+def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction(0)) -> Bounds:
+    """The bounds of a program at its optimum.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows that the optimum follows from.
+    b_error : Fraction
+        Error of each b before the program is solved [m].
+    """
+    n, k = form.n, len(working)
+    solution = rational_solution(form, tuple(working))
+    K = fmpz_mat(n + k, n + k)
+    for i in range(n):
+        for j in range(n):
+            K[i, j] = form.H[i, j]
+        for row, w in enumerate(working, start=n):
+            K[i, row], K[row, i] = -form.A[w, i], form.A[w, i]
+    right = _column([form.g[i, 0] for i in range(n)] + [form.b[w, 0] for w in working])
+    z = _absolute(_column([*solution.x, *solution.lam]))
+    size = _absolute(K) * z + _absolute(right) * solution.denominator
+    inverse, denominator = cast("fmpq_mat", K.inv()).numer_denom()
+    share = fmpq(int((ROUNDINGS * (n + k) * UNIT).numerator), int(UNIT.denominator))
+    unit = share / (abs(denominator) * solution.denominator)
+    reach = [unit * v for v in (_absolute(inverse) * size).entries()]
+    shift = fmpq(b_error.numerator, b_error.denominator) / form.slack_unit
+    moved = [
+        v + shift / abs(denominator) * sum((abs(inverse[i, j]) for j in range(n, n + k)), start=0)
+        for i, v in enumerate(reach)
+    ]
+    net = _largest(_image(form.H, form.g, moved[:n], solution, share), form.net_unit)
+    # Multipliers that change A'lam by no more than that are as good.
+    steepest = _largest(form.A.entries(), form.slack_unit / form.x_unit)
+    return Bounds(
+        x=_largest(moved[:n], form.x_unit),
+        lam=max(_largest(moved[n:], form.lam_unit), net / steepest if steepest else Fraction(0)),
+        net=net,
+        slack=_largest(
+            [v + shift for v in _image(form.A, form.b, moved[:n], solution, share)],
+            form.slack_unit,
+        ),
+    )
+
+
+def _image(M: fmpz_mat, v: fmpz_mat, dx: list[fmpq], solution: Any, share: fmpq) -> list[fmpq]:
+    """Error of M x - v: from that of x, and from the rounding of its own sum."""
+    size = _absolute(M) * _absolute(_column(solution.x)) + _absolute(v) * solution.denominator
+    own = [share * s / solution.denominator for s in size.entries()]
+    return [
+        own_i + sum((abs(M[i, j]) * d for j, d in enumerate(dx)), start=fmpq(0))
+        for i, own_i in enumerate(own)
+    ]
+
+
+def _column(values: Sequence[Any]) -> fmpz_mat:
+    return fmpz_mat(len(values), 1, list(values))
+
+
+def _absolute(M: fmpz_mat) -> fmpz_mat:
+    return fmpz_mat(M.nrows(), M.ncols(), [abs(v) for v in M.entries()])
+
+
+def _largest(values: Sequence[fmpq | fmpz], unit: fmpq) -> Fraction:
+    value = max((unit * abs(v) for v in values), default=fmpq(0))
+    return Fraction(int(value.p), int(value.q))
