@@ -21,6 +21,13 @@ OPTIONAL: Final = {
 """Fields that follow from others, and need not be answered."""
 
 
+ORDER: Final = (
+    *("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "indices", "J"),
+    *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "net", "q", "q_next"),
+)
+"""Fields in the order in which a step comes to them: what fails first is the cause of the rest."""
+
+
 def shape_problem(layer: str, expected: Json, answer: Json) -> tuple[str, str] | None:
     """The first thing about an answer that is no output of its layer: field and sentence."""
     if not isinstance(answer, dict):
@@ -92,7 +99,7 @@ def leaves(value: Json, path: str = "") -> Iterator[tuple[str, Any]]:
 def parts(output: Json) -> dict[str, Json]:
     """The fields of an output; a list of objects as one field for each of their names.
 
-    The contacts of a step become ``contacts.phi``, ``contacts.n``, ..., in the order written.
+    The contacts of a step become ``contacts.phi``, ``contacts.n``, ...; in the order of ORDER.
     """
     found: dict[str, Json] = {}
     for name, value in output.items():
@@ -101,7 +108,13 @@ def parts(output: Json) -> dict[str, Json]:
                 found[f"{name}.{inner}"] = [entry[inner] for entry in value]
         else:
             found[name] = value
-    return found
+    return dict(sorted(found.items(), key=lambda item: _place(item[0])))
+
+
+def _place(field: str) -> tuple[bool, int]:
+    """Contacts come before what is made of them."""
+    name = field.rpartition(".")[2]
+    return "." not in field, ORDER.index(name) if name in ORDER else len(ORDER)
 
 
 def numbers_of(value: Json) -> Array:

@@ -15,8 +15,8 @@ from quasistatic_ref.vectors.compare import tolerance_of
 from quasistatic_ref.vectors.expected import Json
 from quasistatic_ref.vectors.joints import quaternion_places
 from quasistatic_ref.vectors.multipliers import multipliers_problem, wrench_problem
+from quasistatic_ref.vectors.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.vectors.verdict import Difference, Verdict, acceptable, failure
-from quasistatic_ref.vectors.witness import solid_cases, witness_problem
 
 Failing = Mapping[str, Difference]
 WITNESS: Final = ("alpha", "beta", "n")
@@ -126,4 +126,3 @@ def dependent_fields(layer: str, record: Json) -> tuple[str, ...]:
     if layer in ("qp", "step") and not flags.get("unique_multipliers", True):
         return ("lam", "wrench")
     return ()
-

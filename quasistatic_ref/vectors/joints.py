@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.vectors.expected import Json
-from quasistatic_ref.vectors.witness import rotation
+from quasistatic_ref.vectors.valid_witness import rotation
 
 Array = NDArray[np.float64]
 
@@ -53,9 +53,7 @@ def places(mechanism: Json) -> list[Places]:
 
 def quaternion_places(mechanism: Json) -> list[slice]:
     """The entries of q that are quaternions."""
-    return [
-        slice(at.q.start + 3, at.q.stop) for at in places(mechanism) if at.kind == "floating"
-    ]
+    return [slice(at.q.start + 3, at.q.stop) for at in places(mechanism) if at.kind == "floating"]
 
 
 def base_rotations(mechanism: Json, q: Json) -> list[tuple[slice, Array]]:

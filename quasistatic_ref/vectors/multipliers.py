@@ -54,7 +54,9 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
         row = int(multipliers.argmin())
         return f"lam[{row}] is {multipliers[row]:.2g}, below 0"
     room = max(tolerance_of(tolerance, "slack"), tolerance_of(tolerance, "b"))
-    room += EPS * 4 * float(np.abs(A).max(initial=0.0)) * (1.0 + float(np.abs(slack).max(initial=0)))
+    room += (
+        EPS * 4 * float(np.abs(A).max(initial=0.0)) * (1.0 + float(np.abs(slack).max(initial=0)))
+    )
     pressing = (multipliers > small) & (slack > room)
     if pressing.any():
         row = int(np.where(pressing, multipliers, -1).argmax())

@@ -6,11 +6,10 @@ Distances are in runner_distance.py beside it, quadratic programs in runner_qp.p
 
 import json
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from runner_distance import closest_points, transformed
+from runner_distance import closest_points
 from runner_qp import conic_answer, qp_answer
 
 LAYERS = ("distance", "selection", "jacobian", "rows", "qp", "wrench", "integrate", "step")
@@ -121,7 +120,7 @@ def selection(case):
 
 
 def cone_table(cone, rows):
-    """t of each row of a contact, in units of (mu_v, mu_v, mu_omega)."""
+    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega)."""
     sides = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     spins = [[0, 0, 1], [0, 0, -1]]
     if cone == "frictionless":
@@ -152,7 +151,9 @@ def qp(case):
     """Layer 5."""
     H, g = np.array(case["H"]), np.array(case["g"])
     if "second_order" in case:
-        return conic_answer(H, g, [(np.array(c["F"]), np.array(c["f"])) for c in case["second_order"]])
+        return conic_answer(
+            H, g, [(np.array(c["F"]), np.array(c["f"])) for c in case["second_order"]]
+        )
     return qp_answer(H, g, np.array(case["A"]).reshape(-1, len(g)), np.array(case["b"]))
 
 
@@ -174,7 +175,7 @@ def wrench(case):
 
 
 def coefficients(t):
-    """sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3, by series where they would cancel."""
+    """Sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3, by series where they would cancel."""
     if t < 0.3:
         ratios = []
         for first in (1, 2, 3):
@@ -189,11 +190,13 @@ def coefficients(t):
 
 def quaternion_product(p, q):
     """Product of [x y z w] quaternions."""
-    return np.append(p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3]), p[3] * q[3] - p[:3] @ q[:3])
+    return np.append(
+        p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3]), p[3] * q[3] - p[:3] @ q[:3]
+    )
 
 
 def moved(body, q, d):
-    """q (+) d of one joint."""
+    """Q (+) d of one joint."""
     kind = body["joint"]
     if kind == "floating":
         v, w, R = d[:3], d[3:], rotation(q[3:])
@@ -269,7 +272,9 @@ def step_contacts(case, at):
             R, t, _ = at[shape["body"]]
             pose = shape["pose"]
             placed.append((R @ rotation(pose["quaternion"]), R @ pose["xyz"] + t))
-        phi, a, b, n = (np.array(v) for v in closest_points(alpha["shape"], placed[0], beta["shape"], placed[1]))
+        phi, a, b, n = (
+            np.array(v) for v in closest_points(alpha["shape"], placed[0], beta["shape"], placed[1])
+        )
         phi, (a, b, n) = np.atleast_1d(phi), (v.reshape(-1, 3) for v in (a, b, n))
         for i in np.argsort(phi, kind="stable")[: pair["k"]]:
             d1, d2 = tangents(n[i])
@@ -335,7 +340,10 @@ def step(case):
 
 def distance(case):
     """Layer 1."""
-    poses = [(rotation(p["quaternion"]), np.array(p["xyz"])) for p in (case["pose_alpha"], case["pose_beta"])]
+    poses = [
+        (rotation(p["quaternion"]), np.array(p["xyz"]))
+        for p in (case["pose_alpha"], case["pose_beta"])
+    ]
     found = closest_points(case["alpha"], poses[0], case["beta"], poses[1])
     return dict(zip(("phi", "alpha", "beta", "n"), found, strict=True))
 

@@ -92,6 +92,7 @@ def core_pair(A, B):
 
 def normals(A, B):
     """Unit normals of all triangles, and of all pairs of edges, in both directions."""
+
     def edges(P):
         i, j = np.triu_indices(len(P), 1)
         return P[j] - P[i]
@@ -105,7 +106,10 @@ def normals(A, B):
         found.append(np.cross([*a, *b], AXES))
     N = np.concatenate(found)
     length = np.linalg.norm(N, axis=1)
-    N = N[length > 1e-9 * length.max(initial=0)] / length[length > 1e-9 * length.max(initial=0), None]
+    N = (
+        N[length > 1e-9 * length.max(initial=0)]
+        / length[length > 1e-9 * length.max(initial=0), None]
+    )
     return np.concatenate([N, -N]) if len(N) else AXES
 
 
@@ -132,8 +136,14 @@ def point_on(shape, p):
     if inside <= 0:
         n = slant if side >= -half - z else np.array([0, -1.0])
         return inside, n[0] * outward + n[1] * AXES[2]
-    ends = [(np.array([0, half]), np.array([R, -half])), (np.array([0, -half]), np.array([R, -half]))]
-    feet = [a + np.clip((np.array([r, z]) - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1) * (b - a) for a, b in ends]
+    ends = [
+        (np.array([0, half]), np.array([R, -half])),
+        (np.array([0, -half]), np.array([R, -half])),
+    ]
+    feet = [
+        a + np.clip((np.array([r, z]) - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1) * (b - a)
+        for a, b in ends
+    ]
     away = min((np.array([r, z]) - foot for foot in feet), key=np.linalg.norm)
     phi = np.linalg.norm(away)
     return phi, away[0] / phi * outward + away[1] / phi * AXES[2]
@@ -141,10 +151,11 @@ def point_on(shape, p):
 
 def point_on_ellipsoid(a, p):
     """The root t of sum (a_i p_i / (a_i^2 + t))^2 = 1, by bisection and Newton's method."""
+
     def excess(t):
         return np.sum((a * p / (a * a + t)) ** 2) - 1
 
-    low, high = -a.min() ** 2, a.max() * np.linalg.norm(p) + 1e-300
+    low, high = -(a.min() ** 2), a.max() * np.linalg.norm(p) + 1e-300
     for _ in range(200):
         t = (low + high) / 2
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -152,7 +163,7 @@ def point_on_ellipsoid(a, p):
     for _ in range(2):
         slope = -2 * np.sum((a * p) ** 2 / (a * a + high) ** 3)
         new = high - excess(high) / slope if slope < 0 else high
-        high = new if new > -a.min() ** 2 else high
+        high = new if new > -(a.min() ** 2) else high
     below = a * a + high
     x = np.where(below > 1e-12 * a * a, a * a * p / np.where(below > 0, below, 1), 0)
     free = int(np.argmin(a))

@@ -41,7 +41,7 @@ def nonnegative_least_squares(E, f):
 
 
 def equality_answer(H, g, A, b):
-    """x and lam of A x = b with independent rows, refined twice."""
+    """X and lam of A x = b with independent rows, refined twice."""
     L = np.linalg.cholesky(H)
     Q, R = np.linalg.qr(np.linalg.solve(L, A.T))
 

@@ -50,8 +50,10 @@ def witness_problem(
 
 
 def farthest(shape: Json, direction: Array) -> float:
-    """How far a shape reaches along a direction of length one [m]; infinite for a half-space
-    unless the direction is its normal."""
+    """How far a shape reaches along a direction of length one [m].
+
+    Infinite for a half-space, unless the direction is its normal.
+    """
     match shape["kind"]:
         case "sphere":
             return float(shape["radius"])
