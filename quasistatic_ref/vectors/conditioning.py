@@ -71,7 +71,7 @@ def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction
     z = _absolute(_column([*solution.x, *solution.lam]))
     size = _absolute(K) * z + _absolute(right) * solution.denominator
     inverse, denominator = cast("fmpq_mat", K.inv()).numer_denom()
-    share = fmpq(int((ROUNDINGS * (n + k) * UNIT).numerator), int(UNIT.denominator))
+    share = fmpq(ROUNDINGS * (n + k), UNIT.denominator)
     unit = share / (abs(denominator) * solution.denominator)
     reach = [unit * v for v in (_absolute(inverse) * size).entries()]
     shift = fmpq(b_error.numerator, b_error.denominator) / form.slack_unit
@@ -112,5 +112,5 @@ def _absolute(M: fmpz_mat) -> fmpz_mat:
 
 
 def _largest(values: Sequence[fmpq | fmpz], unit: fmpq) -> Fraction:
-    value = max((unit * abs(v) for v in values), default=fmpq(0))
+    value = max((abs(unit * v) for v in values), default=fmpq(0))
     return Fraction(int(value.p), int(value.q))

@@ -50,7 +50,7 @@ SIZES: Final = {
 
 @dataclass(frozen=True, eq=False)
 class MechanismBody:
-    """One body and the joint that carries it.
+    """One body and the joint that carries it; all numbers are rational.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class MechanismBody:
     kind : str
         A key of SIZES.
     axis : vector
-        Of length one, in the joint's frame.
+        Of any length, in the joint's frame.
     actuated : bool
     q, v : slice
         The joint's entries of q and delta_q, in the paper's order.
@@ -154,7 +154,6 @@ def mechanism(table: dict[str, Any]) -> Mechanism:
         if body["parent"] is not None and body["parent"] not in names[:k]:
             problem = f"must be a body before it{suggestion(str(body['parent']), names[:k])}"
             raise InputError(problem, field=f"bodies[{k}].parent", value=body["parent"])
-        axis = numbers(body.get("axis", [0, 0, 1]))
         bodies.append(
             MechanismBody(
                 name=body["name"],
@@ -162,7 +161,7 @@ def mechanism(table: dict[str, Any]) -> Mechanism:
                 R=rotation(numbers(body["placement"]["quaternion"])),
                 t=numbers(body["placement"]["xyz"]),
                 kind=body["joint"],
-                axis=unit(axis) if any(axis) else axis,
+                axis=numbers(body.get("axis", [0, 0, 1])),
                 actuated=bool(body.get("actuated")),
                 q=places[k][0],
                 v=places[k][1],
@@ -206,11 +205,11 @@ def _joint_pose(body: MechanismBody, q: Vector) -> tuple[Matrix, Vector]:
     """Frame of the body in that of its joint."""
     match body.kind:
         case "revolute":
-            return axis_rotation(body.axis, *cos_sin(q[0])), ZERO
+            return axis_rotation(unit(body.axis), *cos_sin(q[0])), ZERO
         case "continuous":
-            return axis_rotation(body.axis, *unit(q)), ZERO
+            return axis_rotation(unit(body.axis), *unit(q)), ZERO
         case "prismatic":
-            return IDENTITY, scaled(body.axis, q[0])
+            return IDENTITY, scaled(unit(body.axis), q[0])
         case "floating":
             return rotation(q[3:]), q[:3]
         case "planar":
@@ -225,9 +224,9 @@ def _joint_columns(body: MechanismBody, axes: Matrix) -> list[tuple[Vector, Vect
     sliding = [(e, ZERO) for e in axes]
     match body.kind:
         case "revolute" | "continuous":  # a rotation about its axis keeps it where it is
-            return [(ZERO, times(transposed(axes), body.axis))]
+            return [(ZERO, times(transposed(axes), unit(body.axis)))]
         case "prismatic":
-            return [(times(transposed(axes), body.axis), ZERO)]
+            return [(times(transposed(axes), unit(body.axis)), ZERO)]
         case "floating":
             return sliding + turning
         case "planar":

@@ -4,7 +4,8 @@ Every float64 is entered exactly. Sums, products and quotients of rational numbe
 and so do roots of perfect squares: zeros, ties and midpoints between two float64 numbers are then
 decided exactly. Other roots, sines and cosines are balls; where a ball leaves a sign or a rounding
 open, everything is done again at twice the precision. A ball of radius < 2^-200 that contains 0
-is 0.
+is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpoint: both come from
+rational answers on the way to which a root or a sine cancelled.
 """
 
 from __future__ import annotations
@@ -25,9 +26,8 @@ Real: TypeAlias = Any
 PRECISION: Final = 320
 """Bits of a ball's midpoint at first."""
 
-HIGHEST: Final = 40 * PRECISION
-"""Bits at which raising ends. What is then still open is an exact midpoint: no case of the
-families gets beyond 1280."""
+HIGHEST: Final = 16 * PRECISION
+"""Bits at which raising ends; no case of the families needs it."""
 
 DIGITS: Final = 30
 """Significant decimal digits of the strings beside the float64 numbers."""
@@ -94,7 +94,8 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
     Parameters
     ----------
     function : callable
-        Returns dicts and lists of numbers; called again at higher precision where needed.
+        Returns dicts and lists of numbers; called again at higher precision where needed. It
+        must make all its balls itself: one made before has the precision of that time.
         Booleans, integers, strings and None are passed on, and are absent from the digits.
 
     Returns
@@ -103,27 +104,25 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
         The same nesting of float64 numbers, half to even and never -0.0, and of strings.
     """
     precision = PRECISION
-    while True:
+    while precision <= HIGHEST:
         with ctx.workprec(precision):
-            last = precision >= HIGHEST
             try:
                 tree = function()
-                return _mapped(tree, _nearest, last), _mapped(tree, _decimal, last)
+                return _mapped(tree, _nearest), _mapped(tree, _decimal)
             except Undecided:
-                if last:
-                    raise
-        precision *= 2
+                precision *= 2
+    raise Undecided(f"{HIGHEST} bits do not decide a sign or a rounding: the case is ill-posed")
 
 
-def _mapped(tree: Any, leaf: Callable[[Real, bool], Any], last: bool) -> Any:
+def _mapped(tree: Any, leaf: Callable[[Real], Any]) -> Any:
     if isinstance(tree, dict):
-        return {key: _mapped(value, leaf, last) for key, value in tree.items()}
+        return {key: _mapped(value, leaf) for key, value in tree.items()}
     if isinstance(tree, (list, tuple)):
-        return [_mapped(value, leaf, last) for value in tree]
-    return leaf(tree, last) if isinstance(tree, (fmpq, arb)) else tree
+        return [_mapped(value, leaf) for value in tree]
+    return leaf(tree) if isinstance(tree, (fmpq, arb)) else tree
 
 
-def _nearest(x: Real, last: bool) -> float:
+def _nearest(x: Real) -> float:
     if isinstance(x, fmpq):
         return nearest_fraction(x)
     if is_zero(x):
@@ -131,16 +130,15 @@ def _nearest(x: Real, last: bool) -> float:
     value = nearest_in(x)
     if value is not None:
         return value
-    if last:
-        middle = float(x)
-        for other in (nextafter(middle, inf), nextafter(middle, -inf)):
-            halfway = (number(middle) + number(other)) / 2
-            if x.contains(arb(halfway)):
-                return nearest_fraction(halfway)
+    middle = float(x)
+    for other in (nextafter(middle, inf), nextafter(middle, -inf)):
+        halfway = (number(middle) + number(other)) / 2
+        if _is(x, halfway):
+            return nearest_fraction(halfway)
     raise Undecided
 
 
-def _decimal(x: Real, last: bool) -> str:
+def _decimal(x: Real) -> str:
     if isinstance(x, fmpq):
         return decimal_string(Fraction(int(x.p), int(x.q)), DIGITS)
     if is_zero(x):
@@ -148,9 +146,15 @@ def _decimal(x: Real, last: bool) -> str:
     low, high = (decimal_string(_fraction(end), DIGITS) for end in (x.lower(), x.upper()))
     if low == high:
         return low
-    if last:
-        return decimal_string(_fraction(x.mid()), DIGITS)
+    halfway = Fraction(decimal_string(_fraction(x.mid()), DIGITS + 1))
+    if _is(x, fmpq(halfway.numerator, halfway.denominator)):
+        return decimal_string(halfway, DIGITS)
     raise Undecided
+
+
+def _is(x: arb, halfway: fmpq) -> bool:
+    """Whether a ball is narrow enough to be taken for the midpoint in it."""
+    return bool(x.contains(halfway) and x.rad() < _threshold() * abs(arb(halfway)))
 
 
 def is_zero(x: Real) -> bool:
