@@ -74,7 +74,9 @@ def layer_report(
         Records of ``expected/LAYER.json`` by id.
     answers : Answers
     """
-    verdicts, failed, right = [], [], []
+    verdicts: list[Verdict] = []
+    failed: list[Failed] = []
+    right: list[Failed] = []
     for case in cases:
         record = expected[case.id]
         if case.id not in answers.outputs:

@@ -161,11 +161,16 @@ def wrench(case):
     """Layer 6."""
     wrenches, net = [], {name: np.zeros(6) for name in case["bodies"]}
     for c in case["contacts"]:
-        lam, T = np.array(c["lam"]) / case["h"], cone_table(case["cone"], c["rows"])
-        f1, f2, tau = np.array([c["mu_v"], c["mu_v"], c["mu_omega"]]) * (lam @ T)
-        wrenches.append([f1, f2, lam.sum(), tau])
+        lam = np.array(c["lam"]) / case["h"]
+        if case["cone"] == "ellipsoid":
+            f_n, f1, f2, tau = lam
+        else:
+            mu = np.array([c["mu_v"], c["mu_v"], c["mu_omega"]])
+            f1, f2, tau = mu * (lam @ cone_table(case["cone"], c["rows"]))
+            f_n = lam.sum()
+        wrenches.append([f1, f2, f_n, tau])
         n = np.array(c["n"])
-        force = f1 * np.array(c["d1"]) + f2 * np.array(c["d2"]) + lam.sum() * n
+        force = f1 * np.array(c["d1"]) + f2 * np.array(c["d2"]) + f_n * n
         for side, sign in (("beta", 1), ("alpha", -1)):
             body = c[f"{side}_body"]
             if body in net:
@@ -278,10 +283,10 @@ def step_contacts(case, at):
         phi, (a, b, n) = np.atleast_1d(phi), (v.reshape(-1, 3) for v in (a, b, n))
         for i in np.argsort(phi, kind="stable")[: pair["k"]]:
             d1, d2 = tangents(n[i])
+            geometry = {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
             bodies = {"alpha_body": alpha["body"], "beta_body": beta["body"]}
-            common = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
-            found.append({"pair": pair["name"], "index": int(i), "phi": phi[i], "alpha": a[i],
-                          "beta": b[i], "n": n[i], "d1": d1, "d2": d2, **bodies, **common})  # fmt: skip
+            friction = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+            found.append({"pair": pair["name"], "index": int(i), **geometry, **bodies, **friction})
     return found
 
 
@@ -357,10 +362,22 @@ def plain(value):
     return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
 
 
+def whole(value, shapes):
+    """A case with the shapes that its file keeps in a table."""
+    if isinstance(value, dict):
+        if value.get("kind") == "shared":
+            return shapes[value["name"]]
+        return {key: whole(v, shapes) for key, v in value.items()}
+    return [whole(v, shapes) for v in value] if isinstance(value, list) else value
+
+
 def answers(layer, inputs):
     """The content of answers/LAYER.json."""
-    solve = globals()[layer]
-    found = [{"id": case["id"], "output": plain(solve(case["input"]))} for case in inputs["cases"]]
+    solve, shapes = globals()[layer], inputs.get("shapes", {})
+    found = [
+        {"id": case["id"], "output": plain(solve(whole(case["input"], shapes)))}
+        for case in inputs["cases"]
+    ]
     return {"format": "quasistatic-ref/vectors-answers", "version": 1, "layer": layer,
             "implementation": "numpy_runner", "answers": found}  # fmt: skip
 

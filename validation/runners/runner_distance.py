@@ -136,15 +136,12 @@ def point_on(shape, p):
     if inside <= 0:
         n = slant if side >= -half - z else np.array([0, -1.0])
         return inside, n[0] * outward + n[1] * AXES[2]
-    ends = [
-        (np.array([0, half]), np.array([R, -half])),
-        (np.array([0, -half]), np.array([R, -half])),
-    ]
-    feet = [
-        a + np.clip((np.array([r, z]) - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1) * (b - a)
-        for a, b in ends
-    ]
-    away = min((np.array([r, z]) - foot for foot in feet), key=np.linalg.norm)
+    at, rim = np.array([r, z]), np.array([R, -half])
+    feet = []
+    for end in (np.array([0, half]), np.array([0, -half])):
+        edge = rim - end
+        feet.append(end + np.clip((at - end) @ edge / (edge @ edge), 0, 1) * edge)
+    away = min((at - foot for foot in feet), key=np.linalg.norm)
     phi = np.linalg.norm(away)
     return phi, away[0] / phi * outward + away[1] / phi * AXES[2]
 
