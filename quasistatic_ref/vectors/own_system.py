@@ -19,6 +19,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.vectors.mechanism import SIZES
+from quasistatic_ref.vectors.own_shapes import own_rotation
 
 _BASES = ("floating", "planar")
 _UNITS = {"floating": 3, "planar": 2, "continuous": 0}
@@ -165,14 +166,7 @@ def _rpy(quaternion: Sequence[float]) -> list[float]:
     The yaw is taken after the roll, from what the roll leaves: each may be arbitrary there, but
     not both.
     """
-    x, y, z, w = np.array(quaternion) / np.hypot.reduce(quaternion)
-    R = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    R = own_rotation(quaternion)
     roll = np.arctan2(R[2, 1], R[2, 2])
     pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
     c, s = np.cos(roll), np.sin(roll)

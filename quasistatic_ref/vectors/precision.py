@@ -37,12 +37,12 @@ class Undecided(ArithmeticError):
     """A ball was too wide for a sign or a rounding: more precision is needed."""
 
 
-def number(x: float | int) -> fmpq:
+def number(x: float | fmpq) -> fmpq:
     """A float64, exactly."""
-    return fmpq(*x.as_integer_ratio())
+    return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
 
 
-def numbers(values: Sequence[float]) -> list[Real]:
+def numbers(values: Sequence[float | fmpq]) -> list[Real]:
     """Several float64 numbers, exactly."""
     return [number(x) for x in values]
 
