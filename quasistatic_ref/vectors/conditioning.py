@@ -48,7 +48,20 @@ class Bounds:
     slack: Fraction
 
 
-def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction(0)) -> Bounds:
+@dataclass(frozen=True)
+class Errors:
+    """Largest error of an entry of H, g, A and b before the program is solved, in SI units."""
+
+    H: Fraction = Fraction(0)
+    g: Fraction = Fraction(0)
+    A: Fraction = Fraction(0)
+    b: Fraction = Fraction(0)
+
+
+NO_ERRORS: Final = Errors()
+
+
+def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) -> Bounds:
     """The bounds of a program at its optimum.
 
     Parameters
@@ -56,8 +69,8 @@ def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction
     form : ExactForm
     working : sequence of int
         Independent rows that the optimum follows from.
-    b_error : Fraction
-        Error of each b before the program is solved [m].
+    errors : Errors
+        Of a program that was formed from other numbers; none by default.
     """
     n, k = form.n, len(working)
     solution = rational_solution(form, tuple(working))
@@ -72,14 +85,17 @@ def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction
     size = _absolute(K) * z + _absolute(right) * solution.denominator
     inverse, denominator = cast("fmpq_mat", K.inv()).numer_denom()
     share = fmpq(ROUNDINGS * (n + k), UNIT.denominator)
-    unit = share / (abs(denominator) * solution.denominator)
-    reach = [unit * v for v in (_absolute(inverse) * size).entries()]
-    shift = fmpq(b_error.numerator, b_error.denominator) / form.slack_unit
-    moved = [
-        v + shift / abs(denominator) * sum((abs(inverse[i, j]) for j in range(n, n + k)), start=0)
-        for i, v in enumerate(reach)
+    x_sum, lam_sum = (_total(v, solution.denominator) for v in (solution.x, solution.lam))
+    balance, shift = _shifts(form, errors, x_sum, lam_sum)
+    residual = [
+        share * s / solution.denominator + (balance if i < n else shift)
+        for i, s in enumerate(size.entries())
     ]
+    away = fmpq_mat(_absolute(inverse)) * fmpq_mat(n + k, 1, residual) / abs(denominator)
+    moved = away.entries()
+    net_shift = _rational(errors.H) * x_sum * form.x_unit + _rational(errors.g)
     net = _largest(_image(form.H, form.g, moved[:n], solution, share), form.net_unit)
+    net += _largest([net_shift], fmpq(1))
     # Multipliers that change A'lam by no more than that are as good.
     steepest = _largest(form.A.entries(), form.slack_unit / form.x_unit)
     return Bounds(
@@ -91,6 +107,23 @@ def bounds(form: ExactForm, working: Sequence[int], b_error: Fraction = Fraction
             form.slack_unit,
         ),
     )
+
+
+def _shifts(form: ExactForm, errors: Errors, x_sum: fmpq, lam_sum: fmpq) -> tuple[fmpq, fmpq]:
+    """Errors of H x - A'lam - g and of A x - b in units of the form."""
+    x, lam = x_sum * form.x_unit, lam_sum * form.lam_unit
+    balance = _rational(errors.H) * x + _rational(errors.A) * lam + _rational(errors.g)
+    return balance / form.net_unit, (
+        _rational(errors.A) * x + _rational(errors.b)
+    ) / form.slack_unit
+
+
+def _rational(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _total(values: Sequence[fmpz], denominator: fmpz) -> fmpq:
+    return fmpq(sum((abs(v) for v in values), start=fmpz(0)), denominator)
 
 
 def _image(M: fmpz_mat, v: fmpz_mat, dx: list[fmpq], solution: Any, share: fmpq) -> list[fmpq]:

@@ -1,0 +1,135 @@
+"""Candidate contacts of a pair of shapes in the world, and those that are kept.
+
+Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
+and the closest pair, in that order; where one contact is asked for, the closest pair alone. The k
+of least signed distance are kept, those that repeat an earlier one after all others. Everything is
+decided on distances, points and normals that are rounded to float64.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.tolerances import REPEATED
+from quasistatic_ref.vectors.expected import Expected, Json
+from quasistatic_ref.vectors.layers import layer
+
+FIELDS: Final = ("phi", "alpha", "beta", "n")
+TIED: Final = 1e-12
+"""Difference of distances [m] below which it is rounding that decides what is kept."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The contacts of one pair.
+
+    Parameters
+    ----------
+    contacts : list of dict
+        ``index``, ``phi``, ``alpha``, ``beta``, ``n``, in the order of their index.
+    clear : bool
+        Whether which ones they are does not hang on rounding.
+    unique : bool
+        Whether points and normals of all of them have no alternative.
+    tolerance : dict of str to float
+        Of each field.
+    """
+
+    contacts: list[Json]
+    clear: bool
+    unique: bool
+    tolerance: dict[str, float]
+
+
+def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -> Chosen:
+    """The contacts of a pair.
+
+    Parameters
+    ----------
+    alpha, beta : dict
+        Shapes.
+    pose_alpha, pose_beta : dict
+        In the world.
+    k : int
+
+    Raises
+    ------
+    InputError
+        If k > 1 is asked of a solid whose corners depend on where the other is.
+    """
+    case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
+    if "cloud" in (alpha["kind"], beta["kind"]):
+        return _kept(_listed(layer("distance").expected(case)), k)
+    corners = [] if k == 1 else [_corners(alpha), _corners(beta)]
+    parts = [
+        {**case, side: {"kind": "cloud", "points": points}}
+        for side, points in zip(("alpha", "beta"), corners, strict=False)
+        if points
+    ]
+    found = [_listed(layer("distance").expected(part)) for part in (*parts, case)]
+    return _kept([one for part in found for one in part], k, solids=True)
+
+
+def _corners(shape: Json) -> Json:
+    match shape["kind"]:
+        case "box":  # the sign of x changes first
+            half = [size / 2 for size in shape["size"]]
+            signs = [(x, y, z) for z, y, x in product((-1, 1), repeat=3)]
+            return [[s * h for s, h in zip(sign, half, strict=True)] for sign in signs]
+        case "convex":
+            return shape["vertices"]
+        case "sphere" | "halfspace" | "ellipsoid":
+            return []
+        case kind:
+            problem = "has corners that no layer gives; use k = 1"
+            raise InputError(problem, field="shape.kind", value=kind)
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    numbers: dict[str, Json]
+    unique: bool
+    tolerance: dict[str, float]
+
+
+def _listed(found: Expected) -> list[_Candidate]:
+    """The answers of the distance layer one by one; `unique` speaks of all of them."""
+    output, unique = found.output, found.flags["unique"]
+    tolerance = {name: found.tolerance[name].absolute for name in FIELDS}
+    if not isinstance(output["phi"], list):
+        return [_Candidate({name: output[name] for name in FIELDS}, unique, tolerance)]
+    rows = zip(*(output[name] for name in FIELDS), strict=True)
+    return [_Candidate(dict(zip(FIELDS, row, strict=True)), unique, tolerance) for row in rows]
+
+
+def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
+    phi = [one.numbers["phi"] for one in candidates]
+    late = [solids and _repeats(candidates, i) for i in range(len(candidates))]
+    order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
+    kept, rest = sorted(order[:k]), order[k:]
+    last = order[len(kept) - 1]
+    clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
+    return Chosen(
+        contacts=[{"index": i, **candidates[i].numbers} for i in kept],
+        clear=clear,
+        unique=all(candidates[i].unique for i in kept),
+        tolerance={
+            name: max(candidates[i].tolerance[name] for i in kept) for name in FIELDS
+        },
+    )
+
+
+def _repeats(candidates: Sequence[_Candidate], i: int) -> bool:
+    """Whether a candidate is an earlier one again."""
+
+    def same(one: dict[str, Json], other: dict[str, Json]) -> bool:
+        pairs = [(one["phi"], other["phi"])]
+        for name in ("alpha", "n"):
+            pairs += zip(one[name], other[name], strict=True)
+        return all(abs(a - b) <= REPEATED for a, b in pairs)
+
+    return any(same(candidates[i].numbers, candidates[j].numbers) for j in range(i))
