@@ -15,6 +15,8 @@ FAILED: Final = "failed"
 MISSING: Final = "missing"
 DIGITS: Final = 16.0
 """More correct digits than that float64 does not hold."""
+CANCELLED: Final = 1e3
+"""Largest size of a field, in units of its tolerance, at which it is a difference of equals."""
 
 
 @dataclass(frozen=True)
@@ -107,10 +109,9 @@ def acceptable(reason: str, digits: float | None = None) -> Verdict:
 def correct_digits(error: float, size: float, tolerance: float) -> float:
     """-log10 of an error relative to the size of its field, 0 to 16.
 
-    A field that is all zero has no size; the one at which its tolerance is a unit roundoff
-    takes its place.
+    A field that is zero but for rounding, such as phi of bodies that just touch, has no digits of
+    its own: it counts as right to the last where it is within the tolerance.
     """
-    scale = size if size > 0 else tolerance / float(np.finfo(np.float64).eps)
-    if error == 0:
+    if error == 0 or (error <= tolerance and size <= CANCELLED * tolerance):
         return DIGITS
-    return float(np.clip(-np.log10(error / scale), 0.0, DIGITS)) if scale > 0 else 0.0
+    return float(np.clip(-np.log10(error / size), 0.0, DIGITS)) if size > 0 else 0.0

@@ -2,8 +2,8 @@
 
 Sphere, point, capsule, box and convex hull are cores, points with a radius about them. Apart, the
 shortest vector of two cores is Wolfe's; in penetration the best of all normals of faces and
-pairs of edges. A half-space meets the farthest point of a shape. Cylinder, cone and ellipsoid have
-the signed distance of a point, that of a sphere, and by it that of anything found by descent.
+pairs of edges. A half-space meets the farthest point. Cylinder, cone and ellipsoid have the
+signed distance of a point, and so that of a sphere.
 """
 
 import numpy as np
@@ -74,16 +74,17 @@ def core_pair(A, B):
     weights = shortest(P).reshape(len(A), len(B))
     alpha, beta = weights.sum(axis=1) @ A, weights.sum(axis=0) @ B
     d = np.linalg.norm(beta - alpha)
-    if d > 1e-3 * size:
+    if d > 0.1 * size and P.shape[0] > 4:
         return d, alpha, beta, (beta - alpha) / d
-    N = normals(A, B)
+    N, sine = normals(A, B)
     gap = (B @ N.T).min(axis=0) - (A @ N.T).max(axis=0)
-    best = int(np.argmax(gap))
+    # Of the same face's normals, the one from the least acute pair of edges.
+    best = int(np.argmax(np.where(gap >= gap.max() - 4e-15 * size, sine, -1.0)))
     if d > 1e-13 * size and gap[best] < d - 1e-14 * size:
         return d, alpha, beta, (beta - alpha) / d
     n, phi = N[best], gap[best]
-    front = A[A @ n > (A @ n).max() - 1e-12 * size]
-    back = B[B @ n < (B @ n).min() + 1e-12 * size]
+    front = A[A @ n >= (A @ n).max() - 1e-12 * size]
+    back = B[B @ n <= (B @ n).min() + 1e-12 * size]
     Q = (back[None] - front[:, None]).reshape(-1, 3) - phi * n
     weights = shortest(Q).reshape(len(front), len(back))
     alpha = weights.sum(axis=1) @ front
@@ -91,26 +92,29 @@ def core_pair(A, B):
 
 
 def normals(A, B):
-    """Unit normals of all triangles, and of all pairs of edges, in both directions."""
-
-    def edges(P):
+    """Unit normals of all triangles and pairs of edges, both ways, and the sines between them."""
+    edges = []
+    for P in (A, B):
         i, j = np.triu_indices(len(P), 1)
-        return P[j] - P[i]
-
-    a, b = edges(A), edges(B)
-    found = [np.cross(a[:, None], b).reshape(-1, 3)]
-    for e in (a, b):
+        edges.append(P[j] - P[i])
+    a, b = edges
+    pairs = [(np.repeat(a, len(b), axis=0), np.tile(b, (len(a), 1)))]
+    for e in edges:
         i, j = np.triu_indices(len(e), 1)
-        found.append(np.cross(e[i], e[j]))
+        pairs.append((e[i], e[j]))
     if len(a) + len(b) == 1:  # a point on a segment: any direction across
-        found.append(np.cross([*a, *b], AXES))
-    N = np.concatenate(found)
+        pairs.append((np.tile([*a, *b], (3, 1)), AXES))
+    first, second = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    N = np.cross(first, second)
     length = np.linalg.norm(N, axis=1)
-    N = (
-        N[length > 1e-9 * length.max(initial=0)]
-        / length[length > 1e-9 * length.max(initial=0), None]
+    sine = length / np.maximum(
+        np.linalg.norm(first, axis=1) * np.linalg.norm(second, axis=1), 1e-300
     )
-    return np.concatenate([N, -N]) if len(N) else AXES
+    real = sine > 1e-9
+    if not real.any():
+        return AXES, np.ones(3)
+    N, sine = N[real] / length[real, None], sine[real]
+    return np.concatenate([N, -N]), np.concatenate([sine, sine])
 
 
 def point_on(shape, p):
@@ -147,26 +151,19 @@ def point_on(shape, p):
 
 
 def point_on_ellipsoid(a, p):
-    """The root t of sum (a_i p_i / (a_i^2 + t))^2 = 1, by bisection and Newton's method."""
-
-    def excess(t):
-        return np.sum((a * p / (a * a + t)) ** 2) - 1
-
-    low, high = -(a.min() ** 2), a.max() * np.linalg.norm(p) + 1e-300
-    for _ in range(200):
-        t = (low + high) / 2
-        with np.errstate(divide="ignore", invalid="ignore"):
-            low, high = (t, high) if excess(t) > 0 else (low, t)
-    for _ in range(2):
-        slope = -2 * np.sum((a * p) ** 2 / (a * a + high) ** 3)
-        new = high - excess(high) / slope if slope < 0 else high
-        high = new if new > -(a.min() ** 2) else high
-    below = a * a + high
-    x = np.where(below > 1e-12 * a * a, a * a * p / np.where(below > 0, below, 1), 0)
-    free = int(np.argmin(a))
-    if below[free] <= 1e-12 * a[free] ** 2:  # on the plane where the depth is not unique
-        rest = 1 - np.sum(np.delete(x / a, free) ** 2)
-        x[free] = a[free] * np.sqrt(max(rest, 0))
+    """The root s of sum (a_i p_i / (a_i^2 - a_min^2 + s))^2 = 1, s >= 0, by bisection."""
+    above, least = a * a - a.min() ** 2, int(np.argmin(a))
+    low, high = 0.0, a.max() * np.linalg.norm(p) + a.min() ** 2
+    for _ in range(1100):  # float64 may have to be halved that often to reach 0
+        s = (low + high) / 2
+        if not low < s < high:
+            break
+        with np.errstate(over="ignore"):
+            low, high = (s, high) if np.sum((a * p / (above + s)) ** 2) > 1 else (low, s)
+    below = above + high
+    x = np.where(p == 0, 0.0, a * a * p / np.where(below > 0, below, 1.0))
+    if p[least] == 0 and high < 1e-300:  # on the plane from which two ways out are as short
+        x[least] = a[least] * np.sqrt(max(1 - np.sum(np.delete(x / a, least) ** 2), 0.0))
     n = x / a**2 / np.linalg.norm(x / a**2)
     return n @ (p - x), n
 
@@ -228,45 +225,18 @@ def closest_points(alpha, pose_alpha, beta, pose_beta):
         return on_halfspace(alpha, pose_alpha, beta, pose_beta)
     if kinds[1] == "halfspace":
         return swapped(on_halfspace(beta, pose_beta, alpha, pose_alpha))
-    a, b = core(alpha, pose_alpha), core(beta, pose_beta)
-    if a is None and b is None:
-        return by_projections(alpha, pose_alpha, beta, pose_beta)
-    if a is None:
+    if core(alpha, pose_alpha) is None:
         return swapped(closest_points(beta, pose_beta, alpha, pose_alpha))
-    if b is None:
-        if len(a[0]) > 1:
-            return by_projections(alpha, pose_alpha, beta, pose_beta)
-        phi, n = point_on(beta, pose_beta[0].T @ (a[0][0] - pose_beta[1]))
-        n = -(pose_beta[0] @ n)
-        at, radius = a[0][0], a[1]
-        return phi - radius, at + radius * n, at + phi * n, n
-    phi, x, y, n = core_pair(a[0], b[0])
-    return phi - a[1] - b[1], x + a[1] * n, y - b[1] * n, n
-
-
-def projected(shape, pose, x):
-    """The point of a solid shape nearest to x, radius left aside."""
-    found = core(shape, pose)
-    if found is not None:
-        return shortest(found[0] - x) @ found[0]
-    phi, n = point_on(shape, pose[0].T @ (x - pose[1]))
-    return x - max(phi, 0.0) * (pose[0] @ n)
-
-
-def by_projections(alpha, pose_alpha, beta, pose_beta):
-    """Curved shapes apart: project to and fro (Cheney & Goldstein 1959), with Anderson's mixing."""
-    x, past, images = projected(alpha, pose_alpha, pose_beta[1]), [], []
-    for _ in range(400):
-        y = projected(beta, pose_beta, x)
-        image = projected(alpha, pose_alpha, y)
-        if np.abs(image - x).max() < 1e-16 * (1 + np.abs(x).max()):
-            break
-        past, images = [*past[-3:], x], [*images[-3:], image]
-        F = np.array(images) - np.array(past)
-        weights = affine(F)
-        mixed = weights @ np.array(images)
-        x = mixed if np.abs(mixed - image).max() < np.linalg.norm(y - image) else image
-        x = projected(alpha, pose_alpha, x)
-    n = (y - x) / np.linalg.norm(y - x)
-    radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
-    return np.linalg.norm(y - x) - sum(radii), x + radii[0] * n, y - radii[1] * n, n
+    # In the frame of beta, whose corners are then not rounded.
+    R, t = pose_beta
+    a, r = core(alpha, (R.T @ pose_alpha[0], R.T @ (pose_alpha[1] - t)))
+    b = core(beta, (np.eye(3), np.zeros(3)))
+    if b is not None:
+        phi, x, y, n = core_pair(a, b[0])
+        phi, y = phi - b[1], y - b[1] * n
+    elif len(a) == 1:
+        phi, n = point_on(beta, a[0])
+        x, y, n = a[0], a[0] - phi * n, -n
+    else:
+        raise NotImplementedError(f"{kinds} would need an iteration; the vectors have none")
+    return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n
