@@ -117,9 +117,7 @@ def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> 
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],
         clear=clear,
         unique=all(candidates[i].unique for i in kept),
-        tolerance={
-            name: max(candidates[i].tolerance[name] for i in kept) for name in FIELDS
-        },
+        tolerance={name: max(candidates[i].tolerance[name] for i in kept) for name in FIELDS},
     )
 
 

@@ -37,6 +37,7 @@ def _scaled(output: Json, factor: float, *names: str) -> Json:
 
 
 def times(value: Json, factor: float) -> Json:
+    """All numbers of a value, multiplied."""
     if isinstance(value, dict):
         return {name: times(v, factor) for name, v in value.items()}
     if isinstance(value, list):
@@ -87,15 +88,18 @@ def of_rows(change: Callable[[Json, Json], Iterable[Json]]) -> dict[str, Predict
 
 
 def opposite(*names: str) -> Prediction:
+    """Some fields with the other sign."""
     return lambda case, output: [_scaled(output, -1.0, *names)]
 
 
 def reversed_normals(case: Json) -> Json:
+    """A case whose normals point the other way."""
     flipped = _each(case["contacts"], lambda c: {"n": times(c["n"], -1.0)})
     return {**case, "contacts": flipped}
 
 
 def reversed_spin(case: Json, output: Json) -> Iterable[Json]:
+    """The spin about -n."""
     return [{"J": [[*J[:3], times(J[3], -1.0)] for J in output["J"]]}]
 
 
@@ -109,6 +113,7 @@ def contacts_changed(change: Callable[[Json], Json]) -> Prediction:
 
 
 def unsigned(case: Json, output: Json) -> Iterable[Json]:
+    """|phi|, with the normal of beta - alpha or without."""
     phi = np.abs(output["phi"]).tolist()
     inside = np.sign(np.array(output["phi"]))
     n = (np.where(inside == 0, 1.0, inside)[..., None] * np.array(output["n"])).tolist()
@@ -116,6 +121,7 @@ def unsigned(case: Json, output: Json) -> Iterable[Json]:
 
 
 def unsigned_selection(case: Json, output: Json) -> Iterable[Json]:
+    """The nearest by |phi|."""
     return [again("selection", {**case, "phi": [np.abs(phi).tolist() for phi in case["phi"]]})]
 
 
@@ -123,11 +129,13 @@ def unsigned_selection(case: Json, output: Json) -> Iterable[Json]:
 
 
 def swapped_points(case: Json, output: Json) -> Iterable[Json]:
+    """Each body's point as the other's, with n or without."""
     swapped = {**output, "alpha": output["beta"], "beta": output["alpha"]}
     return [swapped, {**swapped, **_scaled(output, -1.0, "n")}]
 
 
 def swapped_wrench(case: Json, output: Json) -> Iterable[Json]:
+    """The wrench on the other body."""
     names = ("alpha", "beta", "alpha_body", "beta_body")
     others = ("beta", "alpha", "beta_body", "alpha_body")
     contacts = _each(
@@ -140,6 +148,7 @@ def swapped_wrench(case: Json, output: Json) -> Iterable[Json]:
 
 
 def with_mu_omega(mu_omega: Callable[[Json], float]) -> Callable[[Json], Json]:
+    """A case with another mu_omega in each contact."""
     return lambda case: {
         **case,
         "contacts": _each(case["contacts"], lambda c: {"mu_omega": mu_omega(c)}),
@@ -147,6 +156,7 @@ def with_mu_omega(mu_omega: Callable[[Json], float]) -> Callable[[Json], Json]:
 
 
 def mu_omega(change: Callable[[Json], Json]) -> dict[str, Prediction]:
+    """What another mu_omega makes of rows and wrenches."""
     return {
         **of_rows(lambda case, output: [again("rows", change(case))]),
         "wrench": lambda case, output: [again("wrench", change(case))],
@@ -154,14 +164,18 @@ def mu_omega(change: Callable[[Json], Json]) -> dict[str, Prediction]:
 
 
 def without_spin(case: Json, output: Json) -> Iterable[Json]:
-    return [_kept_rows(case, output, lambda count: list(range(count - 2 if count == 6 else count)))]
+    """Four rows for every contact of the pyramid."""
+    return [_kept_rows(case, output, lambda count: list(range(4 if count == 6 else count)))]
 
 
 def interleaved(case: Json, output: Json) -> Iterable[Json]:
+    """Rows in MuJoCo's order."""
     return [_kept_rows(case, output, lambda count: [*MUJOCO_ORDER[:count]])]
 
 
 def interleaved_lam(case: Json, output: Json) -> Iterable[Json]:
+    """Lam read in MuJoCo's order."""
+
     def read(contact: Json) -> Json:
         lam = contact["lam"]
         return {"lam": [lam[MUJOCO_ORDER.index(i)] for i in range(len(lam))]}
@@ -183,6 +197,7 @@ def by_h(*names: str) -> Prediction:
 
 
 def other_delta_q(case: Json, output: Json) -> Iterable[Json]:
+    """delta_q multiplied by h before it is used, or divided."""
     factors = [f for h in TIME_STEPS for f in (h, 1 / h)]
     return [again("integrate", {**case, **_scaled(case, f, "delta_q")}) for f in factors]
 
@@ -191,11 +206,13 @@ def other_delta_q(case: Json, output: Json) -> Iterable[Json]:
 
 
 def other_tangents(case: Json, output: Json) -> Iterable[Json]:
+    """J along the world's axes, or as MuJoCo has it."""
     maps = (tangent_map(case["mechanism"], case["q"], t) for t in ("world", "mujoco"))
     return [{"J": (np.array(output["J"]) @ B).tolist()} for B in maps]
 
 
 def other_tangents_of_step(case: Json, output: Json) -> Iterable[Json]:
+    """A whole step in these tangent spaces."""
     for tangent in ("world", "mujoco"):
         B = tangent_map(case["mechanism"], case["q"], tangent)
         contacts = [{"J": (np.array(c["J"]) @ B).tolist()} for c in output["contacts"]]
@@ -211,6 +228,7 @@ def other_tangents_of_step(case: Json, output: Json) -> Iterable[Json]:
 
 
 def world_integrate(case: Json, output: Json) -> Iterable[Json]:
+    """delta_q taken along the world's axes, or as MuJoCo has it."""
     for tangent in ("world", "mujoco"):
         B = tangent_map(case["mechanism"], case["q"], tangent)
         delta_q = (B @ np.array(case["delta_q"])).tolist()
@@ -223,16 +241,20 @@ def _transposed(J: Json) -> Iterable[Json]:
 
 
 def transposed_J(case: Json, output: Json) -> Iterable[Json]:
+    """The transposes, or the same numbers in the order of the transposes."""
     variants = [list(_transposed(J)) for J in output["J"]]
     return [{"J": [variant[k] for variant in variants]} for k in (0, 1)]
 
 
 def transposed_J_of_step(case: Json, output: Json) -> Iterable[Json]:
+    """The same in the contacts of a step."""
     variants = [list(_transposed(contact["J"])) for contact in output["contacts"]]
     return [{"contacts": [{"J": variant[k]} for variant in variants]} for k in (0, 1)]
 
 
 def transposed_rows(case: Json, output: Json) -> Iterable[Json]:
+    """Rows from a J that is read column by column."""
+
     def misread(contact: Json) -> Json:
         array = np.array(contact["J"])
         return {"J": array.reshape(array.shape[::-1]).T.tolist()}
@@ -251,6 +273,8 @@ def _misread_poses(value: Any) -> Any:
 
 
 def misread(name: str) -> Prediction:
+    """The answer to quaternions taken as [w, x, y, z], of poses, of q, or of both."""
+
     def prediction(case: Json, output: Json) -> Iterable[Json]:
         misread = _misread_poses(case)
         yield again(name, misread)
@@ -266,10 +290,13 @@ def misread(name: str) -> Prediction:
 
 
 def answered_wxyz(field: str) -> Prediction:
+    """A right q whose quaternions are written [w, x, y, z]."""
     return lambda case, output: [{field: wxyz(case["mechanism"], output[field])}]
 
 
 def both(*predictions: Prediction) -> Prediction:
+    """The variants of several predictions."""
+
     def prediction(case: Json, output: Json) -> Iterable[Json]:
         for one in predictions:
             yield from one(case, output)
@@ -278,6 +305,7 @@ def both(*predictions: Prediction) -> Prediction:
 
 
 def unactuated_first(case: Json, output: Json) -> Iterable[Json]:
+    """Columns of J in the order [un-actuated; actuated]."""
     joints = {body["name"]: bool(body.get("actuated")) for body in case["mechanism"]["bodies"]}
     order: list[int] = []
     for actuated in (False, True):
