@@ -15,8 +15,11 @@ from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.tolerances import REPEATED
-from quasistatic_ref.vectors.expected import Expected, Json
+from quasistatic_ref.vectors.expected import Json
 from quasistatic_ref.vectors.layers import layer
+from quasistatic_ref.vectors.precision import rounded
+from quasistatic_ref.vectors.shapes import placed
+from quasistatic_ref.vectors.solid_pair import witnesses
 
 FIELDS: Final = ("phi", "alpha", "beta", "n")
 TIED: Final = 1e-12
@@ -63,15 +66,14 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     if "cloud" in (alpha["kind"], beta["kind"]):
-        return _kept(_listed(layer("distance").expected(case)), k)
+        return _kept(_candidates(case), k)
     corners = [] if k == 1 else [_corners(alpha), _corners(beta)]
     parts = [
         {**case, side: {"kind": "cloud", "points": points}}
         for side, points in zip(("alpha", "beta"), corners, strict=False)
         if points
     ]
-    found = [_listed(layer("distance").expected(part)) for part in (*parts, case)]
-    return _kept([one for part in found for one in part], k, solids=True)
+    return _kept([one for part in (*parts, case) for one in _candidates(part)], k, solids=True)
 
 
 def _corners(shape: Json) -> Json:
@@ -80,8 +82,6 @@ def _corners(shape: Json) -> Json:
             half = [size / 2 for size in shape["size"]]
             signs = [(x, y, z) for z, y, x in product((-1, 1), repeat=3)]
             return [[s * h for s, h in zip(sign, half, strict=True)] for sign in signs]
-        case "convex":
-            return shape["vertices"]
         case "sphere" | "halfspace" | "ellipsoid":
             return []
         case kind:
@@ -91,19 +91,29 @@ def _corners(shape: Json) -> Json:
 
 @dataclass(frozen=True)
 class _Candidate:
+    """One contact, and the case of the layer `distance` that has it for its only answer."""
+
     numbers: dict[str, Json]
-    unique: bool
-    tolerance: dict[str, float]
+    case: Json
 
 
-def _listed(found: Expected) -> list[_Candidate]:
-    """The answers of the distance layer one by one; `unique` speaks of all of them."""
-    output, unique = found.output, found.flags["unique"]
-    tolerance = {name: found.tolerance[name].absolute for name in FIELDS}
-    if not isinstance(output["phi"], list):
-        return [_Candidate({name: output[name] for name in FIELDS}, unique, tolerance)]
-    rows = zip(*(output[name] for name in FIELDS), strict=True)
-    return [_Candidate(dict(zip(FIELDS, row, strict=True)), unique, tolerance) for row in rows]
+def _candidates(case: Json) -> list[_Candidate]:
+    found, _ = rounded(
+        lambda: [
+            one.table()
+            for one in witnesses(
+                placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
+            )
+        ]
+    )
+    for side in ("alpha", "beta"):
+        if case[side]["kind"] == "cloud":
+            alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
+            return [
+                _Candidate(numbers, {**case, side: shape})
+                for numbers, shape in zip(found, alone, strict=True)
+            ]
+    return [_Candidate(found[0], case)]
 
 
 def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
@@ -113,11 +123,14 @@ def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> 
     kept, rest = sorted(order[:k]), order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
+    answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],
         clear=clear,
-        unique=all(candidates[i].unique for i in kept),
-        tolerance={name: max(candidates[i].tolerance[name] for i in kept) for name in FIELDS},
+        unique=all(answer.flags["unique"] for answer in answers),
+        tolerance={
+            name: max(answer.tolerance[name].absolute for answer in answers) for name in FIELDS
+        },
     )
 
 

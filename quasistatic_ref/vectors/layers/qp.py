@@ -137,6 +137,13 @@ def tolerances(bound: Bounds) -> dict[str, Tolerance]:
     }
 
 
+def optimum_of(form: ExactForm) -> ExactOptimum:
+    """The optimum of a program that is known to have one."""
+    optimum = exact_optimum(form, (), least_index)
+    assert isinstance(optimum, ExactOptimum)
+    return optimum
+
+
 def solution_of(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact, Exact, Exact]:
     """delta_q, lam on the working set, A'lam and slacks as fractions."""
     found = rational_solution(form, tuple(working))
