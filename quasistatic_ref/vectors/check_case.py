@@ -38,7 +38,7 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     expected = record["output"]
     if layer in ("qp", "step") and isinstance(answer, dict):
         if "farkas" in answer and "farkas" in expected:
-            return _infeasible(case, record, answer)
+            return _infeasible(layer, case, record, answer)
         if "farkas" in answer:
             return failure("farkas", "farkas is given, but the case has a solution")
         if "farkas" in expected:
@@ -49,7 +49,7 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     problem = shape_problem(layer, expected, answer)
     if problem:
         return failure(*problem, digits=0.0)
-    signed = aligned(layer, case, record, answer)
+    signed = aligned(layer, case, expected, answer)
     found = differences(expected, signed, record["tolerance"])
     failing = {name: d for name, d in found.items() if not d.holds}
     free = dependent_fields(layer, record)
@@ -90,12 +90,19 @@ def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
     return acceptable("a contradiction smaller than rounding is not seen")
 
 
-def _infeasible(case: Json, record: Json, answer: Json) -> Verdict:
+def _infeasible(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
+    """A proof that a case has no solution; of a whole step, after what led to it."""
+    if layer == "step":
+        proved = ("farkas", "certificate")
+        before = {name: v for name, v in record["output"].items() if name not in proved}
+        led = {name: v for name, v in answer.items() if name not in proved}
+        verdict = case_verdict(layer, case, {**record, "output": before}, led)
+        if verdict.verdict == FAILED:
+            return verdict
+        case = {**case, **{key: record["output"][key] for key in ("A", "b", "g")}}
     for name in answer:
         if name not in record["output"]:
             return failure(name, f"{name} is no field of a case without solution")
     if "certificate" in answer and answer["certificate"] != record["output"]["certificate"]:
         return failure("certificate", "certificate is another one; leave it out, farkas says it")
-    if "A" not in case:  # a whole step: its rows are those of the expected output
-        case = {**case, **{key: record["output"][key] for key in ("A", "b", "g")}}
     return farkas_verdict(case, record, answer["farkas"])

@@ -58,12 +58,12 @@ def another_tie(case: Json, record: Json, answer: Json, failing: Failing) -> Ver
     return acceptable("another choice among equal distances")
 
 
-def aligned(layer: str, case: Json, record: Json, answer: Json) -> Json:
+def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
     """An answer whose quaternions have the signs of the expected ones, where q or -q is given."""
     field = {"integrate": "q", "step": "q_next"}.get(layer)
-    if field is None:
+    if field is None or field not in expected:
         return answer
-    wanted, given = (np.array(o[field], dtype=np.float64) for o in (record["output"], answer))
+    wanted, given = (np.array(o[field], dtype=np.float64) for o in (expected, answer))
     for place in quaternion_places(case["mechanism"]):
         if given[place] @ wanted[place] < 0:
             given[place] = -given[place]

@@ -112,6 +112,36 @@ def tangents(n):
     return d1, np.cross(n, d1)
 
 
+def corners(shape):
+    """The corners of a box, the sign of x changing first; other solids have none here."""
+    if shape["kind"] != "box":
+        return []
+    signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
+    return signs * np.array(shape["size"]) / 2
+
+
+def candidates(alpha, pose_alpha, beta, pose_beta, k):
+    """phi, alpha, beta, n of all candidates, and which repeat an earlier one."""
+    clouds = "cloud" in (alpha["kind"], beta["kind"])
+    parts = []
+    if k > 1 and not clouds:
+        for shape, swap in ((alpha, True), (beta, False)):
+            points = {"kind": "cloud", "points": corners(shape)}
+            if len(points["points"]):
+                pair = (points, pose_alpha, beta, pose_beta)
+                parts.append(pair if swap else (alpha, pose_alpha, points, pose_beta))
+    parts.append((alpha, pose_alpha, beta, pose_beta))
+    found = [closest_points(*part) for part in parts]
+    phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
+    a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
+    every = np.column_stack([phi, a, n])
+    late = np.zeros(len(phi), dtype=bool)
+    if k > 1 and not clouds:
+        near = np.abs(every[:, None] - every).max(axis=2) <= 1e-9
+        late = np.tril(near, -1).any(axis=1)
+    return phi, a, b, n, late
+
+
 def step_contacts(case, at):
     """The contacts of a step, pair by pair, without J."""
     found = []
@@ -122,11 +152,9 @@ def step_contacts(case, at):
             R, t, _ = at[shape["body"]]
             pose = shape["pose"]
             placed.append((R @ rotation(pose["quaternion"]), R @ pose["xyz"] + t))
-        phi, a, b, n = (
-            np.array(v) for v in closest_points(alpha["shape"], placed[0], beta["shape"], placed[1])
-        )
-        phi, (a, b, n) = np.atleast_1d(phi), (v.reshape(-1, 3) for v in (a, b, n))
-        for i in np.argsort(phi, kind="stable")[: pair["k"]]:
+        k = pair["k"]
+        phi, a, b, n, late = candidates(alpha["shape"], placed[0], beta["shape"], placed[1], k)
+        for i in np.sort(np.lexsort((np.arange(len(phi)), phi, late))[:k]):
             d1, d2 = tangents(n[i])
             geometry = {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
             bodies = {"alpha_body": alpha["body"], "beta_body": beta["body"]}
@@ -175,17 +203,18 @@ def step(case):
     AB = rows({"cone": case["cone"], "contacts": contacts})
     A, b = np.array(AB["A"]).reshape(-1, n_v), np.array(AB["b"])
     found = qp_answer(H, g, A, b)
+    told = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
+    shown = [{key: contact[key] for key in told} for contact in contacts]
+    output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
     if "farkas" in found:
-        return found
+        return {**output, **found}
     counts = [len(cone_table(case["cone"], c["rows"])) for c in contacts]
     lam = np.split(found["lam"], np.cumsum(counts)[:-1]) if counts else []
     loaded = [{**c, "lam": part} for c, part in zip(contacts, lam, strict=True)]
     wrenches = wrench({"h": h, "cone": case["cone"], "contacts": loaded, "bodies": {}})["wrench"]
     q_next = integrate({"mechanism": mechanism, "q": q, "delta_q": found["delta_q"]})["q"]
-    told = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
-    return {"contacts": [{key: c[key] for key in told} for c in contacts], "H": H, "g": g,
-            "A": A, "b": b, **{key: found[key] for key in ("delta_q", "lam", "A_lam")},
-            "wrench": wrenches, "q_next": q_next}  # fmt: skip
+    solved = {key: found[key] for key in ("delta_q", "lam", "A_lam")}
+    return {**output, **solved, "wrench": wrenches, "q_next": q_next}
 
 
 def distance(case):
