@@ -20,8 +20,8 @@ from quasistatic_ref.vectors.hypotheses import HYPOTHESES, Hypothesis
 from quasistatic_ref.vectors.report import Named
 from quasistatic_ref.vectors.verdict import Verdict
 
-SAMPLE: Final = 24
-"""Failing and right cases that are tried: mistakes are systematic, and some predictions dear."""
+SAMPLE: Final = 12
+"""Failing cases that are tried, and right ones: mistakes are systematic, some predictions dear."""
 SAME: Final = 1e-9
 """Difference from a prediction, relative to the field's largest number, that still matches: a
 mistake leaves the other digits right, but not to the last bit."""
@@ -55,12 +55,13 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
     if not failed:
         return ()
     tried, checked = _spread(failed), _spread(right)
-    found = []
+    found: list[tuple[int, int, Hypothesis]] = []
     for hypothesis in HYPOTHESES:
         if layer not in hypothesis.predictions:
             continue
-        explained = sum(_predicted(layer, hypothesis, one) for one in tried)
-        if 2 * explained < len(tried) or not explained:
+        perfect = any(score == len(tried) for score, _, _ in found)
+        explained = _explained(layer, hypothesis, tried, len(tried) if perfect else None)
+        if not explained:
             continue
         spoiled = sum(_would_spoil(layer, hypothesis, one) for one in checked)
         if explained > spoiled:
@@ -71,6 +72,19 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
         for score, explained, hypothesis in found
         if score == best
     )
+
+
+def _explained(
+    layer: str, hypothesis: Hypothesis, tried: Sequence[Failed], least: int | None
+) -> int:
+    """How many of the failures a hypothesis predicts; 0 if less than `least`, or than half."""
+    wanted = -(-len(tried) // 2) if least is None else least
+    explained = 0
+    for i, one in enumerate(tried):
+        explained += _predicted(layer, hypothesis, one)
+        if explained + len(tried) - i - 1 < wanted:
+            return 0
+    return explained
 
 
 def _spread(cases: Sequence[Failed]) -> Sequence[Failed]:
