@@ -27,7 +27,7 @@ from quasistatic_ref.vectors.scenario_mechanism import mechanism_of, pairs_of, p
 
 Found = Iterator[tuple[str, Case]]
 Say = Callable[[str], None]
-SHARES: Final = (0.0, 0.2, 0.4, 0.6, 0.8)
+SHARES: Final = (0.0, 0.3, 0.6)
 """Where in a run steps are taken, two in a row each."""
 FEW: Final = 40
 """Points of a cloud in a case of the layer distance."""
@@ -66,7 +66,7 @@ def _cases(name: str, scenario: Scenario, say: Say) -> Found:
                 case["wrenches"] = _wrenches(scenario, t)
             where = f"step {k} of the scenario {name}"
             yield from _whole(f"step/{name}/{k}", where, case, say)
-            if k in starts[1::2]:
+            if k in starts[1:]:
                 kinematics = system.kinematics(q)
                 yield from _parts(f"{name}/{k}", where, scenario, case, result, kinematics)
                 yield from _distances(f"{name}/{k}", where, scenario.pairs, kinematics)
