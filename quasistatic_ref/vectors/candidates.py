@@ -94,13 +94,14 @@ class _Candidate:
     """One contact, and the case of the layer `distance` that has it for its only answer."""
 
     numbers: dict[str, Json]
+    unique: bool
     case: Json
 
 
 def _candidates(case: Json) -> list[_Candidate]:
     found, _ = rounded(
         lambda: [
-            one.table()
+            {**one.table(), "unique": one.unique}
             for one in witnesses(
                 placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
             )
@@ -110,10 +111,10 @@ def _candidates(case: Json) -> list[_Candidate]:
         if case[side]["kind"] == "cloud":
             alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
             return [
-                _Candidate(numbers, {**case, side: shape})
+                _Candidate(numbers, numbers.pop("unique"), {**case, side: shape})
                 for numbers, shape in zip(found, alone, strict=True)
             ]
-    return [_Candidate(found[0], case)]
+    return [_Candidate(found[0], found[0].pop("unique"), case)]
 
 
 def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
@@ -123,6 +124,9 @@ def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> 
     kept, rest = sorted(order[:k]), order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
+    if solids and len(candidates) > k and not candidates[-1].unique:
+        # The closest pair may then be any point of an edge or a face, and no corner again.
+        clear = clear and phi[-1] == phi[last]
     answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],

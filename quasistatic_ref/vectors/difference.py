@@ -34,10 +34,11 @@ def difference(
         Configurations of those joints, in the paper's order.
     actuated : bool
     """
-    first = 0 if actuated else sum(b.q.stop - b.q.start for b in mechanism.bodies if b.actuated)
+    own = [body for body in mechanism.bodies if body.kind != "fixed" and body.mimic is None]
+    first = 0 if actuated else sum(b.q.stop - b.q.start for b in own if b.actuated)
     change: Vector = []
-    for body in mechanism.bodies:
-        if body.actuated == actuated and body.kind != "fixed":
+    for body in own:
+        if body.actuated == actuated:
             part = slice(body.q.start - first, body.q.stop - first)
             change += _change(body.kind, numbers(q[part]), numbers(q_next[part]))
     return change

@@ -17,6 +17,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import written_whole
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.vectors.files import expected_read, inputs_read
 
 COLUMNS: Final = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
 
@@ -42,6 +43,20 @@ class Program:
     A: Array
     b: Array
     delta_q: Array | None = None
+
+
+def exported_programs(folder: str | Path) -> list[Program]:
+    """The polyhedral programs of a folder of vectors that have a solution, with their optima."""
+    expected = expected_read(folder, "qp")
+    programs = []
+    for case in inputs_read(folder, "qp"):
+        given, output = case.input, expected[case.id]["output"]
+        if "second_order" in given or "farkas" in output:
+            continue
+        H, g, b = (np.array(given[key], dtype=np.float64) for key in ("H", "g", "b"))
+        A = np.array(given["A"], dtype=np.float64).reshape(len(b), len(g))
+        programs.append(Program(case.id, H, g, A, b, np.array(output["delta_q"])))
+    return programs
 
 
 def parquet_written(path: str | Path, programs: Sequence[Program]) -> Path:

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.rotation import quaternion
@@ -38,20 +37,14 @@ HERE = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
 
 
 def mechanism_of(scenario: Scenario) -> Json:
-    """The bodies of a scenario, so that q and delta_q keep their order.
-
-    Raises
-    ------
-    InputError
-        If a joint mimics another: the vectors know no such joints.
-    """
+    """The bodies of a scenario, so that q and delta_q keep their order."""
     bodies: list[Json] = []
     for entry in scenario.bodies.values():
         bodies += _tree(entry.body, urdf_file(entry.body.urdf))
     by_name = {body["name"]: body for body in bodies}
     # Among the actuated and among the others the order of pinocchio counts.
     joints = {joint.name: joint.v[0] for joint in world_of(scenario.system.bodies).joints}
-    moving = [body for body in bodies if body["joint"] != "fixed"]
+    moving = [body for body in bodies if body["joint"] != "fixed" and "mimic" not in body]
     ordered: list[Json] = []
     for body in [*sorted(moving, key=lambda body: joints[body["of"]]), *bodies]:
         chain = [body]
@@ -111,9 +104,8 @@ def _tree(body: Body, file: UrdfFile) -> list[Json]:
     place, kind = _base(body)
     links = [_link(body.name, file.links[file.root], None, place, kind, f"{body.name}/base")]
     links[0]["actuated"] = _actuated(body, "base") and kind != "fixed"
+    carried = {joint.name: f"{body.name}/{joint.child}" for joint in file.joints}
     for joint in file.joints:
-        if joint.mimic is not None:
-            raise InputError("mimics another; the vectors know no such joint", field=joint.name)
         entry = _link(
             body.name,
             file.links[joint.child],
@@ -122,7 +114,7 @@ def _tree(body: Body, file: UrdfFile) -> list[Json]:
             joint.kind,
             f"{body.name}/{joint.name}",
         )
-        links.append({**entry, **_moves(body, joint)})
+        links.append({**entry, **_moves(body, joint, carried)})
     return links
 
 
@@ -152,10 +144,16 @@ def _link(
     return entry
 
 
-def _moves(body: Body, joint: FileJoint) -> dict[str, Any]:
+def _moves(body: Body, joint: FileJoint, carried: dict[str, str]) -> dict[str, Any]:
     if joint.kind == "fixed":
         return {}
-    return {"axis": joint.axis.tolist(), "actuated": _actuated(body, joint.name)}
+    axis = {"axis": joint.axis.tolist()}
+    if joint.mimic is None:
+        return {**axis, "actuated": _actuated(body, joint.name)}
+    of, multiplier, offset = carried[joint.mimic.of], joint.mimic.multiplier, joint.mimic.offset
+    actuated = _actuated(body, joint.mimic.of)
+    follow = {"of": of, "multiplier": multiplier, "offset": offset}
+    return {**axis, "actuated": actuated, "mimic": follow}
 
 
 def _actuated(body: Body, joint: str) -> bool:
