@@ -58,9 +58,11 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
             sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
-        solids = solid_cases(sides)
+        candidates = _candidates(sides, pair["k"])
         for contact in own:
-            if problem := _contact_problem(solids, sides, contact, room):
+            if not 0 <= contact["index"] < len(candidates):
+                return f"{pair['name']} has no candidate {contact['index']}"
+            if problem := _contact_problem(candidates[contact["index"]], contact, room):
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
 
@@ -69,19 +71,12 @@ def _by_phi(contacts: Json) -> list[Json]:
     return sorted(contacts, key=lambda contact: float(contact["phi"]))
 
 
-def _contact_problem(solids: list[Json], sides: Json, contact: Json, room: float) -> str | None:
+def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
-    if "cloud" in (sides["alpha"]["kind"], sides["beta"]["kind"]):
-        if not 0 <= contact["index"] < len(solids):
-            return "the cloud has no such point"
-        solids = [solids[contact["index"]]]
-    else:
-        solids = [sides, *_corner_cases(sides)]
-    problems = [witness_problem(one, contact["phi"], alpha, beta, n, 2 * room) for one in solids]
-    if None not in problems:
-        return problems[0]
+    if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * room):
+        return problem
     axis = int(np.abs(n).argmin())
     near = np.flatnonzero(np.abs(n) <= abs(n[axis]) + TIED)
     if not any(np.abs(d1 - _projected(i, n)).max() <= 4 * room for i in near):
@@ -94,15 +89,17 @@ def _projected(axis: int, n: Array) -> Array:
     return np.asarray(d / np.linalg.norm(d))
 
 
-def _corner_cases(sides: Json) -> list[Json]:
-    """Each corner of a box against the other solid."""
+def _candidates(sides: Json, k: int) -> list[Json]:
+    """Every candidate as a case of two solids: a cloud's points; corners, then the closest pair."""
+    if k == 1 or "cloud" in (sides["alpha"]["kind"], sides["beta"]["kind"]):
+        return solid_cases(sides)
     signs = 2.0 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
     found = []
     for side in ("alpha", "beta"):
         if sides[side]["kind"] == "box":
             points = (signs * np.array(sides[side]["size"]) / 2).tolist()
             found += solid_cases({**sides, side: {"kind": "cloud", "points": points}})
-    return found
+    return [*found, sides]
 
 
 def record_from(case: Json, record: Json, contacts: Json) -> Json:

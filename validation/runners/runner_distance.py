@@ -36,10 +36,13 @@ def shortest(P):
     """Weights of the convex combination of points of least length (Wolfe 1976)."""
     S = [int(np.argmin(np.einsum("ij,ij->i", P, P)))]
     w = np.ones(1)
-    for _ in range(1000):
+    size, before, best = max(np.abs(P).max() ** 2, 1e-300), np.inf, (S, w)
+    while True:
         x = w @ P[S]
+        if x @ x >= before:  # it would shrink, were it not for rounding
+            break
+        before, best = x @ x, (S, w)
         j = int(np.argmin(P @ x))
-        size = max(np.abs(P).max() ** 2, 1e-300)
         if x @ x - P[j] @ x <= 1e-16 * size or j in S:
             break
         S, w = [*S, j], np.append(w, 0.0)
@@ -55,7 +58,7 @@ def shortest(P):
             keep[int(np.argmin(np.where(low, w, np.inf)))] = False
             S, w = [s for s, k in zip(S, keep, strict=True) if k], w[keep] / w[keep].sum()
     weights = np.zeros(len(P))
-    weights[S] = w
+    weights[best[0]] = best[1]
     return weights
 
 
