@@ -30,14 +30,15 @@ CHANGES: Final = 6
 
 def expected(case_input: Json) -> Expected:
     """Closest points; of a cloud, lists over its points."""
-    output, digits, unique = _answer(case_input)
+    output, digits, unique = answer(case_input)
     cloud = "cloud" in (case_input["alpha"]["kind"], case_input["beta"]["kind"])
     if not cloud:
         output, digits = ({key: value[0] for key, value in t.items()} for t in (output, digits))
     return Expected(output, digits, {"unique": all(unique)}, _tolerance(case_input))
 
 
-def _answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list[bool]]:
+def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list[bool]]:
+    """Output and digits, as lists over the points of a cloud or of one, and what is unique."""
     found: list[Witness] = []
 
     def fields() -> dict[str, Any]:
@@ -60,7 +61,7 @@ def _tolerance(case: dict[str, Any]) -> dict[str, Tolerance]:
     A field that the change turns to another of several answers is compared by the checker's
     rules for those, not by its value: such changes are left out.
     """
-    output, _, unique = _answer(case)
+    output, _, unique = answer(case)
     size = max(
         abs(x)
         for x in [
@@ -74,7 +75,7 @@ def _tolerance(case: dict[str, Any]) -> dict[str, Tolerance]:
     )
     moves = dict.fromkeys(FIELDS, 0.0)
     for seed in range(CHANGES):
-        other, _, still = _answer(_changed(case, _signs(seed), size))
+        other, _, still = answer(_changed(case, _signs(seed), size))
         for k in range(len(unique)):
             for key in FIELDS if unique[k] and still[k] else ("phi",):
                 pairs = zip(_leaves(other[key][k]), _leaves(output[key][k]), strict=True)
