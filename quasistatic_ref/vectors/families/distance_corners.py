@@ -300,6 +300,57 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
         ),
         ORIGIN,
     ),
+    "cylinder_on_box": (
+        "a cylinder stands over a box: the witnesses fill its cap",
+        *(CUBE, ORIGIN, cylinder(0.25, 1.0), at(0.125, 0.0, 1.125)),
+    ),
+    "cylinder_beside_box": (
+        "a cylinder lies over a box: the witnesses fill a segment",
+        *(CUBE, ORIGIN, cylinder(0.25, 0.5), at(0.125, 0.0, 1.0, ALONG_X)),
+    ),
+    "cylinder_over_edge": (
+        "a box's edge across a cylinder's side: unique",
+        *(cylinder(0.25, 1.0), ORIGIN, HALF, at(0.75, 0.0, 0.0, [0.0, 0.0, 0.41421356, 1.0])),
+    ),
+    "cylinders_parallel": (
+        "two cylinders side by side",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.5, 0.0, 0.25)),
+    ),
+    "cylinders_crossed": (
+        "two cylinders whose sides cross: unique",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.5, 0.0, 0.0, ON_SIDE)),
+    ),
+    "cylinders_stacked": (
+        "one cylinder over another: the witnesses fill a disc",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.125, 0.0, 1.25)),
+    ),
+    "cylinders_rims": (
+        "two rims before each other, askew",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            cylinder(0.125, 1.0),
+            at(0.6, 0.2, 1.0, [0.4, -0.3, 0.1, 1.0]),
+        ),
+    ),
+    "cylinder_on_side_of_other": (
+        "a rim before another's side, nearly touching",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            cylinder(0.125, 1.0),
+            at(0.71, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
+        ),
+    ),
+    "cylinder_in_capsule": (
+        "a capsule's ball reaches a cylinder that its axis does not: a depth with a closed form",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            capsule(0.125, 1.0),
+            at(0.3, 0.0, 0.1, [0.3, 0.0, 0.1, 1.0]),
+        ),
+    ),
     "cone_on_tip": (
         "a cone on its tip over the floor",
         *(FLOOR, ORIGIN, cone(0.25, 1.0), at(0.0, 0.0, 0.75, [1.0, 0.0, 0.0, 0.0])),
