@@ -144,7 +144,7 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
         return False
     try:
         found = difference(field, ours, theirs, 0.0)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     numbers = [abs(v) for _, v in leaves(ours) if isinstance(v, int | float)]
     size = max(numbers, default=0.0)
