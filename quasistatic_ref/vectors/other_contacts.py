@@ -54,7 +54,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             return f"{pair['name']} names a candidate twice"
         if any(abs(c["phi"] - phi) > 2 * room for c, phi in zip(_by_phi(own), due, strict=True)):
             return f"the distances of {pair['name']} are others"
-        sides = {}
+        sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
             sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
@@ -79,7 +79,7 @@ def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
         return problem
     axis = int(np.abs(n).argmin())
     near = np.flatnonzero(np.abs(n) <= abs(n[axis]) + TIED)
-    if not any(np.abs(d1 - _projected(i, n)).max() <= 4 * room for i in near):
+    if not any(np.abs(d1 - _projected(int(i), n)).max() <= 4 * room for i in near):
         return "d1 is not the projection of the axis farthest from n"
     return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * room else "d2 is not n x d1"
 
