@@ -62,17 +62,20 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     above_side = (p[:, 0] - rim[0]) * side[0] + (p[:, 1] - rim[1]) * side[1]
     above_base = -half_length - p[:, 1]
     along = (tip - rim) / slant
-    s = np.clip((p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1], 0.0, slant)
-    on_side = rim + s[:, None] * along
+    s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
+    on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
     on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
     d_side, d_base = _length(p - on_side), _length(p - on_base)
-    nearest = np.where((d_side <= d_base)[:, None], on_side, on_base)
+    side_nearest = d_side <= d_base
+    nearest = np.where(side_nearest[:, None], on_side, on_base)
     away = p - nearest
     distance = _length(away)
     flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
     level = np.maximum(above_side, above_base)
     # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
-    face = (level <= 0) | (distance <= level)
+    # By where the closest point is, not by its distance: next to the surface that is all rounding.
+    within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
+    face = (level <= 0) | within | (distance == 0)
     flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
     phi = np.where(face, level, distance)
     return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)

@@ -334,12 +334,12 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
         ),
     ),
     "cylinder_on_side_of_other": (
-        "a rim before another's side, nearly touching",
+        "a rim before another's side",
         *(
             cylinder(0.25, 1.0),
             ORIGIN,
             cylinder(0.125, 1.0),
-            at(0.71, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
+            at(0.8, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
         ),
     ),
     "cylinder_in_capsule": (
