@@ -10,9 +10,9 @@ import numpy as np
 
 from quasistatic_ref.step.data import Array
 
-HALVINGS = 140
-"""Bisections of an ellipsoid's root: the bracket ratio, 1e308 at most, halves in its logarithm ten
-times and then in its width 130 times, past the last bit."""
+STEPS = 100
+"""Most Newton steps to an ellipsoid's root: about ten are usual, as each starts within 1 of it in
+the sum."""
 
 
 def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
@@ -20,7 +20,8 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
 
     The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
     root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
-    every sum of the denominators is free of cancellation; w > 0 is bracketed and bisected.
+    every sum of the denominators is free of cancellation. Where one term alone is 1 the root is not
+    yet reached; the sum is at most 3 there and convex, so that Newton's steps rise to the root.
     (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
     """
     least = half_axes.min()
@@ -31,13 +32,15 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
     # is taken by moving the point off that plane by less than any number matters.
     z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
     low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
-    high = np.sqrt(np.sum((r * z) ** 2, axis=1))
-    high = np.maximum(high, low)
-    for _ in range(HALVINGS):
-        middle = np.where(high > 4 * low, np.sqrt(low) * np.sqrt(high), (low + high) / 2)
-        above = np.sum((r * z / (middle[:, None] + (r - 1))) ** 2, axis=1) > 1
-        low, high = np.where(above, middle, low), np.where(above, high, middle)
-    on = z * r / (((low + high) / 2)[:, None] + (r - 1))  # x / e, of length one
+    w = low
+    for _ in range(STEPS):
+        terms = (r * z / (w[:, None] + (r - 1))) ** 2
+        slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
+        rise = (np.sum(terms, axis=1) - 1) / slope
+        if (rise <= np.spacing(w)).all():
+            break
+        w = np.maximum(w, w + rise)
+    on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
     on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
     normal = on / half_axes
     normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]

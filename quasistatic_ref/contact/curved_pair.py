@@ -147,8 +147,10 @@ def _along(b: Placed, starts: Array, ways: Array) -> Candidates:
 def _across(normal: Array, ways: Array) -> Array:
     """Normals made perpendicular to an edge: near contact they are off by more than the rest."""
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
-    normal = normal - np.sum(normal * ways, axis=1)[:, None] * ways
-    return np.asarray(normal / np.sqrt(np.sum(normal * normal, axis=1))[:, None])
+    across = normal - np.sum(normal * ways, axis=1)[:, None] * ways
+    length = np.sqrt(np.sum(across * across, axis=1))[:, None]
+    # At a kink of the distance, inside, nothing may be left: no candidate, whatever its normal.
+    return np.where(length > 0, across / np.where(length > 0, length, 1.0), normal)
 
 
 def _towards(b: Placed, ways: Array, offsets: Array) -> Candidates:

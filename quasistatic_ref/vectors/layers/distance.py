@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Final
 
-from flint import fmpq
-
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.precision import number, rounded
+from quasistatic_ref.vectors.precision import Real, number, rounded
 from quasistatic_ref.vectors.shapes import placed
 from quasistatic_ref.vectors.solid_pair import witnesses
 from quasistatic_ref.vectors.witness import Witness
@@ -113,7 +111,7 @@ def _changed(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[st
     """The case with every length and pose changed by some units of rounding, exactly."""
     unit = number(SHIFT * EPS)
 
-    def moved(value: float, scale: float) -> fmpq:
+    def moved(value: float, scale: float) -> Real:
         return number(value) + next(signs) * unit * number(scale)
 
     changed = dict(case)
