@@ -21,7 +21,7 @@ from quasistatic_ref.vectors.plane_distance import SUPPORTS
 from quasistatic_ref.vectors.point_distance import point_on_solid
 from quasistatic_ref.vectors.precision import Real, root, sign
 from quasistatic_ref.vectors.shapes import Core, Placed
-from quasistatic_ref.vectors.stationary import increasing_root
+from quasistatic_ref.vectors.stationary import minimum, rational_near
 from quasistatic_ref.vectors.witness import Witness
 
 
@@ -52,9 +52,14 @@ def _candidates(flat: Core, curved: Placed) -> Iterator[Witness]:
     for first, last in flat.sides:
         start = flat.vertices[first]
         way = subtract(flat.vertices[last], start)
-        at = increasing_root(partial(slope, curved, start, way), fmpq(0), fmpq(1))
-        if at is not None:
+        at = minimum(partial(slope, curved, start, way), fmpq(0), fmpq(1))
+        if at is not None and outside(curved, along(start, way, rational_near(at))):
             yield point_on_solid(curved, along(start, way, at)).swapped()
+
+
+def outside(solid: Placed, point: Vector) -> bool:
+    """Whether a rational point is outside: inside, the distance has kinks that no ball decides."""
+    return sign(point_on_solid(solid, point).phi) > 0
 
 
 def slope(curved: Placed, start: Vector, way: Vector, at: Real) -> Real:

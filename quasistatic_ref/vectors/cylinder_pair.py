@@ -15,14 +15,14 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.vectors.algebra import IDENTITY, Vector, add, along, dot, scaled, squared
-from quasistatic_ref.vectors.curved_pair import slope
+from quasistatic_ref.vectors.curved_pair import outside, slope
 from quasistatic_ref.vectors.flats import flat_of, shares_a_way
 from quasistatic_ref.vectors.plane_distance import SUPPORTS
 from quasistatic_ref.vectors.point_distance import point_on_solid
 from quasistatic_ref.vectors.precision import Real, root, sign
 from quasistatic_ref.vectors.rotation import cos_sin
 from quasistatic_ref.vectors.shapes import Placed
-from quasistatic_ref.vectors.stationary import increasing_root
+from quasistatic_ref.vectors.stationary import minimum, rational_near
 from quasistatic_ref.vectors.witness import Witness
 
 SECTORS = 48
@@ -56,8 +56,8 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
 def _candidates(cylinder: Placed, other: Placed) -> Iterator[Witness]:
     radius, half = cylinder.sizes
     axis = cylinder.world_direction(IDENTITY[2])
-    at = increasing_root(partial(slope, other, cylinder.t, axis), -half, half)
-    if at is not None:
+    at = minimum(partial(slope, other, cylinder.t, axis), -half, half)
+    if at is not None and outside(other, along(cylinder.t, axis, rational_near(at))):
         core = point_on_solid(other, along(cylinder.t, axis, at)).swapped()
         yield core.inflated(radius, fmpq(0))
     for end in (1, -1):
@@ -90,9 +90,11 @@ def _on_rim(cylinder: Placed, centre: Vector, other: Placed) -> Iterator[Witness
     for k in range(SECTORS):
         at: Real | None = angles[k] if signs[k] == 0 else None
         if signs[k] < 0 < signs[k + 1]:
-            at = increasing_root(rise, angles[k], angles[k + 1])
+            at = minimum(rise, angles[k], angles[k + 1])
         if at is not None:
-            yield point_on_solid(other, add(centre, radial(at)[0])).swapped()
+            point = add(centre, radial(at)[0])
+            if outside(other, [rational_near(x) for x in point]):
+                yield point_on_solid(other, point).swapped()
 
 
 def _is_normal(cylinder: Placed, found: Witness) -> bool:
