@@ -133,11 +133,11 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
     ),
     "boxes_nearly_parallel": (
         "two faces parallel but for 1e-6 rad",
-        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 1.0, about_x(1e-6))),
+        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 1.0, [5e-7, 3e-7, 0.0, 1.0])),
     ),
     "boxes_nearly_parallel_inside": (
         "the same in penetration",
-        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 0.7, about_x(1e-6))),
+        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 0.7, [5e-7, 3e-7, 0.0, 1.0])),
     ),
     "boxes_far": (
         "boxes 1 km from the origin, 1 mm apart",
@@ -310,7 +310,7 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
     ),
     "cylinder_over_edge": (
         "a box's edge across a cylinder's side: unique",
-        *(cylinder(0.25, 1.0), ORIGIN, HALF, at(0.75, 0.0, 0.0, [0.0, 0.0, 0.41421356, 1.0])),
+        *(cylinder(0.25, 1.0), ORIGIN, HALF, at(0.75, 0.0, 0.0, [0.3, 0.0, 0.4, 1.0])),
     ),
     "cylinders_parallel": (
         "two cylinders side by side",
@@ -329,17 +329,17 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
         *(
             cylinder(0.25, 1.0),
             ORIGIN,
-            cylinder(0.125, 1.0),
-            at(0.6, 0.2, 1.0, [0.4, -0.3, 0.1, 1.0]),
+            cylinder(0.125, 0.5),
+            at(0.7, 0.2, 1.2, [0.2, -0.3, 0.1, 1.0]),
         ),
     ),
     "cylinder_on_side_of_other": (
-        "a rim before another's side, nearly touching",
+        "a rim before another's side",
         *(
             cylinder(0.25, 1.0),
             ORIGIN,
             cylinder(0.125, 1.0),
-            at(0.71, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
+            at(0.8, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
         ),
     ),
     "cylinder_in_capsule": (

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Final
 
-from flint import fmpq
-
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.precision import number, rounded
+from quasistatic_ref.vectors.precision import Real, number, rounded
 from quasistatic_ref.vectors.shapes import placed
 from quasistatic_ref.vectors.solid_pair import witnesses
 from quasistatic_ref.vectors.witness import Witness
+
+CURVED: Final = ("cylinder", "cone", "ellipsoid")
+SIMPLE: Final = ("sphere", "halfspace", "cloud")
+"""Whatever meets these has its normal from one closed form."""
 
 FIELDS: Final = ("phi", "alpha", "beta", "n")
 EPS: Final = 2.0**-52
@@ -62,6 +64,7 @@ def _tolerance(case: dict[str, Any]) -> dict[str, Tolerance]:
     rules for those, not by its value: such changes are left out.
     """
     output, _, unique = answer(case)
+    shapes = case["alpha"], case["beta"]
     size = max(
         abs(x)
         for x in [
@@ -80,12 +83,23 @@ def _tolerance(case: dict[str, Any]) -> dict[str, Tolerance]:
             for key in FIELDS if unique[k] and still[k] else ("phi",):
                 pairs = zip(_leaves(other[key][k]), _leaves(output[key][k]), strict=True)
                 moves[key] = max(moves[key], *(abs(x - y) for x, y in pairs))
+    # Where neither solid's own normal is at hand, n is (beta - alpha) / phi, of the axes if
+    # there is a capsule; its error carries over to a point of the capsule.
+    thickness = sum(shape["radius"] for shape in shapes if shape["kind"] == "capsule")
+    normal = 0.0
+    if not any(shape["kind"] in SIMPLE for shape in shapes) and any(
+        shape["kind"] in CURVED for shape in shapes
+    ):
+        normal = SHIFT * EPS * size / (output["phi"][0] + thickness)
     tolerance = {}
     for key in FIELDS:
         scale = 1.0 if key == "n" else size
         floor = ROUNDINGS * EPS * scale
         what = "unit vectors" if key == "n" else f"lengths up to {size:.3g} m"
         reason = f"{ROUNDINGS:g} units of rounding of {what}"
+        floor += normal * {"phi": 0.0, "n": 1.0}.get(key, thickness)
+        if normal and key != "phi":
+            reason += f", and the {normal:.2g} of an n that is a difference of near points"
         if 2 * moves[key] > floor:
             by = f"{moves[key]:.2g} by which poses off by {SHIFT:g} units move it"
             reason += f", and twice the {by}"
@@ -97,7 +111,7 @@ def _changed(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[st
     """The case with every length and pose changed by some units of rounding, exactly."""
     unit = number(SHIFT * EPS)
 
-    def moved(value: float, scale: float) -> fmpq:
+    def moved(value: float, scale: float) -> Real:
         return number(value) + next(signs) * unit * number(scale)
 
     changed = dict(case)
