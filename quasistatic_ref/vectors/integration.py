@@ -24,6 +24,8 @@ def integrated(mechanism: Mechanism, q: Sequence[float], delta_q: Sequence[float
     check_length("delta_q", delta_q, mechanism.n_v)
     after: Vector = [fmpq(0)] * mechanism.n_q
     for body in mechanism.bodies:
+        if body.mimic is not None:
+            continue
         after[body.q] = _stepped(body.kind, numbers(q[body.q]), numbers(delta_q[body.v]))
     return after
 

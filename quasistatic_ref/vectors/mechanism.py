@@ -22,6 +22,7 @@ from quasistatic_ref.vectors.algebra import (
     Matrix,
     Vector,
     add,
+    along,
     cross,
     moved,
     product,
@@ -30,7 +31,7 @@ from quasistatic_ref.vectors.algebra import (
     transposed,
     unit,
 )
-from quasistatic_ref.vectors.precision import numbers
+from quasistatic_ref.vectors.precision import Real, number, numbers
 from quasistatic_ref.vectors.rotation import (
     axis_rotation,
     cos_sin,
@@ -66,6 +67,9 @@ class MechanismBody:
     actuated : bool
     q, v : slice
         The joint's entries of q and delta_q, in the paper's order.
+    mimic : (number, number) or None
+        Multiplier and offset of a joint without entries of its own: q and v are those of the
+        joint that it follows.
     table : dict
         The body as written, with ``mass``, ``com`` and ``inertia`` where a layer needs them.
     """
@@ -79,6 +83,7 @@ class MechanismBody:
     actuated: bool
     q: slice
     v: slice
+    mimic: tuple[Real, Real] | None
     table: dict[str, Any]
 
 
@@ -145,12 +150,16 @@ def mechanism(table: dict[str, Any]) -> Mechanism:
                 raise InputError(problem, field=f"bodies[{k}].joint", value=body["joint"])
             if (bool(body.get("actuated")) and body["joint"] != "fixed") != actuated:
                 continue
+            if "mimic" in body:
+                continue
             size_q, size_v = SIZES[body["joint"]]
             places[k] = slice(n_q, n_q + size_q), slice(n_v, n_v + size_v)
             n_q, n_v = n_q + size_q, n_v + size_v
         n_a = n_v if actuated else n_a
     bodies = []
     for k, body in enumerate(written):
+        if "mimic" in body:
+            places[k] = places[_followed(written, k, places)]
         if body["parent"] is not None and body["parent"] not in names[:k]:
             problem = f"must be a body before it{suggestion(str(body['parent']), names[:k])}"
             raise InputError(problem, field=f"bodies[{k}].parent", value=body["parent"])
@@ -165,10 +174,31 @@ def mechanism(table: dict[str, Any]) -> Mechanism:
                 actuated=bool(body.get("actuated")),
                 q=places[k][0],
                 v=places[k][1],
+                mimic=_mimic(body),
                 table=body,
             )
         )
     return Mechanism(tuple(bodies), n_q, n_v, n_a)
+
+
+def _followed(written: Sequence[dict[str, Any]], k: int, places: dict[int, Any]) -> int:
+    """Number of the body whose joint a mimic joint follows: one with a coordinate of its own."""
+    of = written[k]["mimic"]["of"]
+    scalar = {
+        other["name"]: i
+        for i, other in enumerate(written)
+        if i in places and other["joint"] in ("revolute", "prismatic") and "mimic" not in other
+    }
+    if of not in scalar or written[k]["joint"] not in ("revolute", "prismatic"):
+        problem = f"must follow a revolute or prismatic joint, being one{suggestion(of, scalar)}"
+        raise InputError(problem, field=f"bodies[{k}].mimic", value=of)
+    return scalar[of]
+
+
+def _mimic(body: dict[str, Any]) -> tuple[Real, Real] | None:
+    if "mimic" not in body:
+        return None
+    return number(body["mimic"]["multiplier"]), number(body["mimic"]["offset"])
 
 
 def poses(mechanism: Mechanism, q: Sequence[float]) -> Poses:
@@ -188,13 +218,18 @@ def poses(mechanism: Mechanism, q: Sequence[float]) -> Poses:
         if body.parent is not None:
             R, t, inherited = Rs[body.parent], ts[body.parent], columns[body.parent]
         R, t_joint = product(R, body.R), moved(R, t, body.t)
-        R_joint, inside = _joint_pose(body, numbers(q[body.q]))
+        position, pace = numbers(q[body.q]), fmpq(1)
+        if body.mimic is not None:
+            pace, offset = body.mimic
+            position = [pace * position[0] + offset]
+        R_joint, inside = _joint_pose(body, position)
         world, origin = product(R, R_joint), moved(R, t_joint, inside)
         r = add(origin, scaled(t, -1))
         moves = {v: (add(nu, cross(w, r)), w) for v, (nu, w) in inherited.items()}
         axes = transposed(world)
         for k, (nu, w) in enumerate(_joint_columns(body, axes)):
-            moves[body.v.start + k] = nu, w
+            before = moves.get(body.v.start + k, (ZERO, ZERO))
+            moves[body.v.start + k] = along(before[0], nu, pace), along(before[1], w, pace)
         Rs.append(world)
         ts.append(origin)
         columns.append(moves)

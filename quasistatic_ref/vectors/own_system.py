@@ -98,7 +98,12 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
 
 
 def _joint(body: dict[str, Any], k: int) -> str:
-    return "base" if body["joint"] in _BASES else f"j{k}"
+    return "base" if body["joint"] in _BASES else _joint_name(k)
+
+
+def _joint_name(k: int) -> str:
+    # Pinocchio visits joints by name, and wants one that is followed before those that follow it.
+    return f"j{k:04d}"
 
 
 def _tree(bodies: list[dict[str, Any]], root: int, members: list[int], path: Path) -> Body:
@@ -119,13 +124,14 @@ def _tree(bodies: list[dict[str, Any]], root: int, members: list[int], path: Pat
         if body["joint"] in _BASES:
             problem = "must be a joint of the world"
             raise ModelError(problem, field=f"{body['name']}.joint", value=body["joint"])
-        parent = "anchor" if k == root else f"b{[b['name'] for b in bodies].index(body['parent'])}"
-        elements.append(_urdf_joint(k, body, parent))
+        names = [other["name"] for other in bodies]
+        parent = "anchor" if k == root else f"b{names.index(body['parent'])}"
+        elements.append(_urdf_joint(k, body, parent, names))
     path.write_text(f'<robot name="t{root}">{"".join(elements)}</robot>', encoding="utf-8")
     actuated = [
         _joint(bodies[k], k)
         for k in members
-        if bodies[k].get("actuated") and bodies[k]["joint"] != "fixed"
+        if bodies[k].get("actuated") and bodies[k]["joint"] != "fixed" and "mimic" not in bodies[k]
     ]
     place = (0.0, 0.0, xyz[2]) if base == "planar" else (0.0, 0.0, 0.0)
     return Body(f"t{root}", path, base=base, actuated=actuated, xyz=place)
@@ -143,14 +149,21 @@ def _link(k: int, body: dict[str, Any]) -> str:
     )
 
 
-def _urdf_joint(k: int, body: dict[str, Any], parent: str) -> str:
+def _urdf_joint(k: int, body: dict[str, Any], parent: str, names: list[str]) -> str:
     place = body["placement"]
     kind = body["joint"]
     more = "" if kind == "fixed" else f'<axis xyz="{_words(body["axis"])}"/>'
+    if "mimic" in body:
+        follow = body["mimic"]
+        more += (
+            f'<mimic joint="{_joint_name(names.index(follow["of"]))}" '
+            f'multiplier="{follow["multiplier"]!r}" offset="{follow["offset"]!r}"/>'
+        )
     if kind in ("revolute", "prismatic"):
         more += '<limit lower="-9" upper="9" effort="1" velocity="1"/>'
     return (
-        f'<joint name="j{k}" type="{kind}"><parent link="{parent}"/><child link="b{k}"/>'
+        f'<joint name="{_joint_name(k)}" type="{kind}"><parent link="{parent}"/>'
+        f'<child link="b{k}"/>'
         f'<origin xyz="{_words(place["xyz"])}" rpy="{_words(_rpy(place["quaternion"]))}"/>'
         f"{more}</joint>"
     )

@@ -19,7 +19,7 @@ from quasistatic_ref.vectors.algebra import (
     scaled,
     squared,
 )
-from quasistatic_ref.vectors.precision import Real, ball, root, sign
+from quasistatic_ref.vectors.precision import Real, ball, least, root, sign
 
 
 def rotation(quaternion: Vector) -> Matrix:
@@ -82,3 +82,18 @@ def exp3(linear: Vector, angle: Real) -> tuple[Vector, Vector]:
     forward, sideways = ball(angle).sinc(), angle * ball(angle / 2).sinc() ** 2 / 2
     x, y = linear
     return [forward * x - sideways * y, sideways * x + forward * y], list(cos_sin(angle))
+
+
+def quaternion_of(R: Matrix) -> Vector:
+    """Unit quaternion [x y z w] of a rotation, its largest entry positive, the first of equals."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    # Four times the square of each entry, and its products with the others.
+    table = [
+        [1 + a - e - i, b + d, c + g, h - f],
+        [b + d, 1 - a + e - i, f + h, c - g],
+        [c + g, f + h, 1 - a - e + i, d - b],
+        [h - f, c - g, d - b, 1 + a + e + i],
+    ]
+    row = table[least([-table[k][k] for k in range(4)])]
+    length = root(squared(row))
+    return [x / length for x in row]
