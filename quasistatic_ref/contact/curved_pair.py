@@ -9,7 +9,7 @@ support function proves is the answer. (coal's normals are off by 1e-6, near con
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +22,9 @@ from quasistatic_ref.contact.support import support_point, support_value
 from quasistatic_ref.model.shapes import Capsule, Cylinder
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import PROVED
+
+SETTLED = 4e-16
+"""Defect, relative to the coordinates, of a candidate after which no other is tried."""
 
 SECTORS = 48
 """Parts of a rim: its distance to a convex solid has few minima, far apart."""
@@ -70,45 +73,53 @@ def _witness(a: Placed, b: Placed) -> Witness | None:
         return None
     R, t = b.R.T @ a.R, b.R.T @ (a.t - b.t)
     margin = a.shape.radius if isinstance(a.shape, Capsule) else 0.0
-    found = [c for c in _candidates(a, b, R, t) if len(c.phi)]
-    points, phi, normal = (np.concatenate([c[k] for c in found]) for k in range(3))
-    # No gap along a normal exceeds the distance: a candidate that equals its gap proves itself.
-    reach = support_value(a.shape, -normal @ R) - margin - np.sum(normal * t, axis=1)
-    defect = np.abs(phi + reach + support_value(b.shape, normal))
-    defect = np.maximum(defect, signed_distance(a.shape, (points - t) @ R)[0] + margin)
-    size = np.abs(points).max() + np.abs(t).max()
-    defect[phi <= 0] = np.inf
-    best = int(defect.argmin())
-    if not defect[best] <= PROVED * size:
+    best, least = None, np.inf
+    for points, phi, normal in _candidates(a, b, R, t):
+        if not len(phi):
+            continue
+        # No gap along a normal exceeds the distance: who equals its gap proves itself.
+        reach = support_value(a.shape, -normal @ R) - margin - np.sum(normal * t, axis=1)
+        defect = np.abs(phi + reach + support_value(b.shape, normal))
+        defect = np.maximum(defect, signed_distance(a.shape, (points - t) @ R)[0] + margin)
+        defect[phi <= 0] = np.inf
+        defect /= np.abs(points).max() + np.abs(t).max()
+        k = int(defect.argmin())
+        if defect[k] < least:
+            best, least = (points[k], float(phi[k]), -normal[k]), float(defect[k])
+        if least <= SETTLED:
+            break
+    if best is None or not least <= PROVED:
         return None
-    n = -b.R @ normal[best]
-    alpha = b.R @ points[best] + b.t
-    return Witness(phi[best] - margin, alpha + margin * n, alpha + phi[best] * n, n)
+    point, distance, way = best
+    alpha, n = b.R @ point + b.t, b.R @ way
+    return Witness(distance - margin, alpha + margin * n, alpha + distance * n, n)
 
 
-def _candidates(a: Placed, b: Placed, R: Array, t: Array) -> list[Candidates]:
+def _candidates(a: Placed, b: Placed, R: Array, t: Array) -> Iterator[Candidates]:
     if isinstance(a.shape, Cylinder):
-        return _of_cylinder(a.shape, b, R, t)
+        yield from _of_cylinder(a.shape, b, R, t)
+        return
     flat = polytope(a.shape)
     assert flat is not None
     vertices = flat.vertices @ R.T + t
     first, last = vertices[flat.edges[:, 0]], vertices[flat.edges[:, 1]]
-    found = [_from(b, vertices), _along(b, first, last - first)]
+    yield _from(b, vertices)
+    yield _along(b, first, last - first)
     if not isinstance(a.shape, Capsule):
         normals = flat.normals @ R.T
-        found.append(_towards(b, normals, flat.offsets + normals @ t))
-    return found
+        yield _towards(b, normals, flat.offsets + normals @ t)
 
 
-def _of_cylinder(cylinder: Cylinder, b: Placed, R: Array, t: Array) -> list[Candidates]:
+def _of_cylinder(cylinder: Cylinder, b: Placed, R: Array, t: Array) -> Iterator[Candidates]:
     axis = R[:, 2]
     ends = t + np.outer([1.0, -1.0], cylinder.half_length * axis)
     ways = np.stack([axis, -axis])
-    found = [_from(b, ends), _towards(b, ways, cylinder.half_length + ways @ t)]
+    yield _from(b, ends)
+    yield _towards(b, ways, cylinder.half_length + ways @ t)
     core = _along(b, ends[1:], ends[:1] - ends[1:])
     # The side is the axis with a ball about every point.
     points = core.points - cylinder.radius * core.normal
-    found.append(Candidates(points, core.phi - cylinder.radius, core.normal))
+    yield Candidates(points, core.phi - cylinder.radius, core.normal)
     step = 2 * np.pi / SECTORS
     angle = np.asarray(step * np.arange(SECTORS), dtype=np.float64)
     for end in ends:
@@ -121,8 +132,7 @@ def _of_cylinder(cylinder: Cylinder, b: Placed, R: Array, t: Array) -> list[Cand
             forward = np.outer(np.cos(theta), R[:, 1]) - np.outer(np.sin(theta), R[:, 0])
             return np.asarray(np.sum(signed_distance(b.shape, rim(theta))[1] * forward, axis=1))
 
-        found.append(_from(b, rim(_roots(rise, angle, np.asarray(angle + step)))))
-    return found
+        yield _from(b, rim(_roots(rise, angle, np.asarray(angle + step))))
 
 
 def _from(b: Placed, points: Array) -> Candidates:
