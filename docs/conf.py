@@ -1,0 +1,148 @@
+"""How the documentation is built: ``python -m sphinx -W -n docs OUT``, without network.
+
+Nothing that a page loads comes from elsewhere: MathJax is a Python package whose files are copied,
+and the theme brings its own fonts and scripts. ``python -m validation.check_site OUT`` proves it.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+
+project = "quasistatic_ref"
+author = "The quasistatic_ref developers"
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.doctest",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "matplotlib.sphinxext.plot_directive",
+    "sphinxcontrib.bibtex",
+    "sphinx-mathjax-offline",  # MathJax 3, copied into _static
+]
+exclude_patterns = ["examples", "figures", "_build"]
+nitpicky = True
+
+# -- Pages ---------------------------------------------------------------------------------------
+html_theme = "furo"
+html_title = f"quasistatic_ref {version}"
+html_static_path = ["_static"]
+html_css_files = ["page.css"]
+html_show_sphinx = False
+# Furo's button fonts are the system's; its icons are inline. There is nothing to fetch.
+html_theme_options = {"navigation_with_keys": True}
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+myst_links_external_new_tab = False
+
+# -- Equations -----------------------------------------------------------------------------------
+# The labels eq-1 .. eq-13 stand in one page and in order, so that Sphinx's own numbers (1) .. (13)
+# are the paper's. The traceability test holds that.
+math_numfig = False
+math_eqref_format = "({number})"
+
+# -- Docstrings ----------------------------------------------------------------------------------
+# Types of arguments are prose with shapes ("ndarray, shape (n_c, 3)"): shown, not looked up.
+napoleon_google_docstring = False
+napoleon_use_param = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+# Engines that are optional and differ in what they run on; only `validate` talks to them.
+autodoc_mock_imports = ["mujoco", "pydrake"]
+# There is no network at build time, hence no inventory to look third-party names up in.
+nitpick_ignore_regex = [
+    (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),
+    # Bases of classes in the standard library, for the same reason.
+    (r"py:.*", r"(argparse|collections|contextlib|enum|fractions|pathlib|typing|types|json)\..*"),
+    (r"py:(class|exc|obj)", r"(object|Exception|ValueError|TypeError|ImportError|RuntimeError)"),
+]
+
+# -- Figures and literature ----------------------------------------------------------------------
+plot_formats = [("png", 150)]
+plot_html_show_source_link = False
+plot_html_show_formats = False
+plot_pre_code = ""
+plot_rcparams = {}
+bibtex_bibfiles = ["references.bib"]
+bibtex_default_style = "plain"
+
+# -- Doctests ------------------------------------------------------------------------------------
+doctest_global_setup = "import numpy as np"
+doctest_test_doctest_blocks = ""
+
+
+PACKAGE = ROOT / "quasistatic_ref"
+MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
+
+
+def setup(app):
+    """What pages say in one line and the site says at length."""
+    app.connect("source-read", _expanded)
+    app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
+    app.connect("autodoc-process-docstring", _mended, priority=600)
+
+
+def _expanded(app, docname, source):
+    """Links that are right in the repository lead out of docs/; here they lead to their pages.
+
+    And ``% modules of quasistatic_ref/ROOM`` is every module of that room.
+    """
+    up = "../" * docname.count("/")
+    text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
+    source[0] = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
+
+
+def _modules(folder):
+    """An automodule directive for each module of a folder; of the package, only its own files."""
+    files = folder.glob("*.py") if folder == PACKAGE else folder.rglob("*.py")
+    names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
+    one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"
+    return "\n".join(
+        one.format(short=name.split(".", 1)[1].replace(".", "/") + ".py", name=name)
+        for name in names
+        if not name.endswith("__init__")
+    )
+
+
+# -- Docstrings are written to be read in the source first; three habits of theirs are no markup ----
+UNDERLINE = re.compile(r"^-{3,}$", re.MULTILINE)
+LITERAL = re.compile(r"(``.*?``)")
+_one_liners = {}
+
+
+def _kept(app, what, name, obj, options, lines):
+    """A value's docstring is prose: what stands before its first colon is not its type."""
+    if what in ("data", "attribute", "property") and not UNDERLINE.search("\n".join(lines)):
+        _one_liners[name] = list(lines)
+
+
+def _mended(app, what, name, obj, options, lines):
+    """|x| is a magnitude; and types of attributes are prose, as those of parameters."""
+    lines[:] = _one_liners.pop(name, lines)
+    types = dict(m.groups() for line in lines if (m := re.match(r":vartype (\w+): (.*)", line)))
+    told = [line for line in lines if not line.startswith(":vartype ")]
+    in_math, mended = False, []
+    for line in told:
+        in_math = line.startswith(".. math::") or (in_math and (not line or line.startswith(" ")))
+        if (found := re.match(r":ivar (\w+):", line)) and found.group(1) in types:
+            line = f":ivar {found.group(1)}: *{types[found.group(1)]}* {line[found.end() :]}"
+        mended.append(line if in_math else _bars(line))
+    lines[:] = mended
+
+
+def _bars(line):
+    """Vertical bars escaped, except in literals."""
+    parts = LITERAL.split(line)
+    return "".join(p if p.startswith("``") else p.replace("|", "\\|") for p in parts)
