@@ -79,8 +79,14 @@ bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
 
 # -- Doctests ------------------------------------------------------------------------------------
-doctest_global_setup = "import numpy as np"
-doctest_test_doctest_blocks = ""
+# Pages import what they use; docstrings of single functions are shown without their imports.
+doctest_global_setup = """
+from fractions import Fraction
+import numpy as np
+from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.certify.rounding import decimal_string
+from quasistatic_ref.step.cones import direction
+"""
 
 
 PACKAGE = ROOT / "quasistatic_ref"
@@ -131,13 +137,14 @@ def _kept(app, what, name, obj, options, lines):
 def _mended(app, what, name, obj, options, lines):
     """|x| is a magnitude; and types of attributes are prose, as those of parameters."""
     lines[:] = _one_liners.pop(name, lines)
-    types = dict(m.groups() for line in lines if (m := re.match(r":vartype (\w+): (.*)", line)))
+    types = dict(m.groups() for line in lines if (m := re.match(r":vartype ([^:]+): (.*)", line)))
     told = [line for line in lines if not line.startswith(":vartype ")]
     in_math, mended = False, []
     for line in told:
         in_math = line.startswith(".. math::") or (in_math and (not line or line.startswith(" ")))
-        if (found := re.match(r":ivar (\w+):", line)) and found.group(1) in types:
-            line = f":ivar {found.group(1)}: *{types[found.group(1)]}* {line[found.end() :]}"
+        if (found := re.match(r":ivar ([^:]+):", line)) and (names := found.group(1)) in types:
+            # "a, b" without its space: the word before a space would be taken for a type.
+            line = f":ivar {names.replace(', ', ',')}: *{types[names]}* {line[found.end() :]}"
         mended.append(line if in_math else _bars(line))
     lines[:] = mended
 

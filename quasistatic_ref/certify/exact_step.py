@@ -19,7 +19,7 @@ from quasistatic_ref.tolerances import ILL_POSED
 
 
 def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
-    """The exact optimum of Eq. (13).
+    """The exact optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------

@@ -1,6 +1,7 @@
 """The paper's order of coordinates, q = [q_a; q_u], against pinocchio's.
 
-Within each block the order is pinocchio's. Nothing outside :class:`System` sees the other.
+Within each block the order is pinocchio's. Nothing outside
+:class:`~quasistatic_ref.model.system.System` sees the other.
 """
 
 from __future__ import annotations

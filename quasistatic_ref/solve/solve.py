@@ -54,7 +54,7 @@ def solve_step(
     problem: StepProblem | None = None,
     extension: Extension | None = None,
 ) -> StepSolution:
-    """The optimum of Eq. (13).
+    """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------

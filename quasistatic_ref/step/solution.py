@@ -19,7 +19,7 @@ class Certificate:
         ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
         (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
-        Residuals of Eqs. (9)-(12) in natural units [-].
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-].
     active : tuple of (int, int)
         Contact and row of each member of the working set; the user's own rows count as those of
         one contact more. Its multipliers are positive, its rows independent and without slack.
@@ -75,7 +75,7 @@ class SolverStatistics:
 
 @dataclass(frozen=True, eq=False)
 class StepSolution:
-    """The optimum of Eq. (13).
+    """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------

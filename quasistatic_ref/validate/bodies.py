@@ -52,7 +52,7 @@ def contacts_of(
 
 
 def twist_jacobian(point: Array, n: Array) -> Array:
-    """J of Eq. (3) of a body's point against the world, shape (4, 6)."""
+    """J of Eq. :eq:`eq-3` of a body's point against the world, shape (4, 6)."""
     J = np.zeros((4, 6))
     J[:3, :3], J[:3, 3:] = np.eye(3), -cross_matrix(point)
     J[3, 3:] = n
