@@ -35,6 +35,7 @@ nitpicky = True
 html_theme = "furo"
 html_title = f"quasistatic_ref {version}"
 html_static_path = ["_static"]
+viewcode_follow_imported_members = False
 html_css_files = ["page.css"]
 html_show_sphinx = False
 # Furo's button fonts are the system's; its icons are inline. There is nothing to fetch.
@@ -73,8 +74,8 @@ nitpick_ignore_regex = [
 plot_formats = [("png", 150)]
 plot_html_show_source_link = False
 plot_html_show_formats = False
-plot_pre_code = ""
-plot_rcparams = {}
+plot_rcparams = {"savefig.bbox": "tight"}  # as the package's own style saves them
+plot_apply_rcparams = True
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
 
@@ -122,7 +123,7 @@ def _modules(folder):
     )
 
 
-# -- Docstrings are written to be read in the source first; three habits of theirs are no markup ----
+# -- Docstrings are read in the source first: some habits of theirs are no markup ---------------
 UNDERLINE = re.compile(r"^-{3,}$", re.MULTILINE)
 LITERAL = re.compile(r"(``.*?``)")
 _one_liners = {}

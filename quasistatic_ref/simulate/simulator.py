@@ -81,7 +81,8 @@ class Simulator:
     extension : callable, optional
         q -> constraints and costs of the user's own at q, for every step.
     limits : Limits, optional
-        Beyond which no step is taken; those of :class:`~quasistatic_ref.simulate.limits.Limits` by default.
+        Beyond which no step is taken; by default those of
+        :class:`~quasistatic_ref.simulate.limits.Limits`.
     """
 
     def __init__(

@@ -5,9 +5,10 @@ Absolute tolerances of solvers mean nothing for a body of 0.1 kg that moves by 1
 .. math:: \delta q = \rho\,S\,x,\qquad \text{lengths in units of } \rho\,\ell
 
 Eqs. :eq:`eq-13` and :eq:`eq-4` keep their form: S is diagonal, one unit per coordinate, such that
-the diagonal of H becomes about one; ell is one length, such that the rows become about one; and rho is the size
-of the step. The matrices do not depend on rho, because the problem is positively homogeneous in
-(g, phi). All units are powers of two, so the conversion loses nothing (short of underflow).
+the diagonal of H becomes about one; ell is one length, such that the rows become about one; and
+rho is the size of the step. The matrices do not depend on rho, because the problem is positively
+homogeneous in (g, phi). All units are powers of two, so the conversion loses nothing (short of
+underflow).
 """
 
 from __future__ import annotations

@@ -7,7 +7,6 @@ are raised.
 
 import ast
 import re
-from pathlib import Path
 
 ARRAYS = re.compile(r"\b(Array|NDArray|ndarray)\b")
 NUMBERS = re.compile(r"\bfloat\b")

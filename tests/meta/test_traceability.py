@@ -1,6 +1,6 @@
-"""The equations cited in the code, labelled in the docs and covered by tests/equations are the same.
+"""The equations cited in the code are those labelled in the docs and those covered by tests.
 
-They are the paper's, 1 to 13.
+They are the paper's, 1 to 13; the tests are in tests/equations.
 """
 
 import ast
@@ -73,7 +73,9 @@ def test_every_equation_of_the_paper_is_cited_in_the_code():
 
 def test_every_equation_of_the_paper_is_labelled_once_in_the_docs_and_in_order():
     # In order and in one page, because the site numbers equations as they come.
-    labels = {path: [int(n) for n in LABEL.findall(path.read_text())] for path in DOCS.rglob("*.md")}
+    labels = {
+        path: [int(n) for n in LABEL.findall(path.read_text())] for path in DOCS.rglob("*.md")
+    }
     assert [numbers for numbers in labels.values() if numbers] == [sorted(PAPER)]
 
 
