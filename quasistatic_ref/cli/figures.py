@@ -16,7 +16,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Make them one by one."""
+    """Make them one by one.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
     from quasistatic_ref.figures.gallery import FIGURES
     from quasistatic_ref.figures.style import figure_written
     from quasistatic_ref.files import writable_folder

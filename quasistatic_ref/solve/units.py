@@ -109,7 +109,7 @@ def _reach(natural: StepData) -> Array:
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
-    """delta_q [m, rad] and lam [N s] from their values in natural units."""
+    """delta_q (n_v,) [m, rad] and lam (m,) [N s] from their values in natural units."""
     S, ell, rho = units.coordinate, units.length, units.size
     return delta_q * (rho * S), lam * (rho / ell)
 

@@ -33,7 +33,7 @@ class Certificate:
     smallest_active_multiplier : float or None
         Smallest multiplier [N s] of the working set. None if that is empty.
     error_bound : float or None
-        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H; 0.0 for ``"exact"``, where the only
+        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 for ``"exact"``, where the only
         error is the correct rounding of each entry.
     """
 
@@ -84,8 +84,8 @@ class StepSolution:
     lam : ndarray, shape (m,)
         Multipliers of the contact rows, contact-major: impulses [N s]. In the ellipsoid, each
         contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
-    lam_extra : ndarray
-        Multipliers of the user's own rows.
+    lam_extra : ndarray, shape (extra rows,)
+        Multipliers of the user's own rows [N s, for rows in m].
     wrench : ndarray, shape (n_c, 4)
         Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
     backend : str

@@ -9,10 +9,10 @@ import ast
 import re
 
 ARRAYS = re.compile(r"\b(Array|NDArray|ndarray)\b")
+"""In annotations; numbers that count or choose (of int, of bool) have no unit to state."""
 NUMBERS = re.compile(r"\bfloat\b")
-SHAPE = re.compile(r"\bshapes? \(|\(n_\w+|\bof shape\b|\bshaped?\b|\bscalar\b")
+SHAPE = re.compile(r"\bshapes?\b|\bscalar\b|\(((\d|\.{3}|[A-Za-z]\w{0,6}), ?)+(\d|\w{1,7})?\)")
 UNIT = re.compile(r"\[[^\]\n]*\]")
-ARGUMENT = re.compile(r"^\*{0,2}[\w, *]+(?: : .*)?$")
 
 
 def sections(docstring):
@@ -82,12 +82,12 @@ def of_class(where, node, said, symbols):
     for field in fields:
         if not field.target.id.startswith("_"):
             yield from of_value(
-                where, field.target.id, ast.unparse(field.annotation), told, symbols
+                where, field.target.id, ast.unparse(field.annotation), told, parts[""], symbols
             )
     constructors = [n for n in node.body if isinstance(n, ast.FunctionDef) and n.name == "__init__"]
     for constructor in constructors:
         for name, annotation in arguments(constructor):
-            yield from of_value(where, name, annotation, told, symbols)
+            yield from of_value(where, name, annotation, told, parts[""], symbols)
 
 
 def of_function(where, node, said, symbols):
@@ -100,34 +100,40 @@ def of_function(where, node, said, symbols):
     if gone := [name for name in told if name not in dict(named)]:
         yield f"{where}: {', '.join(gone)} is no argument"
     for name, annotation in named:
-        yield from of_value(where, name, annotation, told, symbols)
+        yield from of_value(where, name, annotation, told, parts[""], symbols)
     returned = ast.unparse(node.returns) if node.returns else "None"
     result = "\n".join([parts[""], parts.get("Returns", ""), parts.get("Yields", "")])
     if ARRAYS.search(returned) and not SHAPE.search(result):
         yield f"{where}: no shape of what is returned, {returned}"
     if returned == "float" and node.name not in symbols and not UNIT.search(result):
         yield f"{where}: no unit of the number returned"
-    for error in sorted(raised(node) - set(re.findall(r"\w+", parts.get("Raises", "")))):
-        yield f"{where}: Raises lacks {error}"
+    for error in sorted(raised(node) - set(re.findall(r"\w+", said))):
+        yield f"{where}: does not say when it raises {error}"
 
 
-def of_value(where, name, annotation, told, symbols):
-    """An argument or field that is an array states its shape; one that is a number its unit."""
+def of_value(where, name, annotation, told, prose, symbols):
+    """An array states its shape and a number its unit, unless the notation does for its name.
+
+    It says so in its entry under Parameters or, where there is none, in the prose that names it.
+    """
     array, number = ARRAYS.search(annotation), NUMBERS.search(annotation)
-    if not (array or number) or "Callable" in annotation:
+    counts = re.search(r"np\.(int64|bool)", annotation)
+    if not (array or number) or "Callable" in annotation or name in symbols:
         return
-    if name not in told:
+    text = told.get(name, prose if re.search(rf"\b{name}\b", prose) else None)
+    if text is None:
         yield f"{where}: {name} is not documented"
         return
-    if array and not SHAPE.search(told[name]):
+    if array and not SHAPE.search(text):
         yield f"{where}: {name} without its shape"
-    if name not in symbols and not UNIT.search(told[name]):
+    if not UNIT.search(text) and not (counts or re.search(r"\bof (int|bool)\b", text)):
         yield f"{where}: {name} without its unit, and not in the notation"
 
 
 def arguments(node):
     """(name, annotation) of every argument but self and cls."""
     every = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+    every += [a for a in (node.args.vararg, node.args.kwarg) if a is not None]
     return [
         (a.arg, ast.unparse(a.annotation) if a.annotation else "")
         for a in every
