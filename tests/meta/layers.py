@@ -20,6 +20,7 @@ ROOMS = (
     "study",
     "validate",
     "figures",
+    "examples",
     "cli",
 )
 
@@ -31,6 +32,7 @@ WALLS = {
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
     "matplotlib": ("figures",),
+    "meshcat": ("figures",),
     "flint": ("certify",),
 }
 

@@ -1,0 +1,255 @@
+"""A trajectory as one HTML file with a 3-D scene that plays, by meshcat's viewer, without network.
+
+meshcat is needed for one file of JavaScript only, its viewer; what that file is told is made here,
+as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.figures.moments import Moment, extent, moment
+from quasistatic_ref.figures.surfaces import patch, surface_points, triangles
+from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array
+
+FRAMES_PER_SECOND = 30
+LONGEST = 0.5
+"""Length of the largest force over half the scene's size [-]."""
+
+THICK = 0.02
+"""Radius of a force, drawn as a slim cone, over half the scene's size [-]."""
+
+NOTHING = 1e-9
+"""Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
+
+REPETITIONS = 1000
+CLOUD, SOLID, FLOOR, FORCE = 0x0072B2, 0x9A9A9A, 0xE8E8E8, 0xD55E00
+HIDDEN: Final = ("/Grid", "/Axes")
+PAGE: Final = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>{title}</title>
+<style>
+body {{ margin: 0; font-family: sans-serif; }}
+#meshcat-pane {{ width: 100vw; height: 100vh; overflow: hidden; }}
+#caption {{ position: fixed; left: 1em; bottom: 1em; background: rgba(255, 255, 255, 0.8); }}
+</style>
+</head>
+<body>
+<div id="meshcat-pane"></div>
+<div id="caption">{caption}</div>
+<script>
+{viewer}
+</script>
+<script>
+const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
+const commands = {commands};
+commands.forEach(command => viewer.handle_command(command));
+viewer.camera.position.set({eye});
+viewer.controls.target.set({centre});
+viewer.controls.update();
+</script>
+</body>
+</html>
+"""
+
+
+def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
+    """Write a run as one HTML file that plays in a browser, without network.
+
+    Contact forces are slim orange cones from beta along the force on beta's body.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Whose bodies and shapes these are.
+    run : Trajectory
+    path : str or Path
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+        If the extra ``view`` is not installed, or the run has no steps.
+    """
+    viewer = viewer_script()
+    moments, fps = frames(scenario, run)
+    box = extent(moments[0])
+    centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
+    eye = centre + half * np.array([1.1, -2.2, 0.9])
+    scale = metres_per_newton(moments, half)
+    name = scenario.path.stem
+    caption = f"{name}, h = {1e3 * scenario.h:g} ms, friction {scenario.cone}"
+    if scale:
+        caption += f"; forces in orange, 1 N is {1e3 * scale:.3g} mm"
+    page = PAGE.format(
+        title=escape(name), caption=escape(caption), viewer=viewer,
+        commands=json_text(scene_commands(moments, fps, half, scale)).replace("</", "<\\/"),
+        eye=_y_up(eye), centre=_y_up(centre),
+    )  # fmt: skip
+    return text_written(path, page)
+
+
+def viewer_script() -> str:
+    """Meshcat's viewer as JavaScript; InputError where the extra ``view`` is not installed."""
+    found = find_spec("meshcat")
+    if found is None or found.origin is None:
+        problem = "needs meshcat: pip install 'quasistatic-ref[view]'"
+        raise InputError(problem, field="--view")
+    return (Path(found.origin).parent / "viewer" / "dist" / "main.min.js").read_text("utf-8")
+
+
+def frames(scenario: Scenario, run: Trajectory) -> tuple[list[Moment], float]:
+    """Moments that are shown, and how many of them a second, in real time."""
+    if not run.steps:
+        raise InputError("has no steps to show", field="trajectory")
+    every = max(round(1 / (FRAMES_PER_SECOND * scenario.h)), 1)
+    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
+
+
+def metres_per_newton(moments: list[Moment], half: float) -> float:
+    """Length at which a force of 1 N is shown [m/N]; 0 where there are no forces."""
+    forces = [np.linalg.norm(c.force) for m in moments for c in m.contacts]
+    most = float(max(forces, default=0.0))
+    return LONGEST * half / most if most > 0 else 0.0
+
+
+def scene_commands(
+    moments: list[Moment], fps: float, half: float, scale: float
+) -> list[dict[str, Any]]:
+    """What the viewer is told: every object once, where it is at first, and how all move.
+
+    Parameters
+    ----------
+    moments : list of Moment
+        One a frame.
+    fps : float
+    half : float
+        Half the scene's size [m].
+    scale : float
+        [m/N].
+
+    Returns
+    -------
+    list of dict
+        meshcat's commands; links are at ``/links/K``, contact forces at ``/forces/J``.
+    """
+    first = moments[0]
+    commands: list[dict[str, Any]] = [
+        {"type": "set_property", "path": path, "property": "visible", "value": False}
+        for path in HIDDEN
+    ]
+    for k, placed in enumerate(first.shapes):
+        path = f"/links/{placed.link}/{k}"
+        commands.append(_set_object(path, _shape(placed, first, half)))
+        if not isinstance(placed.shape, HalfSpace):
+            commands.append(_set_transform(path, placed.R, placed.t))
+    for j in range(len(first.contacts)):
+        commands.append(_set_object(f"/forces/{j}", _spike(THICK * half)))
+    clips = []
+    for link in sorted({placed.link for placed in first.shapes} - {0}):
+        t = np.array([m.t_links[link] for m in moments])
+        clips.append(_clip(f"/links/{link}", fps, t, np.array([m.R[link] for m in moments])))
+    for j in range(len(first.contacts)):
+        beta = np.array([m.contacts[j].beta for m in moments])
+        force = scale * np.array([m.contacts[j].force for m in moments])
+        length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
+        stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
+        clips.append(_clip(f"/forces/{j}", fps, beta, _z_along(force), stretch))
+    options = {"play": True, "repetitions": REPETITIONS}
+    play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
+    return [*commands, play]
+
+
+def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
+    shape = placed.shape
+    if isinstance(shape, PointCloud):
+        return _object(shape.points, "Points", {"type": "PointsMaterial", "color": CLOUD,
+                                                "size": 0.02 * half})  # fmt: skip
+    if isinstance(shape, HalfSpace):
+        corners = patch(shape, extent(of).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
+        return _object(corners, "Mesh", _phong(FLOOR, 0.8))
+    points = surface_points(placed, around=32, up=13)
+    return _object(points[triangles(points)].reshape(-1, 3), "Mesh", _phong(SOLID, 0.6))
+
+
+def _spike(radius: float) -> dict[str, Any]:
+    """A cone of length 1 along z, its base at the origin."""
+    angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
+    points = np.vstack([base, [0.0, 0.0, 1.0]])
+    return _object(points[triangles(points)].reshape(-1, 3), "Mesh", _phong(FORCE, 1.0))
+
+
+def _phong(colour: int, opacity: float) -> dict[str, Any]:
+    both_sides = 2
+    return {
+        "type": "MeshPhongMaterial", "color": colour, "opacity": opacity,
+        "transparent": opacity < 1, "side": both_sides,
+    }  # fmt: skip
+
+
+def _object(points: Array, kind: str, material: dict[str, Any]) -> dict[str, Any]:
+    """An object of three.js: points, or triangles as triples of points [m]."""
+    position = {"itemSize": 3, "type": "Float32Array", "array": np.round(points, 9).ravel()}
+    geometry = {"type": "BufferGeometry", "data": {"attributes": {"position": position}}}
+    return {
+        "metadata": {"version": 4.5, "type": "Object"},
+        "geometries": [geometry | {"uuid": "g"}],
+        "materials": [material | {"uuid": "m"}],
+        "object": {"uuid": "o", "type": kind, "geometry": "g", "material": "m"},
+    }
+
+
+def _set_object(path: str, thing: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "set_object", "path": path, "object": thing}
+
+
+def _set_transform(path: str, R: Array, t: Array) -> dict[str, Any]:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = R, t
+    return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel()}  # by columns
+
+
+def _clip(path: str, fps: float, t: Array, R: Array, scale: Array | None = None) -> dict[str, Any]:
+    """Positions (N, 3), rotations (N, 3, 3) and scales (N, 3), a frame each."""
+    quaternions = Rotation.from_matrix(R).as_quat()  # [x y z w], as three.js has them
+    tracks = [_track(".position", "vector3", t), _track(".quaternion", "quaternion", quaternions)]
+    if scale is not None:
+        tracks.append(_track(".scale", "vector3", scale))
+    return {"path": path, "clip": {"fps": fps, "name": "default", "tracks": tracks}}
+
+
+def _track(name: str, kind: str, values: Array) -> dict[str, Any]:
+    keys = [{"time": k, "value": value} for k, value in enumerate(np.round(values, 9))]
+    return {"name": name, "type": kind, "keys": keys}
+
+
+def _z_along(directions: Array) -> Array:
+    """Rotations that take z to each direction, shape (N, 3, 3); any for a direction of zero."""
+    length = np.linalg.norm(directions, axis=1, keepdims=True)
+    z = np.where(length > 0, directions / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
+    x = np.cross(np.eye(3)[np.abs(z).argmin(axis=1)], z)
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    return np.stack([x, np.cross(z, x), z], axis=2)
+
+
+def _y_up(point: Array) -> str:
+    """Coordinates in the frame of meshcat's camera, whose y is the world's z."""
+    x, y, z = point
+    return f"{x:.6g}, {z:.6g}, {-y:.6g}"
