@@ -4,6 +4,7 @@ Nothing that a page loads comes from elsewhere: MathJax is a Python package whos
 and the theme brings its own fonts and scripts. ``python -m validation.check_site OUT`` proves it.
 """
 
+import ast
 import re
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+from quasistatic_ref.examples.gallery import EXAMPLES  # noqa: E402 the same
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -104,10 +106,11 @@ def setup(app):
 def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
-    And ``% modules of quasistatic_ref/ROOM`` is every module of that room.
+    ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` every example.
     """
     up = "../" * docname.count("/")
     text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
+    text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
     source[0] = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
 
 
@@ -121,6 +124,34 @@ def _modules(folder):
         for name in names
         if not name.endswith("__init__")
     )
+
+
+def _example(name):
+    """One example in the gallery: what it says of itself, its figure, and its code folded away."""
+    path = PACKAGE / "examples" / f"{name}.py"
+    title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
+    return f"""
+## {title.rstrip(".")}
+
+{re.sub(r"Eq. [(]([0-9]+)[)]", r"Eq. {eq}`eq-\1`", text)}
+
+```{{eval-rst}}
+.. plot::
+   :filename-prefix: gallery_{name}
+   :alt: {title}
+
+   from quasistatic_ref.examples.gallery import figure_of
+   figure_of("{name}")
+```
+
+:::{{admonition}} quasistatic_ref/examples/{name}.py
+:class: dropdown
+
+```{{literalinclude}} ../../quasistatic_ref/examples/{name}.py
+:language: python
+```
+:::
+"""
 
 
 # -- Docstrings are read in the source first: some habits of theirs are no markup ---------------

@@ -74,7 +74,7 @@ RESULTS = (
     ),
     Result(
         "figures",
-        (CLI, "figures", "bunny_grasp", "limit_surfaces", "pinch_thresholds",
+        (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),
