@@ -106,7 +106,7 @@ def setup(app):
 def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
-    ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` every example.
+    ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
     """
     up = "../" * docname.count("/")
     text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
@@ -130,10 +130,11 @@ def _example(name):
     """One example in the gallery: what it says of itself, its figure, and its code folded away."""
     path = PACKAGE / "examples" / f"{name}.py"
     title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
+    text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
     return f"""
 ## {title.rstrip(".")}
 
-{re.sub(r"Eq. [(]([0-9]+)[)]", r"Eq. {eq}`eq-\1`", text)}
+{text}
 
 ```{{eval-rst}}
 .. plot::

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures import panels, styled
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 HALF_WIDTH, HALF_HEIGHT = 0.05, 0.04  # m
@@ -56,35 +56,35 @@ def main():
     return np.array([[a.wrench[:, 0].sum(), *a.wrench[:, 2]] for a in answers])
 
 
+@styled
 def figure():
     """One panel a push: the block, its weight, the push and the forces of the table."""
     metres = 0.008  # per newton
-    with paper_style():
-        made, panels = plt.subplots(1, 3, figsize=(7.2, 2.8), sharey=True)
-        for axes, push, (friction, left, right) in zip(panels, PUSHES, main(), strict=True):
-            corner, size = (-HALF_WIDTH, 0.0), (2 * HALF_WIDTH, 2 * HALF_HEIGHT)
-            axes.add_patch(plt.Rectangle(corner, *size, facecolor="0.88", edgecolor="0.3"))
-            axes.axhline(0.0, color="0.3", linewidth=1.2)
-            centre = (0.0, HALF_HEIGHT)
-            arrows = [
-                (centre, (0.0, -MASS * GRAVITY), "0.3"),
-                (centre, (push, 0.0), "C1"),
-                ((0.0, 0.0), (friction, 0.0), "C0"),
-                ((-HALF_WIDTH, 0.0), (0.0, left), "C0"),
-                ((HALF_WIDTH, 0.0), (0.0, right), "C0"),
-            ]
-            for start, force, colour in arrows:
-                if np.hypot(*force) > 0:
-                    tip = np.add(start, metres * np.array(force))
-                    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.6}
-                    axes.annotate("", tip, start, arrowprops={**style, "shrinkA": 0, "shrinkB": 0})
-            for x, f in ((-HALF_WIDTH, left), (HALF_WIDTH, right)):
-                axes.text(x, -0.016, f"{f:.2f} N", ha="center", fontsize=8)
-            axes.grid(visible=False)
-            axes.set(xlim=(-0.09, 0.09), ylim=(-0.045, 0.11), aspect="equal")
-            axes.set_title(f"push {push:g} N", fontsize=9)
-            axes.set_xlabel("x [m]")
-        panels[0].set_ylabel("z [m]")
+    made, row = panels(6.3, 2.6, columns=3, sharey=True)
+    for axes, push, (friction, left, right) in zip(row, PUSHES, main(), strict=True):
+        corner, size = (-HALF_WIDTH, 0.0), (2 * HALF_WIDTH, 2 * HALF_HEIGHT)
+        axes.add_patch(plt.Rectangle(corner, *size, facecolor="0.88", edgecolor="0.3"))
+        axes.axhline(0.0, color="0.3", linewidth=1.2)
+        centre = (0.0, HALF_HEIGHT)
+        arrows = [
+            (centre, (0.0, -MASS * GRAVITY), "0.3"),
+            (centre, (push, 0.0), "C1"),
+            ((0.0, 0.0), (friction, 0.0), "C0"),
+            ((-HALF_WIDTH, 0.0), (0.0, left), "C0"),
+            ((HALF_WIDTH, 0.0), (0.0, right), "C0"),
+        ]
+        for start, force, colour in arrows:
+            if np.hypot(*force) > 0:
+                tip = np.add(start, metres * np.array(force))
+                style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.6}
+                axes.annotate("", tip, start, arrowprops={**style, "shrinkA": 0, "shrinkB": 0})
+        for x, f in ((-HALF_WIDTH, left), (HALF_WIDTH, right)):
+            axes.text(x, -0.016, f"{f:.2f} N", ha="center", fontsize=8)
+        axes.grid(visible=False)
+        axes.set(xlim=(-0.09, 0.09), ylim=(-0.045, 0.11), aspect="equal")
+        axes.set_title(f"push {push:g} N", fontsize=9)
+        axes.set_xlabel("x [m]")
+    row[0].set_ylabel("z [m]")
     return made
 
 

@@ -1,10 +1,9 @@
 """The quadratic program of one contact, drawn: a wedge, level lines, and where the answer lies."""
 
 import numpy as np
-from matplotlib import pyplot as plt
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures import panels, styled
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 PUSHES = (3.0, 8.0)  # N: one that is held, one that is not
@@ -37,32 +36,34 @@ def main():
     return np.array([solve_step(point(push)).delta_q for push in PUSHES])
 
 
+@styled
 def figure():
     """One panel a push: the rows, level lines of the objective, both minimisers."""
     microns = 1e6
     x, z = np.meshgrid(np.linspace(-0.7e-3, 1.2e-3, 200), np.linspace(-1.15e-3, 0.7e-3, 200))
-    with paper_style():
-        made, panels = plt.subplots(1, 2, figsize=(7.2, 3.2), sharey=True)
-        for axes, push, (dx, dz) in zip(panels, PUSHES, main(), strict=True):
-            value = MASS * (x**2 + z**2) / (2 * H) - H * (push * x - MASS * GRAVITY * z)
-            axes.contour(microns * x, microns * z, value, 14, colors="0.75", linestyles="solid")
-            line = microns * x[0]
-            axes.fill_between(line, MU_V * np.abs(line), 700, color="tab:blue", alpha=0.15)
-            axes.plot(line, MU_V * np.abs(line), color="tab:blue")
-            free = microns * H**2 * np.array([push, -MASS * GRAVITY]) / MASS
-            axes.plot(*free, "o", color="0.3", markerfacecolor="white")
-            axes.plot(microns * dx, microns * dz, "s", color="tab:orange")
-            axes.annotate(
-                "without contact", free, xytext=(-6, 6), textcoords="offset points", ha="right"
-            )
-            axes.annotate(
-                "answer", (microns * dx, microns * dz), xytext=(6, -12), textcoords="offset points"
-            )
-            axes.text(-600, 560, "allowed", color="tab:blue", va="center")
-            axes.set_title(f"push {push:g} N", fontsize=9)
-            axes.set_xlabel("dx [µm]")
-            axes.set_ylim(-1150, 700)
-        panels[0].set_ylabel("dz [µm]")
+    made, row = panels(6.3, 2.9, columns=2, sharey=True)
+    for axes, push, (dx, dz) in zip(row, PUSHES, main(), strict=True):
+        value = MASS * (x**2 + z**2) / (2 * H) - H * (push * x - MASS * GRAVITY * z)
+        axes.contour(
+            microns * x, microns * z, value, 14, colors="0.75", linestyles="solid", linewidths=0.5
+        )
+        line = microns * x[0]
+        axes.fill_between(line, MU_V * np.abs(line), 700, color="C0", alpha=0.15)
+        axes.plot(line, MU_V * np.abs(line), color="C0")
+        free = microns * H**2 * np.array([push, -MASS * GRAVITY]) / MASS
+        axes.plot(*free, "o", color="0.3", markerfacecolor="white")
+        axes.plot(microns * dx, microns * dz, "s", color="C1")
+        axes.annotate(
+            "without contact", free, xytext=(-6, 6), textcoords="offset points", ha="right"
+        )
+        axes.annotate(
+            "answer", (microns * dx, microns * dz), xytext=(6, -12), textcoords="offset points"
+        )
+        axes.text(-600, 560, "allowed", color="C0", va="center")
+        axes.set_title(f"push {push:g} N", fontsize=9)
+        axes.set_xlabel("dx [µm]")
+        axes.set_ylim(-1150, 700)
+    row[0].set_ylabel("dz [µm]")
     return made
 
 
