@@ -3,7 +3,8 @@
 The block may move by delta_q, its twist in one time step. Eq. (13) weighs that motion against the
 work of gravity and of the pull, and Eq. (4) forbids each lower corner to enter the table. Friction
 is in the same rows: to slide by x, a corner has to rise by mu_v x. Lifting costs the weight, so
-that nothing moves until the pull is mu_v m g.
+that nothing moves until the pull is mu_v m g. At rest, many forces inside the cones would do; the
+ones that are drawn are those of one optimum.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ M, MU_V, H, HALF = 0.5, 0.4, 0.01, 0.05
 SETTINGS = ("steps=5", "bodies.pusher.pose.xyz=[-1, 0, 0.05]")
 """Of the scenario block_push: at rest, the pusher far away."""
 
+PARTS = ("frames", "cones", "forces")
 PULLS = np.linspace(0.0, 2.0, 21)
 """Over mu_v m g [-]."""
 
@@ -61,8 +63,8 @@ def figure() -> Figure:
     """The block at rest with its forces; slip against pull."""
     page, (left, right) = panels(6.3, 3.0, columns=2)
     scenario, run = ran("block_push", *SETTINGS)
-    draw_scene(left, moment(scenario, run, -1), view="xz", around=(HALF * Z, 1.6 * HALF))
-    right.plot(PULLS, 1e3 * slips(PULLS), marker="o", markersize=3)
+    draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.6 * HALF))
+    right.plot(PULLS, 1e3 * slips(PULLS), marker="o", markersize=3, clip_on=False)
     right.set(xlabel=r"pull / ($\mu_v m g$) [-]", ylabel="slip in one step [mm]")
     right.set_title(f"h = {1e3 * H:g} ms, friction pyramid", loc="right")
     return page

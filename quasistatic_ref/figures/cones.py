@@ -7,7 +7,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from quasistatic_ref.figures.style import figure_style, sized
+from quasistatic_ref.figures.style import figure_style, scaled, sized
 from quasistatic_ref.figures.surfaces import faces
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
@@ -88,7 +88,7 @@ def pinch_thresholds(
                     1e3 * d[right],
                     share * least[name][right],
                     marker,
-                    markersize=4,
+                    markersize=scaled(4),
                     color="black",
                     markeredgewidth=0.6,
                     markerfacecolor=fill,

@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import figure_style, sized
+from quasistatic_ref.figures.style import figure_style, scaled, sized
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":")
@@ -95,11 +95,11 @@ def _draw(axes: Axes, own: Sequence[BackendDigits], at: Sequence[float], k: int)
     shown = [r for r in own if r.unsolved < r.steps]
     colour, style = COLOURS[k], LINES[k % len(LINES)]
     worst, best = [r.worst for r in shown], [r.best for r in shown]
-    axes.vlines(x, worst, best, colors=colour, linewidth=1.0, linestyle=style)
+    axes.vlines(x, worst, best, colors=colour, linewidth=scaled(1.0), linestyle=style)
     low = [r.low for r in shown]
-    axes.plot(x, low, linestyle="none", marker="_", markersize=6, color="black")
+    axes.plot(x, low, linestyle="none", marker="_", markersize=scaled(6), color="black")
     axes.plot(
-        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=5.5,
+        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=scaled(5.5),
         color=colour, markeredgecolor="black", markeredgewidth=0.5, label=own[0].backend,
     )  # fmt: skip
     for p, r in zip(at, own, strict=True):

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from quasistatic_ref.figures.moments import DrawnContact, Moment, extent
 from quasistatic_ref.figures.pens import CONE_EDGE, CONE_FACE, MILLI, PLANES, Pen2D, Pen3D
 from quasistatic_ref.figures.scene import CONTACT, Camera
-from quasistatic_ref.figures.style import figure_style
+from quasistatic_ref.figures.style import figure_style, scaled
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
@@ -65,7 +65,7 @@ def draw_scene(
     centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
     most = max((float(np.linalg.norm(c.force)) for c in of.contacts), default=0.0)
     if metres_per_newton is None:
-        metres_per_newton = _round_scale(2 * LONGEST * half / most) if most > 0 else 0.0
+        metres_per_newton = round_scale(2 * LONGEST * half / most) if most > 0 else 0.0
     solid = axes.name == "3d"
     pen = Pen3D(axes) if solid else Pen2D(axes, PLANES[view] if isinstance(view, str) else view)
     pen.bodies(of, centre, half)
@@ -98,7 +98,7 @@ def _draw_contact(
         pen.arrow(of.beta, scale * of.force)
 
 
-def _round_scale(scale: float) -> float:
+def round_scale(scale: float) -> float:
     """Largest of 1, 2, 5 times a power of ten that is not above it."""
     power = 10.0 ** np.floor(np.log10(scale))
     return float(power * max(m for m in (1, 2, 5) if m <= scale / power + 1e-9))
@@ -109,14 +109,14 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
     handles: list[Any] = []
     if "forces" in parts and scale > 0:
         label = f"force: 1 N is {MILLI * scale:g} mm"
-        handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=4, label=label))
+        handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=scaled(4), label=label))
     rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
     if "cones" in parts and rough:
         label = "what friction allows"
         handles.append(Patch(facecolor=CONE_FACE, edgecolor=CONE_EDGE, alpha=0.5, label=label))
     if "frames" in parts and of.bearing.any():
         for label, dashes in FRAME_LINES:
-            handles.append(Line2D([], [], color="black", ls=dashes, lw=0.9, label=label))
+            handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
     if handles:
         axes.get_figure().legend(
             handles=handles, ncols=len(handles), loc="outside upper center",

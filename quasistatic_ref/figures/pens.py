@@ -13,6 +13,7 @@ from scipy.spatial import ConvexHull, QhullError
 from quasistatic_ref.figures.legible import DRAWING
 from quasistatic_ref.figures.moments import Moment
 from quasistatic_ref.figures.scene import CLOUD, CONTACT, SOLID, Camera, draw_shapes
+from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.figures.surfaces import faces, patch, surface_points
 from quasistatic_ref.model.shapes import HalfSpace, PointCloud
 from quasistatic_ref.model.system import Kinematics
@@ -61,7 +62,7 @@ class Pen2D:
         """A contact point, filled where it bears load."""
         x, y = self.seen(point)[0]
         self.axes.plot(
-            x, y, marker="o", linestyle="", markersize=4 if bears else 2.5, color="black",
+            x, y, marker="o", linestyle="", color="black", markersize=scaled(4 if bears else 2.5),
             markerfacecolor=CONTACT if bears else "white", markeredgewidth=0.6, zorder=9,
             gid=DRAWING,
         )  # fmt: skip
@@ -69,7 +70,7 @@ class Pen2D:
     def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
         """A line through points [m]."""
         self.axes.plot(
-            *self.seen(points).T, color=colour, linestyle=dashes, linewidth=width, zorder=7,
+            *self.seen(points).T, color=colour, linestyle=dashes, lw=scaled(width), zorder=7,
             gid=DRAWING,
         )  # fmt: skip
 
@@ -93,8 +94,8 @@ class Pen2D:
         (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
         self.axes.annotate(
             "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
-            arrowprops={"arrowstyle": "-|>", "color": CONTACT, "linewidth": 1.6, "shrinkA": 0,
-                        "shrinkB": 0, "mutation_scale": 8},
+            arrowprops={"arrowstyle": "-|>", "color": CONTACT, "linewidth": scaled(1.6),
+                        "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(8)},
         )  # fmt: skip
 
     def finish(self, box: Array, view: str | Camera) -> None:
@@ -136,15 +137,15 @@ class Pen3D:
     def dot(self, point: Array, bears: bool) -> None:
         """A contact point, filled where it bears load."""
         self.axes.plot(
-            *(MILLI * point)[:, None], marker="o", linestyle="", markersize=4 if bears else 2.5,
-            color="black", markerfacecolor=CONTACT if bears else "white", markeredgewidth=0.6,
-            gid=DRAWING,
+            *(MILLI * point)[:, None], marker="o", linestyle="", color="black",
+            markersize=scaled(4 if bears else 2.5), gid=DRAWING,
+            markerfacecolor=CONTACT if bears else "white", markeredgewidth=0.6,
         )  # fmt: skip
 
     def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
         """A line through points [m]."""
         self.axes.plot(
-            *(MILLI * points).T, color=colour, linestyle=dashes, linewidth=width, gid=DRAWING
+            *(MILLI * points).T, color=colour, linestyle=dashes, lw=scaled(width), gid=DRAWING
         )
 
     def hull(self, points: Array) -> None:
@@ -157,7 +158,7 @@ class Pen3D:
     def arrow(self, start: Array, along: Array) -> None:
         """A force that starts at a point [m]."""
         self.axes.quiver(
-            *(MILLI * start), *(MILLI * along), color=CONTACT, linewidth=1.6,
+            *(MILLI * start), *(MILLI * along), color=CONTACT, linewidth=scaled(1.6),
             arrow_length_ratio=0.2,
         )  # fmt: skip
 

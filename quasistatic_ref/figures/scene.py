@@ -11,6 +11,7 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.figures.surfaces import surface_points
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
@@ -72,7 +73,9 @@ def _draw_shape(axes: Axes, placed: PlacedShape, seen: Array, zorder: float) -> 
         x, y, depth = seen[order].T
         near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
         size, opacity = 0.8 + 1.1 * near, 0.25 + 0.6 * near
-        axes.scatter(x, y, s=size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder)
+        axes.scatter(
+            x, y, s=scaled(1) ** 2 * size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder
+        )
         return
     outline = seen[ConvexHull(seen[:, :2]).vertices, :2]
     axes.add_patch(
@@ -109,4 +112,6 @@ def draw_contacts(axes: Axes, camera: Camera, points: Array, bearing: NDArray[np
     seen = camera.seen(points)
     for chosen, size, colour in ((~bearing, 5, "white"), (bearing, 13, CONTACT)):
         x, y = seen[chosen, 0], seen[chosen, 1]
-        axes.scatter(x, y, s=size, c=colour, linewidths=0.6, edgecolors="black", zorder=9)
+        axes.scatter(
+            x, y, s=scaled(1) ** 2 * size, c=colour, linewidths=0.6, edgecolors="black", zorder=9
+        )

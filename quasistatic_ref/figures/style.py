@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -11,7 +13,8 @@ from typing import Any, Final, ParamSpec
 
 import matplotlib as mpl
 
-mpl.use("Agg", force=False)
+if "matplotlib.pyplot" not in sys.modules and not os.environ.get("MPLBACKEND"):
+    mpl.use("Agg")  # files need no window; a session that has chosen keeps its choice
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -75,6 +78,11 @@ def sized(width: float, height: float) -> tuple[float, float]:
     """Size of a figure [in] that is `width` x `height` on paper, in the style of this block."""
     scale = STYLES[_current.get()]
     return scale * width, scale * height
+
+
+def scaled(size: float) -> float:
+    """A line's width or a mark's size [pt] that is `size` on paper, in the style of this block."""
+    return STYLES[_current.get()] * size
 
 
 def panels(

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import sized, styled
+from quasistatic_ref.figures.style import scaled, sized, styled
 
 Picture = Mapping[str, Any]
 MARKS = ("o", "s", "^", "D", "v", "P")
@@ -21,7 +21,8 @@ def _caption(h: float) -> str:
 
 def _open(mark: str) -> dict[str, Any]:
     """Hollow marks, each kind of another size: equal values stay visible."""
-    return {"marker": mark, "markersize": 8 - 3 * MARKS.index(mark), "fillstyle": "none"}
+    size = scaled(9 - 2.75 * MARKS.index(mark))
+    return {"marker": mark, "markersize": size, "fillstyle": "none"}
 
 
 def grasp(picture: Picture) -> Figure:
@@ -43,9 +44,10 @@ def contact_geometry(picture: Picture) -> Figure:
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
     alpha, beta = 1e3 * data["alpha"][[0, 2]], 1e3 * data["beta"][[0, 2]]
     axes.plot(*np.stack([alpha, beta]).T, color="black", linestyle=":", linewidth=1)
-    for name, point, mark in ((r"$\alpha$", alpha, "o"), (r"$\beta$", beta, "s")):
-        axes.plot(*point, marker=mark, color="black", linestyle="", markersize=4)
-        axes.annotate(name, point, xytext=(4, -12), textcoords="offset points")
+    for name, point, mark, aside in ((r"$\alpha$", alpha, "o", -14), (r"$\beta$", beta, "s", 4)):
+        axes.plot(*point, marker=mark, color="black", linestyle="", markersize=scaled(4))
+        offset = scaled(aside), scaled(-12)
+        axes.annotate(name, point, xytext=offset, textcoords="offset points")
     for name in ("n", "d1", "d2"):
         arrow = 25 * data[name][[0, 2]]
         if np.linalg.norm(arrow) < 1:
@@ -162,8 +164,8 @@ def patch_torsion(picture: Picture) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
     figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
-        (line,) = axes.plot(picture["rings"], found, marker=mark, label=name)
-        axes.axhline(picture["limits"][name], color=line.get_color(), linestyle=":", linewidth=1)
+        axes.plot(picture["rings"], found, marker=mark, label=name)
+        axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
     axes.set_xscale("log", base=2)
     axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])
     axes.set(xlabel="rings of point contacts [-]", ylabel=r"$\mu_\omega$ / ($\mu$ a) [-]")
@@ -198,7 +200,7 @@ def peg_wedging(picture: Picture) -> Figure:
         axes.plot(
             picture["mu"][at], ratio, linestyle="", **_open(mark), label=f"d = {1e3 * width:g} mm"
         )
-    axes.annotate("slides in", (0.25, 0.65))
+    axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
     axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
     axes.set_title(f"{_caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
@@ -222,7 +224,7 @@ def mujoco_friction(picture: Picture) -> Figure:
         axes.axvline(1, color="black", linestyle=":", linewidth=1)
         axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
         axes.set_title(f"{kind}, h = {1e3 * picture['h']:g} ms", loc="right")
-    both[0].legend()
+    figure.legend(*both[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 

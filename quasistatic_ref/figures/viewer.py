@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.figures.draw import round_scale
 from quasistatic_ref.figures.moments import Moment, extent, moment
 from quasistatic_ref.figures.surfaces import patch, surface_points, triangles
+from quasistatic_ref.figures.three import clip, material, object_set, thing, transform_set, z_along
 from quasistatic_ref.files import json_text, text_written
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scenario import Scenario
@@ -36,6 +37,7 @@ NOTHING = 1e-9
 REPETITIONS = 1000
 CLOUD, SOLID, FLOOR, FORCE = 0x0072B2, 0x9A9A9A, 0xE8E8E8, 0xD55E00
 HIDDEN: Final = ("/Grid", "/Axes")
+SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
 PAGE: Final = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -126,7 +128,7 @@ def metres_per_newton(moments: list[Moment], half: float) -> float:
     """Length at which a force of 1 N is shown [m/N]; 0 where there are no forces."""
     forces = [np.linalg.norm(c.force) for m in moments for c in m.contacts]
     most = float(max(forces, default=0.0))
-    return LONGEST * half / most if most > 0 else 0.0
+    return round_scale(LONGEST * half / most) if most > 0 else 0.0
 
 
 def scene_commands(
@@ -154,23 +156,27 @@ def scene_commands(
         {"type": "set_property", "path": path, "property": "visible", "value": False}
         for path in HIDDEN
     ]
+    commands += [
+        {"type": "set_property", "path": "/Background", "property": name, "value": colour}
+        for name, colour in SKY.items()
+    ]
     for k, placed in enumerate(first.shapes):
         path = f"/links/{placed.link}/{k}"
-        commands.append(_set_object(path, _shape(placed, first, half)))
+        commands.append(object_set(path, _shape(placed, first, half)))
         if not isinstance(placed.shape, HalfSpace):
-            commands.append(_set_transform(path, placed.R, placed.t))
+            commands.append(transform_set(path, placed.R, placed.t))
     for j in range(len(first.contacts)):
-        commands.append(_set_object(f"/forces/{j}", _spike(THICK * half)))
+        commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
     clips = []
     for link in sorted({placed.link for placed in first.shapes} - {0}):
         t = np.array([m.t_links[link] for m in moments])
-        clips.append(_clip(f"/links/{link}", fps, t, np.array([m.R[link] for m in moments])))
+        clips.append(clip(f"/links/{link}", fps, t, np.array([m.R[link] for m in moments])))
     for j in range(len(first.contacts)):
         beta = np.array([m.contacts[j].beta for m in moments])
         force = scale * np.array([m.contacts[j].force for m in moments])
         length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
         stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-        clips.append(_clip(f"/forces/{j}", fps, beta, _z_along(force), stretch))
+        clips.append(clip(f"/forces/{j}", fps, beta, z_along(force), stretch))
     options = {"play": True, "repetitions": REPETITIONS}
     play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
     return [*commands, play]
@@ -179,13 +185,13 @@ def scene_commands(
 def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
     shape = placed.shape
     if isinstance(shape, PointCloud):
-        return _object(shape.points, "Points", {"type": "PointsMaterial", "color": CLOUD,
+        return thing(shape.points, "Points", {"type": "PointsMaterial", "color": CLOUD,
                                                 "size": 0.02 * half})  # fmt: skip
     if isinstance(shape, HalfSpace):
         corners = patch(shape, extent(of).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
-        return _object(corners, "Mesh", _phong(FLOOR, 0.8))
+        return thing(corners, "Mesh", material(FLOOR, 0.8))
     points = surface_points(placed, around=32, up=13)
-    return _object(points[triangles(points)].reshape(-1, 3), "Mesh", _phong(SOLID, 0.6))
+    return thing(points[triangles(points)].reshape(-1, 3), "Mesh", material(SOLID, 0.6))
 
 
 def _spike(radius: float) -> dict[str, Any]:
@@ -193,60 +199,7 @@ def _spike(radius: float) -> dict[str, Any]:
     angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
     points = np.vstack([base, [0.0, 0.0, 1.0]])
-    return _object(points[triangles(points)].reshape(-1, 3), "Mesh", _phong(FORCE, 1.0))
-
-
-def _phong(colour: int, opacity: float) -> dict[str, Any]:
-    both_sides = 2
-    return {
-        "type": "MeshPhongMaterial", "color": colour, "opacity": opacity,
-        "transparent": opacity < 1, "side": both_sides,
-    }  # fmt: skip
-
-
-def _object(points: Array, kind: str, material: dict[str, Any]) -> dict[str, Any]:
-    """An object of three.js: points, or triangles as triples of points [m]."""
-    position = {"itemSize": 3, "type": "Float32Array", "array": np.round(points, 9).ravel()}
-    geometry = {"type": "BufferGeometry", "data": {"attributes": {"position": position}}}
-    return {
-        "metadata": {"version": 4.5, "type": "Object"},
-        "geometries": [geometry | {"uuid": "g"}],
-        "materials": [material | {"uuid": "m"}],
-        "object": {"uuid": "o", "type": kind, "geometry": "g", "material": "m"},
-    }
-
-
-def _set_object(path: str, thing: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "set_object", "path": path, "object": thing}
-
-
-def _set_transform(path: str, R: Array, t: Array) -> dict[str, Any]:
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = R, t
-    return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel()}  # by columns
-
-
-def _clip(path: str, fps: float, t: Array, R: Array, scale: Array | None = None) -> dict[str, Any]:
-    """Positions (N, 3), rotations (N, 3, 3) and scales (N, 3), a frame each."""
-    quaternions = Rotation.from_matrix(R).as_quat()  # [x y z w], as three.js has them
-    tracks = [_track(".position", "vector3", t), _track(".quaternion", "quaternion", quaternions)]
-    if scale is not None:
-        tracks.append(_track(".scale", "vector3", scale))
-    return {"path": path, "clip": {"fps": fps, "name": "default", "tracks": tracks}}
-
-
-def _track(name: str, kind: str, values: Array) -> dict[str, Any]:
-    keys = [{"time": k, "value": value} for k, value in enumerate(np.round(values, 9))]
-    return {"name": name, "type": kind, "keys": keys}
-
-
-def _z_along(directions: Array) -> Array:
-    """Rotations that take z to each direction, shape (N, 3, 3); any for a direction of zero."""
-    length = np.linalg.norm(directions, axis=1, keepdims=True)
-    z = np.where(length > 0, directions / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
-    x = np.cross(np.eye(3)[np.abs(z).argmin(axis=1)], z)
-    x /= np.linalg.norm(x, axis=1, keepdims=True)
-    return np.stack([x, np.cross(z, x), z], axis=2)
+    return thing(points[triangles(points)].reshape(-1, 3), "Mesh", material(FORCE, 1.0))
 
 
 def _y_up(point: Array) -> str:
