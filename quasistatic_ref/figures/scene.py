@@ -56,7 +56,7 @@ def draw_shapes(
     kinematics: Kinematics,
     unit: float = 1.0,
 ) -> None:
-    """Draw shapes from the farthest to the nearest, with `unit` of the axes to a metre."""
+    """Draw shapes from the farthest to the nearest, with `unit` of the axes to a metre [1/m]."""
     ordered = sorted(shapes, key=lambda placed: _nearness(camera, placed, kinematics))
     for layer, placed in enumerate(ordered):
         R, t = kinematics.R[placed.link], kinematics.t[placed.link]
