@@ -98,6 +98,8 @@ MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
 
 def setup(app):
     """What pages say in one line and the site says at length."""
+    # It copies files when all is built, and says nothing about reading in parallel.
+    app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
     app.connect("source-read", _expanded)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)

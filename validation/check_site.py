@@ -4,8 +4,9 @@ Run ``python -m validation.check_site OUT``.
 
 Of every page: each link and each picture inside the site exists, with the place in the page that a
 link names; nothing that a browser loads by itself (scripts, styles, fonts, pictures, frames) comes
-from elsewhere; and no picture stands twice in one page, which is how a name taken twice shows. Of
-README and the Markdown pages of the repository: each relative link leads to a file.
+from elsewhere; and no picture stands twice in one page, which is how a name taken twice shows. The
+paper's equations have the paper's numbers. Of README and the Markdown pages of the repository: each
+relative link leads to a file.
 
 Prints one line for each fault, and exits with status 1 if there is any.
 """
@@ -30,6 +31,7 @@ STYLE_ADDRESS = re.compile(r"""(?:url\(\s*|@import\s+)["']?((?:https?:)?//[^"')\
 SCRIPT_LOADS = re.compile(
     r"""(?:(?<!@)\bimport\s*\(?|\bfetch\(|\bsrc\s*=)\s*["']((?:https?:)?//[^"']+)"""
 )
+EQUATION = re.compile(r'id="equation-eq-(\d+)">\s*<span class="eqno">\((\d+)\)')
 MARKDOWN_LINK = re.compile(r"\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^(```+).*?^\1", re.MULTILINE | re.DOTALL)
 
@@ -111,6 +113,14 @@ def link_faults(path: Path, address: str, pages: dict[Path, Page], site: Path) -
         yield f"{where} links to {address}, a place that the page does not have"
 
 
+def equation_faults(page: str) -> Iterator[str]:
+    """Whether the paper's equations have the paper's numbers in a page: label eq-N, number (N)."""
+    numbered = EQUATION.findall(page)
+    expected = [(str(n), str(n)) for n in range(1, 14)]
+    if numbered != expected:
+        yield f"equations and their numbers are {numbered}, not 1 to 13"
+
+
 def markdown_faults(root: Path) -> Iterator[str]:
     """Relative links of README and other Markdown files of a repository that lead nowhere."""
     folders = ("docs", "models", "validation", "quasistatic_ref")
@@ -141,7 +151,8 @@ def main() -> None:
     if len(sys.argv) != 2:
         sys.exit("usage: python -m validation.check_site OUT")
     site = Path(sys.argv[1]).resolve()
-    faults = [*site_faults(site), *markdown_faults(ROOT)]
+    equations = (site / "theory" / "equations.html").read_text("utf-8")
+    faults = [*site_faults(site), *equation_faults(equations), *markdown_faults(ROOT)]
     print("\n".join(faults) or "every link leads somewhere, and nothing comes from elsewhere")
     sys.exit(1 if faults else 0)
 

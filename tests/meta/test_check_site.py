@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.check_site import ROOT, markdown_faults, site_faults
+from validation.check_site import ROOT, equation_faults, markdown_faults, site_faults
 
 GOOD = """<html><head><link rel="stylesheet" href="_static/a.css">
 <script src="_static/a.js"></script>
@@ -68,3 +68,24 @@ def test_every_relative_link_of_the_repository_s_markdown_leads_to_a_file():
 def test_a_link_in_markdown_that_leads_nowhere_is_found(tmp_path):
     (tmp_path / "README.md").write_text("[a](gone.md#x)\n```\n[b](also.md)\n```\n[c](#here)\n")
     assert list(markdown_faults(tmp_path)) == ["README.md links to gone.md#x, which is not there"]
+
+
+def numbered(pairs):
+    one = '<div class="math" id="equation-eq-{}">\n<span class="eqno">({})<a></a></span></div>'
+    return "".join(one.format(*pair) for pair in pairs)
+
+
+def test_equations_numbered_as_in_the_paper_have_no_fault():
+    assert list(equation_faults(numbered((n, n) for n in range(1, 14)))) == []
+
+
+@pytest.mark.parametrize(
+    "pairs",
+    [
+        [(n, n) for n in range(1, 13)],
+        [(n, n + 1) for n in range(1, 14)],
+        [(n, n) for n in (2, 1, *range(3, 14))],
+    ],
+)
+def test_an_equation_that_is_missing_shifted_or_out_of_order_is_found(pairs):
+    assert len(list(equation_faults(numbered(pairs)))) == 1
