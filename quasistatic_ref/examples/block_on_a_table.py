@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref import solve_step
 from quasistatic_ref.examples.runs import Numbers, ran, script
 from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.validate.bodies import GRAVITY, Z, rigid_step
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref import solve_step
 from quasistatic_ref.examples.runs import Numbers, script
 from quasistatic_ref.figures import styled
 from quasistatic_ref.figures.cones import GRAVITY, bar_step, pinch_thresholds
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.validate.bodies import threshold
 
 if TYPE_CHECKING:

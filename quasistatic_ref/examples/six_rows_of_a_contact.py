@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref import solve_step
 from quasistatic_ref.examples.runs import Numbers, script
 from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.validate.bodies import GRAVITY, sphere_step

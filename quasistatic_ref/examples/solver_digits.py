@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref import solve_step
 from quasistatic_ref.examples.runs import Numbers, script
 from quasistatic_ref.figures import styled
 from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.validate.paper.runs import grasp
 
 if TYPE_CHECKING:

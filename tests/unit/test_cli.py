@@ -357,9 +357,9 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
 
 
 def test_figures_are_made_by_name(out, capsys):
-    assert main(["figures", "sphere_spin", "--out", str(out)]) == 0
-    paths = [out / "sphere_spin.png", out / "sphere_spin.pdf"]
+    assert main(["figures", "cone_surfaces", "--out", str(out)]) == 0
+    paths = [out / "cone_surfaces.png", out / "cone_surfaces.pdf"]
     assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
     assert all(path.stat().st_size > 1000 for path in paths)
-    assert main(["figures", "sphere_spn", "--out", str(out)]) == 2
-    assert "did you mean 'sphere_spin'?" in one_sentence(capsys.readouterr().err)
+    assert main(["figures", "cone_surface", "--out", str(out)]) == 2
+    assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)

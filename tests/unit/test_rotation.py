@@ -39,3 +39,4 @@ def test_the_angle_of_a_rotation_about_any_axis_is_the_angle_turned(angle):
     axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
     R = np.array([[about(axis, angle) for axis in row] for row in axes])
     np.testing.assert_allclose(rotation_angle(R), np.full((2, 5), angle), rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(rotation_angle(R[0]), np.full(5, angle), rtol=0, atol=ROUNDING)
