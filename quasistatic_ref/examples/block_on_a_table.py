@@ -69,7 +69,7 @@ def figure() -> Figure:
     """The block at rest with its forces; slip against pull."""
     page, (left, right) = panels(6.3, 3.0, columns=2)
     scenario, run = ran("block_push", *SETTINGS)
-    draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.6 * HALF))
+    draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.3 * HALF))
     right.plot(PULLS, 1e3 * slips(PULLS), marker="o", markersize=3, clip_on=False)
     right.set(xlabel=r"pull / ($\mu_v m g$) [-]", ylabel="slip in one step [mm]")
     right.set_title(f"h = {1e3 * H:g} ms, friction pyramid", loc="right")

@@ -24,6 +24,7 @@ def limit_surfaces() -> Figure:
     """The forces that a contact can bear at f_n = 1, in units of mu_v, mu_v, mu_omega."""
     with figure_style():
         figure = plt.figure(figsize=sized(6.3, 2.9))
+        pad = -6 + 10 * (scaled(1) - 1)  # larger figures have larger numbers beside the axes
         for k, name in enumerate(SHOWN):
             axes = figure.add_subplot(1, 3, k + 1, projection="3d")
             if name == ELLIPSOID:
@@ -44,9 +45,9 @@ def limit_surfaces() -> Figure:
                 )
             axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), box_aspect=(1, 1, 1))
             axes.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zticks=(-1, 0, 1))
-            axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=-6)
-            axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=-6)
-            axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=-8)
+            axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=pad)
+            axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=pad)
+            axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=pad - 2)
             axes.tick_params(labelsize="small", pad=-3)
             axes.set_title(name)
         figure.subplots_adjust(left=0.0, right=0.95, bottom=0.06, top=0.92, wspace=0.12)
