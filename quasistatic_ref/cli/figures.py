@@ -21,7 +21,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Make them one by one."""
+    """Make them one by one.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
     from quasistatic_ref.examples.gallery import EXAMPLES, figure_of
     from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.files import writable_folder

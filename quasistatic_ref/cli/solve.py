@@ -40,6 +40,11 @@ def run(options: argparse.Namespace) -> int:
     """Solve it and write the solution file; a word on the certificate goes to standard error.
 
     An infeasible step gets a solution file too, with the proof, and exit status 3.
+
+    Raises
+    ------
+    InputError
+        If files or options do not go together.
     """
     certify = options.certify or CERTIFY[0]
     if options.digits is not None:

@@ -53,7 +53,7 @@ class ClosestPoints:
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
     def chosen(self, index: NDArray[np.int64]) -> ClosestPoints:
-        """Some of the contacts, in the order given."""
+        """The contacts of an `index` of shape (k,), in its order."""
         return ClosestPoints(
             self.phi[index], self.alpha[index], self.beta[index], self.n[index], self.point[index]
         )

@@ -1,4 +1,4 @@
-"""Contact Jacobians, Eqs. (2)-(3), and the contacts of a step."""
+"""Contact Jacobians, Eqs. :eq:`eq-2`-:eq:`eq-3`, and the contacts of a step."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def contact_jacobian(
     beta: Array,
     n: Array,
 ) -> Array:
-    """J of Eq. (3): relative velocity and spin, Eq. (2), per unit of delta_q.
+    """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
 
     Parameters
     ----------

@@ -34,7 +34,13 @@ PULLS = np.linspace(0.0, 2.0, 21)
 
 
 def slips(pulls: Array) -> Array:
-    """How far the block slides in one step, for each pull at the height of the table [m]."""
+    """How far the block slides in one step, shape (N,) [m].
+
+    Parameters
+    ----------
+    pulls : ndarray, shape (N,)
+        At the height of the table, over mu_v m g [-].
+    """
     corners = HALF * np.array([[x, y, -1.0] for x in (-1, 1) for y in (-1, 1)])
     frames = np.tile([[1.0, 0, 0], [0, 1.0, 0], Z], (4, 1, 1))
     inertia = M * (2 * HALF) ** 2 / 6

@@ -22,7 +22,7 @@ SLOPE, MU_V, G = np.radians(25), {"rough": 0.6, "smooth": 0.3}, 9.81
 
 
 def travels() -> tuple[Array, dict[str, Array]]:
-    """Times [s], and how far each block has gone down the slope [m]."""
+    """Times [s], and how far each block has gone down the slope [m]; shapes (41,)."""
     scenario, run = ran("block_incline", "steps=40")
     down = np.array([np.cos(SLOPE), 0, -np.sin(SLOPE)])
     bases = {name: scenario.system.joint(f"{name}/base").q for name in MU_V}

@@ -26,7 +26,7 @@ TIME_STEPS = np.geomspace(1e-3, 3e-2, 5)
 
 @cache
 def layers() -> dict[str, Array]:
-    """The layer that a sphere settles on, at each h [m]."""
+    """The layer that a sphere settles on, one number for each h, shape (N,) [m]."""
     return {
         "fixed rate": np.array([layer_at_rate(h) for h in TIME_STEPS]),
         "fixed torque": np.array([layer_at_torque(h, 2 * LIMIT) for h in TIME_STEPS]),

@@ -24,7 +24,7 @@ SETTINGS = ("h=0.04", "steps=120")
 
 
 def place(theta: Array) -> Array:
-    """Where a tip that touches the door is, x = r tan(theta) - w / cos(theta) [m]."""
+    """Where a tip that touches the door is, x = r tan(theta) - w / cos(theta), of its shape [m]."""
     return np.asarray(R * np.tan(theta) - W / np.cos(theta))
 
 

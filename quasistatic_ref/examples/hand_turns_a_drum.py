@@ -23,7 +23,7 @@ SETTINGS = ("h=0.02", "steps=150")
 
 
 def angles(*settings: str) -> tuple[Array, Array]:
-    """Of the drum, and of a drum on which the tip rolls, since they first touched [rad]."""
+    """Of the drum, and of a drum on which the tip rolls, shapes (N,), since they touched [rad]."""
     scenario, run = ran("allegro_turn", *SETTINGS, *settings)
     system = scenario.system
     tip, axle = system.link("hand/link_7.0_tip"), system.joint("roller/axle")

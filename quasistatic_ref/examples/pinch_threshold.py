@@ -25,7 +25,7 @@ PRECISION = 1e-6
 
 
 def holds(cone: str, squeeze: float) -> bool:
-    """Whether one exact step leaves the bar where it is."""
+    """Whether one exact step leaves the bar where it is, at a squeeze [N]."""
     step = bar_step(M, squeeze, D, MU_V, MU_OMEGA, cone)
     motion = step.contacts.J @ solve_step(step).delta_q
     return bool(np.abs(motion).max() < 1e-12)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @cache
 def ratios() -> dict[float, Array]:
-    """Turn over that of Lynch's law at each speed, for three c = mu_omega / mu_v [m]."""
+    """Turn over that of Lynch's law at each speed, shape (N,), for three c = mu_omega / mu_v."""
     return {c: np.array(turns(c)) for c in RADII}
 
 

@@ -20,7 +20,7 @@ M, MU_V, K_Q, V, G = 0.5, 0.4, 1000.0, 0.01, 9.81
 
 
 def forces() -> Array:
-    """Force of the spring after each step [N]."""
+    """Force of the spring after each step, shape (120,) [N]."""
     _, run = ran("block_push", "steps=120")
     force: Array = K_Q * (run["q_bar_a"][:, 0] - run["q"][1:, 0])
     return force

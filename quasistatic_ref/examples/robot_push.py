@@ -24,7 +24,7 @@ SETTINGS = ("h=0.02", "steps=60")
 
 
 def torques() -> tuple[Array, Array]:
-    """tau_2 + tau_4 after each step, and F (z_4 - z_2) [N m]."""
+    """tau_2 + tau_4 after each step, and F (z_4 - z_2) [N m], shapes (N,)."""
     scenario, run = ran("panda_push", *SETTINGS)
     system = scenario.system
     axes = [system.link(f"panda/panda_link{i}") for i in (2, 4)]

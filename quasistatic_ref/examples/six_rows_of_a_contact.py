@@ -29,7 +29,13 @@ LOADS = {"at rest": (0.0, 0.0), "pushed along d1": (2.0, 0.0), "turned about n":
 
 
 def loaded(push: float, turn: float) -> StepData:
-    """A ball on the floor, pushed where it touches and turned about the vertical."""
+    """A ball on the floor, with a push where it touches and a turn about the vertical.
+
+    Parameters
+    ----------
+    push, turn : float
+        Over what friction holds, mu_v m g and mu_omega m g [-].
+    """
     force, torque = push * MU_V * M * GRAVITY, turn * MU_OMEGA * M * GRAVITY
     wrench = (force, 0, -M * GRAVITY, 0, -RADIUS * force, torque)
     inertia = 0.4 * M * RADIUS**2
@@ -37,7 +43,13 @@ def loaded(push: float, turn: float) -> StepData:
 
 
 def rows(push: float, turn: float) -> tuple[Array, Array]:
-    """Opening A delta_q - b of the six rows [m], and their forces lam / h [N]."""
+    """Opening A delta_q - b of the six rows [m], and their forces lam / h [N], shapes (6,).
+
+    Parameters
+    ----------
+    push, turn : float
+        As for :func:`loaded` [-].
+    """
     step = loaded(push, turn)
     solution, form = solve_step(step), standard_form(step)
     return form.A @ solution.delta_q - form.b, solution.lam / H

@@ -33,7 +33,7 @@ class BackendDigits:
     unsolved : int
         Steps of these for which it gave no answer; they are in none of the numbers below.
     worst, low, median, best : float
-        Correct digits of delta_q: the least, the first percentile, the median, the most.
+        Correct digits [-] of delta_q: the least, the first percentile, the median, the most.
     """
 
     units: str

@@ -99,7 +99,7 @@ def _draw_contact(
 
 
 def round_scale(scale: float) -> float:
-    """Largest of 1, 2, 5 times a power of ten that is not above it."""
+    """Largest of 1, 2, 5 times a power of ten that is not above `scale` [of the same unit]."""
     power = 10.0 ** np.floor(np.log10(scale))
     return float(power * max(m for m in (1, 2, 5) if m <= scale / power + 1e-9))
 

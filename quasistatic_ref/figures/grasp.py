@@ -59,7 +59,7 @@ def grasp_strip(
 def rotation_plot(
     scenario: Scenario, runs: Mapping[str, Trajectory], link: str, since: float
 ) -> Figure:
-    """Angle that a body has turned since the grip closed, against time."""
+    """Angle that a body has turned since the grip closed, at the time `since` [s], against time."""
     with figure_style():
         figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
         for title, run in runs.items():

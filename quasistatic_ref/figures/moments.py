@@ -31,7 +31,7 @@ class DrawnContact:
     alpha, beta : ndarray, shape (3,)
         [m], world frame.
     frame : ndarray, shape (3, 3)
-        Rows d1, d2, n.
+        Rows d1, d2, n [-].
     force : ndarray, shape (3,)
         [N], world frame.
     torque : float
@@ -64,7 +64,7 @@ class Moment:
     shapes : tuple of PlacedShape
         Every shape once.
     R, t_links : ndarray, shapes (L, 3, 3) and (L, 3)
-        Poses of the links.
+        Poses of the links [-], [m].
     contacts : tuple of DrawnContact
     """
 
@@ -81,7 +81,7 @@ class Moment:
 
     @property
     def bearing(self) -> NDArray[np.bool_]:
-        """Which contacts bear load."""
+        """Which contacts bear load, shape (n_c,)."""
         f_n = np.array([c.f_n for c in self.contacts])
         return np.asarray(f_n > BEARING * max(f_n.max(initial=0.0), 1e-12))
 

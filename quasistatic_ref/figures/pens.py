@@ -34,11 +34,14 @@ class Pen2D:
         self.axes, self.camera = axes, camera
 
     def seen(self, points: Array) -> Array:
-        """Points [m] on the page [mm]."""
+        """Points [m] on the page [mm], shape (N, 2)."""
         return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """Everything that is solid, clouds, and patches of half-spaces."""
+        """Everything that is solid, clouds, and patches of half-spaces.
+
+        What is shown lies within `half` [m] of the `centre`, shape (3,) [m].
+        """
         for placed in of.shapes:
             if isinstance(placed.shape, HalfSpace):
                 self._floor(patch(placed.shape, centre, 3 * half))
@@ -59,7 +62,7 @@ class Pen2D:
             self.axes.add_patch(Polygon(outline, zorder=0, **style))
 
     def dot(self, point: Array, bears: bool) -> None:
-        """A contact point, filled where it bears load."""
+        """A contact point, shape (3,) [m], filled where it bears load."""
         x, y = self.seen(point)[0]
         self.axes.plot(
             x, y, marker="o", linestyle="", color="black", markersize=scaled(4 if bears else 2.5),
@@ -90,7 +93,7 @@ class Pen2D:
         self.axes.add_patch(Polygon(outline, zorder=6, **style))
 
     def arrow(self, start: Array, along: Array) -> None:
-        """A force that starts at a point [m]."""
+        """A force that starts at a point: `start` and `along`, shape (3,) [m]."""
         (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
         self.axes.annotate(
             "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
@@ -99,7 +102,7 @@ class Pen2D:
         )  # fmt: skip
 
     def finish(self, box: Array, view: str | Camera) -> None:
-        """Limits, labels and view."""
+        """Limits of a box, its corners of shape (2, 3) [m]; labels and view."""
         corners = self.seen(np.array(np.meshgrid(*box.T)).reshape(3, -1).T)
         (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
         self.axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
@@ -118,7 +121,10 @@ class Pen3D:
         self.axes = axes
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """Everything that is solid, clouds, and patches of half-spaces."""
+        """Everything that is solid, clouds, and patches of half-spaces.
+
+        What is shown lies within `half` [m] of the `centre`, shape (3,) [m].
+        """
         for placed in of.shapes:
             if isinstance(placed.shape, HalfSpace):
                 corners = MILLI * patch(placed.shape, centre, half)
@@ -135,7 +141,7 @@ class Pen3D:
         self.axes.add_collection3d(Poly3DCollection(polygons, **style))
 
     def dot(self, point: Array, bears: bool) -> None:
-        """A contact point, filled where it bears load."""
+        """A contact point, shape (3,) [m], filled where it bears load."""
         self.axes.plot(
             *(MILLI * point)[:, None], marker="o", linestyle="", color="black",
             markersize=scaled(4 if bears else 2.5), gid=DRAWING,
@@ -156,14 +162,14 @@ class Pen3D:
             return
 
     def arrow(self, start: Array, along: Array) -> None:
-        """A force that starts at a point [m]."""
+        """A force that starts at a point: `start` and `along`, shape (3,) [m]."""
         self.axes.quiver(
             *(MILLI * start), *(MILLI * along), color=CONTACT, linewidth=scaled(1.6),
             arrow_length_ratio=0.2,
         )  # fmt: skip
 
     def finish(self, box: Array, view: str | Camera) -> None:
-        """Limits, labels and view."""
+        """Limits of a box, its corners of shape (2, 3) [m]; labels and view."""
         centre, half = box.mean(axis=0), np.ptp(box, axis=0).max() / 2
         low, high = MILLI * (centre - half), MILLI * (centre + half)
         for k, name in enumerate("xyz"):

@@ -38,7 +38,7 @@ class Camera:
     elevation: float
 
     def axes(self) -> Array:
-        """Rows: to the right, upwards, towards the camera; world frame."""
+        """Rows: to the right, upwards, towards the camera; shape (3, 3), world frame."""
         a, e = np.radians([self.azimuth, self.elevation])
         right = np.array([-np.sin(a), np.cos(a), 0.0])
         towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
@@ -56,7 +56,7 @@ def draw_shapes(
     kinematics: Kinematics,
     unit: float = 1.0,
 ) -> None:
-    """Draw shapes from the farthest to the nearest, with `unit` of the axes to a metre."""
+    """Draw shapes from the farthest to the nearest, with `unit` of the axes to a metre [1/m]."""
     ordered = sorted(shapes, key=lambda placed: _nearness(camera, placed, kinematics))
     for layer, placed in enumerate(ordered):
         R, t = kinematics.R[placed.link], kinematics.t[placed.link]
@@ -103,6 +103,8 @@ def draw_contacts(axes: Axes, camera: Camera, points: Array, bearing: NDArray[np
 
     Parameters
     ----------
+    axes : Axes
+    camera : Camera
     points : ndarray, shape (n_c, 3)
         World frame [m].
     bearing : ndarray of bool, shape (n_c,)

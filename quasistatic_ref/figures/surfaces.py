@@ -62,7 +62,7 @@ def surface_points(placed: PlacedShape, around: int = AROUND, up: int = UP) -> A
 
 
 def patch(floor: HalfSpace, centre: Array, half_width: float) -> Array:
-    """Corners of a square of a half-space's surface below a point, shape (4, 3) [m]."""
+    """Corners of a square of a half-space's surface below the point `centre`, shape (4, 3) [m]."""
     n = floor.normal
     foot = centre - (n @ centre - floor.offset) * n
     one = np.eye(3)[np.abs(n).argmin()]

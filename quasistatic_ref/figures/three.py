@@ -14,7 +14,7 @@ DIGITS = 9
 
 
 def material(colour: int, opacity: float) -> dict[str, Any]:
-    """A surface that is lit, seen from both sides."""
+    """A surface that is lit, seen from both sides; its opacity is 0 to 1 [-]."""
     both_sides = 2
     return {
         "type": "MeshPhongMaterial", "color": colour, "opacity": opacity,
@@ -47,7 +47,10 @@ def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
 
 
 def clip(path: str, fps: float, t: Array, R: Array, scale: Array | None = None) -> dict[str, Any]:
-    """The motion of what is at a path: positions (N, 3), rotations (N, 3, 3), scales (N, 3)."""
+    """The motion of what is at a path, at fps frames a second [1/s].
+
+    Positions t have the shape (N, 3) [m], rotations R (N, 3, 3), each scale (N, 3) [-].
+    """
     quaternions = Rotation.from_matrix(R).as_quat()  # [x y z w], as three.js has them
     tracks = [_track(".position", "vector3", t), _track(".quaternion", "quaternion", quaternions)]
     if scale is not None:

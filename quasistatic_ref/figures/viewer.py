@@ -117,7 +117,13 @@ def viewer_script() -> str:
 
 
 def frames(scenario: Scenario, run: Trajectory) -> tuple[list[Moment], float]:
-    """Moments that are shown, and how many of them a second, in real time."""
+    """Moments that are shown, and how many of them a second, in real time.
+
+    Raises
+    ------
+    InputError
+        If the run has no steps.
+    """
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
     every = max(round(1 / (FRAMES_PER_SECOND * scenario.h)), 1)
@@ -125,7 +131,14 @@ def frames(scenario: Scenario, run: Trajectory) -> tuple[list[Moment], float]:
 
 
 def metres_per_newton(moments: list[Moment], half: float) -> float:
-    """Length at which a force of 1 N is shown [m/N]; 0 where there are no forces."""
+    """Length at which a force of 1 N is shown [m/N]; 0 where there are no forces.
+
+    Parameters
+    ----------
+    moments : list of Moment
+    half : float
+        Half the scene's size [m].
+    """
     forces = [np.linalg.norm(c.force) for m in moments for c in m.contacts]
     most = float(max(forces, default=0.0))
     return round_scale(LONGEST * half / most) if most > 0 else 0.0
@@ -141,6 +154,7 @@ def scene_commands(
     moments : list of Moment
         One a frame.
     fps : float
+        Frames a second [1/s].
     half : float
         Half the scene's size [m].
     scale : float

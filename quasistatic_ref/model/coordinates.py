@@ -1,6 +1,7 @@
 """The paper's order of coordinates, q = [q_a; q_u], against pinocchio's.
 
-Within each block the order is pinocchio's. Nothing outside :class:`System` sees the other.
+Within each block the order is pinocchio's. Nothing outside
+:class:`~quasistatic_ref.model.system.System` sees the other.
 """
 
 from __future__ import annotations
@@ -79,7 +80,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class MimicJoint:
-    """A joint without coordinates: its position is multiplier * that of `of` + offset."""
+    """A joint without coordinates: multiplier [-] * the position of `of` + offset [m, rad]."""
 
     name: str
     of: str
@@ -117,19 +118,19 @@ class Order:
     v: Indices
 
     def paper_q(self, q: Array) -> Array:
-        """Configuration in the paper's order, from pinocchio's."""
+        """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
         return q[self.q]
 
     def model_q(self, q: Array) -> Array:
-        """Configuration in pinocchio's order, from the paper's."""
+        """Configuration in pinocchio's order, from the paper's; both of shape (n_q,)."""
         return _scattered(np.asarray(q, dtype=np.float64), self.q)
 
     def paper_v(self, v: Array) -> Array:
-        """Last axis from pinocchio's order to the paper's: delta_q, forces, Jacobians."""
+        """Last axis, shape (..., n_v), to the paper's order from pinocchio's; of delta_q, J."""
         return v[..., self.v]
 
     def model_v(self, v: Array) -> Array:
-        """Vector of delta_q in pinocchio's order, from the paper's."""
+        """Vector of delta_q in pinocchio's order, from the paper's; both of shape (n_v,)."""
         return _scattered(np.asarray(v, dtype=np.float64), self.v)
 
 

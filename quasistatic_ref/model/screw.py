@@ -24,7 +24,7 @@ def position(joint: Joint, q: Array, delta_q: Array) -> Array:
 
 
 def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Array:
-    """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
+    """A joint's entries (k,) of q_next (-) q, of which delta_q holds a rotation vector already.
 
     Parameters
     ----------
@@ -70,6 +70,8 @@ def translation(linear: Array, angular: Array) -> Array:
 
 def linear_part(translation: Array, angular: Array) -> Array:
     """The v whose twist (v, w) carries a base by a translation, shape (3,) [m].
+
+    The rotation vector w is `angular`, shape (3,) [rad].
 
     V^-1 t = t - w x t / 2 + (1 - (a / 2) cot(a / 2)) e x (e x t), for a < 2 pi.
     """

@@ -113,7 +113,7 @@ class System:
         self._check_inertia()
 
     def joint(self, name: str) -> Joint:
-        """Joint of that name, e.g. ``gripper/width``."""
+        """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""
         for joint in self.joints:
             if joint.name == name:
                 return joint
@@ -121,7 +121,7 @@ class System:
         raise ModelError(f"is no joint{suggestion(name, known)}", field="joint", value=name)
 
     def link(self, name: str) -> int:
-        """Number of a link; the name of a body stands for its root link."""
+        """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
         if name in self._roots:
             return self._roots[name]
         if name not in self.links:
@@ -160,7 +160,7 @@ class System:
         return delta_q
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
-        """Copy of q with its actuated entries replaced by q_a, shape (n_q_a,)."""
+        """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
         if np.shape(q_a) != (self.n_q_a,):
             raise ModelError(f"must have shape ({self.n_q_a},)", field="q_a", value=np.shape(q_a))
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])

@@ -42,7 +42,7 @@ class World:
     roots : dict of str to int
         Number of each body's root link.
     start : ndarray, shape (n_q,)
-        Initial configuration in pinocchio's order.
+        Initial configuration in pinocchio's order [m, rad, -].
     ignored : tuple of str
         What the URDFs say and the model does not use.
     notes : tuple of str

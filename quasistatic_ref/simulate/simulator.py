@@ -81,7 +81,8 @@ class Simulator:
     extension : callable, optional
         q -> constraints and costs of the user's own at q, for every step.
     limits : Limits, optional
-        Beyond which no step is taken; those of :class:`Limits` by default.
+        Beyond which no step is taken; by default those of
+        :class:`~quasistatic_ref.simulate.limits.Limits`.
     """
 
     def __init__(
@@ -148,7 +149,7 @@ class Simulator:
         return StepResult(q_next, step, solution, points, lap.seconds)
 
     def step_data(self, q: Array, q_bar_a: Array, force: Array | float, at: Contacts) -> StepData:
-        """The problem of one step: everything in Eq. (13) at q."""
+        """The problem of one step: everything in Eq. :eq:`eq-13` at q."""
         system, n_a = self.system, self.system.n_a
         tau = self.weighs * system.gravity_force(q, self.gravity) + force
         target = system.with_actuated(q, q_bar_a)

@@ -54,7 +54,7 @@ def solve_step(
     problem: StepProblem | None = None,
     extension: Extension | None = None,
 ) -> StepSolution:
-    """The optimum of Eq. (13).
+    """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------
@@ -92,6 +92,8 @@ def solve_step(
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
         If the backend is unknown or not installed.
+    InputError
+        If `certify` is no such word, or `accuracy` not greater than 0.
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)

@@ -4,10 +4,11 @@ Absolute tolerances of solvers mean nothing for a body of 0.1 kg that moves by 1
 
 .. math:: \delta q = \rho\,S\,x,\qquad \text{lengths in units of } \rho\,\ell
 
-Eqs. (13) and (4) keep their form: S is diagonal, one unit per coordinate, such that the diagonal
-of H becomes about one; ell is one length, such that the rows become about one; and rho is the size
-of the step. The matrices do not depend on rho, because the problem is positively homogeneous in
-(g, phi). All units are powers of two, so the conversion loses nothing (short of underflow).
+Eqs. :eq:`eq-13` and :eq:`eq-4` keep their form: S is diagonal, one unit per coordinate, such that
+the diagonal of H becomes about one; ell is one length, such that the rows become about one; and
+rho is the size of the step. The matrices do not depend on rho, because the problem is positively
+homogeneous in (g, phi). All units are powers of two, so the conversion loses nothing (short of
+underflow).
 """
 
 from __future__ import annotations
@@ -108,7 +109,7 @@ def _reach(natural: StepData) -> Array:
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
-    """delta_q [m, rad] and lam [N s] from their values in natural units."""
+    """delta_q (n_v,) [m, rad] and lam (m,) [N s] from their values in natural units."""
     S, ell, rho = units.coordinate, units.length, units.size
     return delta_q * (rho * S), lam * (rho / ell)
 

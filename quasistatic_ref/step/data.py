@@ -42,8 +42,8 @@ class Contacts:
     n, d1, d2 : ndarray, shape (n_c, 3)
         Unit normal from alpha's body to beta's, and the tangents: {d1, d2, n} is dextral; world.
     J : ndarray, shape (n_c, 4, n_v)
-        Contact Jacobian, Eq. (3): rows 0-2 the velocity of beta relative to alpha in the world
-        frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.
+        Contact Jacobian, Eq. :eq:`eq-3`: rows 0-2 the velocity of beta relative to alpha in the
+        world frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.
     mu_v : ndarray, shape (n_c,)
         Tangential friction coefficient [-], >= 0.
     mu_omega : ndarray, shape (n_c,)
@@ -128,7 +128,7 @@ class Extra:
 
 @dataclass(frozen=True, eq=False)
 class StepData:
-    """Everything that Eq. (13) needs.
+    """Everything that Eq. :eq:`eq-13` needs.
 
     Parameters
     ----------

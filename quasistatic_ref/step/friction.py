@@ -1,4 +1,4 @@
-r"""The contact-and-friction directions of the paper, Eqs. (5)-(7), other cones, and their rows.
+r"""Directions of contact and friction: the paper's, Eqs. :eq:`eq-5`-:eq:`eq-7`, and other cones'.
 
 For each contact the rows forbid that the motion J delta_q leaves the dual of the friction
 cone. Their multipliers add up to a wrench inside the cone, which of the paper's pyramid is
@@ -20,7 +20,7 @@ from quasistatic_ref.step.data import Array, Contacts
 
 
 def normal_direction(n: Array) -> Array:
-    """n~ = [n, 0] of Eq. (4).
+    """n~ = [n, 0] of Eq. :eq:`eq-4`.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def normal_direction(n: Array) -> Array:
 
 
 def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
-    """d~_1 .. d~_4 of Eqs. (5)-(6): the tangential friction pyramid.
+    """d~_1 .. d~_4 of Eqs. :eq:`eq-5`-:eq:`eq-6`: the tangential friction pyramid.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
 
 
 def torsional_directions(mu_omega: Array) -> Array:
-    """d~_5, d~_6 of Eq. (7): torsional friction about the normal.
+    """d~_5, d~_6 of Eq. :eq:`eq-7`: torsional friction about the normal.
 
     Parameters
     ----------
@@ -71,7 +71,9 @@ def torsional_directions(mu_omega: Array) -> Array:
 
 
 def pyramid(contacts: Contacts) -> Array:
-    """All six d~ of the paper, Eqs. (5)-(7): |f_1|/mu_v + |f_2|/mu_v + |tau|/mu_omega <= f_n.
+    """All six d~ of the paper, Eqs. :eq:`eq-5`-:eq:`eq-7`.
+
+    Their limit surface is |f_1|/mu_v + |f_2|/mu_v + |tau|/mu_omega <= f_n.
 
     Returns
     -------
@@ -132,7 +134,7 @@ def cone_directions(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The rows [J'(n~ + d~_i)]' of Eq. (4), all of each contact.
+    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, all of each contact.
 
     Parameters
     ----------
@@ -143,7 +145,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     Returns
     -------
     ndarray, shape (n_c, R, n_v)
-        [m] per unit of delta_q. A contact uses those of :attr:`StepData.mask`: with the paper's
+        [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
         cone six, or the first four.
     """
     if name == ELLIPSOID:

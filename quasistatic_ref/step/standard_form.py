@@ -1,4 +1,4 @@
-r"""Eq. (13) as the matrices H, g, A, b that solvers see.
+r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
 
 .. math:: \min_{\delta q} \tfrac12 \delta q^T H \delta q - g^T \delta q
           \quad\text{s.t.}\quad A\,\delta q \ge b
@@ -36,7 +36,7 @@ class StandardForm:
 
 
 def standard_form(step: StepData) -> StandardForm:
-    """H, g of Eq. (13) and A, b of Eq. (8), stacked over the contacts.
+    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, stacked over the contacts.
 
     Parameters
     ----------
