@@ -233,9 +233,9 @@ def by_projections(alpha, pose_alpha, beta, pose_beta):
         for _ in range(5):
             x = image(x)
         rest = image(x) - x
-        if np.abs(rest).max() < 1e-17:
-            break
         step = min(1e-5, np.linalg.norm(projected(beta, pose_beta, x) - x) / 4)
+        if np.abs(rest).max() < 1e-17 or step == 0:
+            break
         slope = np.array([(image(x + step * e) - image(x - step * e)) / (2 * step) for e in AXES])
         new = image(x + np.linalg.lstsq(AXES - slope.T, rest, rcond=1e-9)[0])
         if np.abs(image(new) - new).max() < np.abs(rest).max():
@@ -243,9 +243,10 @@ def by_projections(alpha, pose_alpha, beta, pose_beta):
         elif np.abs(rest).max() < 1e-15:
             break
     y = projected(beta, pose_beta, x)
-    n = (y - x) / np.linalg.norm(y - x)
+    d = np.linalg.norm(y - x)
+    n = (y - x) / d if d > 0 else AXES[0]  # curved shapes that overlap: the vectors have none
     radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
-    if np.linalg.norm(y - x) < NEAR:
+    if 0 < d < NEAR:
         x, y, n = from_afar(alpha, pose_alpha, beta, pose_beta, n)
     return n @ (y - x) - sum(radii), x + radii[0] * n, y - radii[1] * n, n
 
@@ -267,7 +268,5 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
         slope = np.array([(normal(n + 1e-6 * e)[0] - normal(n - 1e-6 * e)[0]) / 2e-6 for e in AXES])
         n = n + np.linalg.lstsq(AXES - slope.T, rest, rcond=1e-9)[0]
         n = n / np.linalg.norm(n)
-    for shape, sign in ((alpha, -1), (beta, 1)):
-        if shape["kind"] == "capsule":
-            x, y = (x + sign * shape["radius"] * n, y) if sign < 0 else (x, y + shape["radius"] * n)
-    return x, y - n / 8, n
+    radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
+    return x - radii[0] * n, y + radii[1] * n - n / 8, n
