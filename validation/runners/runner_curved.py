@@ -35,7 +35,8 @@ def point_on(shape, p):
         feet.append(end + np.clip((at - end) @ edge / (edge @ edge), 0, 1) * edge)
     away = min((at - foot for foot in feet), key=np.linalg.norm)
     phi = np.linalg.norm(away)
-    return phi, away[0] / phi * outward + away[1] / phi * AXES[2]
+    n = away / phi if phi > 0 else slant
+    return phi, n[0] * outward + n[1] * AXES[2]
 
 
 def point_on_ellipsoid(a, p):
