@@ -25,6 +25,7 @@ COMMANDS = {
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "extract": "write one step of a trajectory as a step file",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
+    "study": "compare solvers on problems with exact answers, or sweep a scenario's parameters",
     "figures": "make the figures, as PNG and PDF",
     "backends": "list the solvers that can be chosen here",
 }

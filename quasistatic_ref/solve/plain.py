@@ -1,4 +1,4 @@
-"""A plain quadratic program put to a solver, and its reply as it is: nothing judged, nothing mended.
+"""A plain quadratic program put to a solver, and its reply as it is: not judged, not mended.
 
 This is what studies of solvers measure. Steps of a simulation go through
 :mod:`~quasistatic_ref.solve.ask`, which tries harder and believes less.
@@ -18,11 +18,10 @@ import qpsolvers
 
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import StandardForm
 
-KEPT = 16
-"""Compiled CVXPY problems that are kept, one for each number of coordinates and rows."""
+KEPT = 2
+"""Compiled CVXPY problems that are kept: one problem in raw and in natural units."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +97,7 @@ def direct_reply(
 
 
 class ThroughCvxpy:
-    """One solver through CVXPY, with problems that are compiled once for each size.
+    """One solver through CVXPY, with the last few problems compiled: only g is a parameter.
 
     Parameters
     ----------
@@ -108,50 +107,81 @@ class ThroughCvxpy:
 
     def __init__(self, solver: str) -> None:
         self.solver = solver.upper()
-        self._compiled: OrderedDict[tuple[int, ...], StepProblem] = OrderedDict()
+        self._compiled: OrderedDict[int, _Compiled] = OrderedDict()
 
     def reply(self, form: StandardForm, options: Options, warm: bool = False) -> Reply:
-        """The reply to one problem; a warm one starts from the reply before, of the same size."""
+        """The reply to one problem.
+
+        Parameters
+        ----------
+        form : StandardForm
+        options : dict
+            In the solver's own names.
+        warm : bool
+            Start from the reply before, to a problem with the same H, A and b (the same arrays).
+
+        Returns
+        -------
+        Reply
+        """
         try:
-            step = step_of(form)
-            problem = self._problem(step, warm)
+            compiled = self._problem(form)
         except Exception as error:  # CVXPY refuses some matrices before it asks the solver
             return _raised(error, 0.0)
+        problem = compiled.problem
+        if not warm:
+            problem._solver_cache.clear()  # nothing is left of the reply before
         begin = time.perf_counter()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of statuses
             try:
-                problem.fill(step)
-                problem.problem.solve(solver=self.solver, warm_start=warm, **options)
+                compiled.g.value = form.g
+                problem.solve(solver=self.solver, warm_start=warm, **options)
             except Exception as error:  # whatever another package raises
                 return _raised(error, time.perf_counter() - begin)
         seconds = time.perf_counter() - begin
-        status, stats = str(problem.problem.status), problem.problem.solver_stats
-        found = problem.delta_q_a.value is not None
-        duals = found and all(c.dual_value is not None for c in problem.extra)
+        status, stats = str(problem.status), problem.solver_stats
+        x, lam = compiled.x.value, compiled.rows.dual_value
         return Reply(
-            x=problem.primal() if found else None,
-            lam=problem.dual() if duals else None,
+            x=None if x is None else np.array(x, dtype=np.float64),
+            lam=None if lam is None else np.array(lam, dtype=np.float64),
             claimed=status,
             said_optimal=status == cp.OPTIMAL,
-            solver_seconds=_number(stats.solve_time),
+            solver_seconds=None if stats.solve_time is None else float(stats.solve_time),
             call_seconds=seconds,
             iterations=None if stats.num_iters is None else int(stats.num_iters),
         )
 
-    def _problem(self, step: StepData, warm: bool) -> StepProblem:
-        size = step.extra.A.shape
-        if size not in self._compiled:
-            problem = StepProblem(step)
-            problem.fill(step)
-            problem.problem.get_problem_data(self.solver, solver_opts={})  # compiled, untimed
-            self._compiled[size] = problem
+    def _problem(self, form: StandardForm) -> _Compiled:
+        key = id(form.H)
+        if key not in self._compiled:
+            self._compiled[key] = _compiled(form, self.solver)
             while len(self._compiled) > KEPT:
                 self._compiled.popitem(last=False)
-        self._compiled.move_to_end(size)
-        if not warm:
-            self._compiled[size].problem._solver_cache.clear()  # nothing is left of the last one
-        return self._compiled[size]
+        self._compiled.move_to_end(key)
+        return self._compiled[key]
+
+
+@dataclass(frozen=True, eq=False)
+class _Compiled:
+    """A problem of CVXPY's, and its parts."""
+
+    problem: cp.Problem
+    x: cp.Variable
+    g: cp.Parameter
+    rows: cp.Constraint
+    H: Array  # kept, so that its identity stays its own
+
+
+def _compiled(form: StandardForm, solver: str) -> _Compiled:
+    n = len(form.g)
+    x, g = cp.Variable(n), cp.Parameter(n, value=form.g)
+    # H is known to be positive definite; CVXPY's own check may err at condition numbers of 1e11.
+    objective = cp.quad_form(x, cp.psd_wrap(form.H)) / 2 - g @ x
+    rows = form.A @ x >= form.b
+    problem = cp.Problem(cp.Minimize(objective), [rows])
+    problem.get_problem_data(solver, solver_opts={})
+    return _Compiled(problem, x, g, rows, form.H)
 
 
 def step_of(form: StandardForm) -> StepData:
@@ -186,7 +216,3 @@ def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:
         iterations = np.ravel(extras["iterations"])[0]
     words = str(status) if status is not None else "found" if solution.found else "not found"
     return words.rpartition(".")[2], None if iterations is None else int(iterations)
-
-
-def _number(value: Any) -> float | None:
-    return None if value is None else float(value)

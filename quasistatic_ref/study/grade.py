@@ -119,9 +119,7 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     """Outcome, and the numbers if they can be judged."""
     if reply.x is None:
         return FAILED, None, None
-    if reply.x.shape != form.g.shape or (
-        reply.lam is not None and reply.lam.shape != form.b.shape
-    ):
+    if reply.x.shape != form.g.shape or (reply.lam is not None and reply.lam.shape != form.b.shape):
         return WRONG_SHAPE, None, None
     lam_finite = reply.lam is None or bool(np.isfinite(reply.lam).all())
     if not np.isfinite(reply.x).all() or not lam_finite:

@@ -1,4 +1,4 @@
-"""The keeper of one solver's process: starts it, asks it, kills it when it hangs, starts it again."""
+"""The keeper of one solver's process: starts it, asks it, kills it when it hangs, starts anew."""
 
 from __future__ import annotations
 

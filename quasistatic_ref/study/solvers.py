@@ -1,4 +1,4 @@
-"""The solvers of a study, by the road on which they are asked, and the settings they are asked at."""
+"""The solvers of a study, by the road on which they are asked, and the settings to ask at."""
 
 from __future__ import annotations
 

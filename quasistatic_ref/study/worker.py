@@ -49,7 +49,8 @@ def _serve(inbox: Connection, outbox: Connection, solver: Solver, ask: Ask) -> N
         if isinstance(message, Problem):
             problem, paper = message, exam(message)
             continue
-        assert problem is not None and paper is not None  # the keeper sends the problem first
+        assert problem is not None  # the keeper sends it first
+        assert paper is not None
         # A looping solver holds the interpreter; this signal's default action ends the process.
         signal.setitimer(signal.ITIMER_REAL, (1 + message["warm"]) * message["limit"] + GRACE)
         outbox.send(_answered(problem, paper, solver, ask, message))

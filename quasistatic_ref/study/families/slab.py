@@ -72,10 +72,12 @@ def _contacts(rng: np.random.Generator, n_c: int) -> Contacts:
     kind = np.arange(n_c) % 2  # 0: floor below the slab, 1: slab below the block
     n = np.column_stack([TILT * rng.normal(size=(n_c, 2)), np.ones(n_c)])
     r = np.column_stack([SIZE * rng.uniform(-1, 1, (n_c, 2)), np.zeros(n_c)])
-    r_below, r_above = r + [0, 0, 0.1 * SIZE], r - [0, 0, SIZE]
-    r_floor = r - [0, 0, 0.1 * SIZE]
+    up = np.array([0.0, 0.0, SIZE])
+    r_below, r_above, r_floor = r + 0.1 * up, r - up, r - 0.1 * up
     J = np.zeros((n_c, 4, 15))
-    J[:, :, 3:9] = np.where(kind[:, None, None] == 0, moving_point(r_floor, n), -moving_point(r_below, n))
+    J[:, :, 3:9] = np.where(
+        kind[:, None, None] == 0, moving_point(r_floor, n), -moving_point(r_below, n)
+    )
     J[:, :, 9:15] = np.where(kind[:, None, None] == 0, 0.0, moving_point(r_above, n))
     if n_c > 1:  # the pusher's tip at the slab's side
         n[0], r[0] = [1.0, 0.0, 0.0], [-SIZE, 0.2 * SIZE * rng.uniform(-1, 1), 0.0]
