@@ -105,10 +105,10 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.study.parquet import test_set_written
+    from quasistatic_ref.study.parquet import benchmark_written
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)
-    for path in test_set_written(options.store, options.out, options.every):
+    for path in benchmark_written(options.store, options.out, options.every):
         print(f"wrote {path}")
     return 0

@@ -17,7 +17,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
-from quasistatic_ref.solve.plain import Reply, ThroughCvxpy, direct_reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.study.solvers import Solver
@@ -92,6 +92,8 @@ def imported(target: str) -> Callable[..., Any]:
 
 
 def _by_cvxpy(name: str) -> Ask:
+    from quasistatic_ref.solve.by_cvxpy import ThroughCvxpy  # heavy, and not every worker's
+
     road = ThroughCvxpy(name)
 
     def ask(
@@ -105,6 +107,8 @@ def _by_cvxpy(name: str) -> Ask:
 
 
 def _directly(name: str) -> Ask:
+    from quasistatic_ref.solve.direct import direct_reply
+
     def ask(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:

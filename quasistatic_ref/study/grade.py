@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.solve.plain import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.solve.plain import step_of
+from quasistatic_ref.solve.reply import step_of
 from quasistatic_ref.solve.units import Units, natural_units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm

@@ -7,8 +7,9 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.solve.plain import Reply, direct_reply, step_of
+from quasistatic_ref.solve.direct import direct_reply
 from quasistatic_ref.solve.plain_options import installed_solvers, tuned_options
+from quasistatic_ref.solve.reply import Reply, step_of
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.study.qp import Answer, in_units, units_of
 from quasistatic_ref.tolerances import ACCURACY, KNOWN

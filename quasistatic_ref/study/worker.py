@@ -20,7 +20,7 @@ from quasistatic_ref.study.grade import CRASHED, TIMEOUT, Exam, exam, grades, un
 from quasistatic_ref.study.qp import Problem
 from quasistatic_ref.study.solvers import Setting, Solver
 
-GRACE = 5
+GRACE = 2
 """Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
 
 
