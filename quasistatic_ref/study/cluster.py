@@ -98,7 +98,7 @@ def _client(address: str) -> Any:
             value=address,
         ) from None
     try:
-        return Client(address, timeout=CONNECT, set_as_default=False)  # type: ignore[no-untyped-call]  # Dask has few types
+        return Client(address, timeout=CONNECT, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise InputError(
             f"nobody answers there: {error}", field="--scheduler", value=address
