@@ -59,7 +59,8 @@ def _run(options: argparse.Namespace) -> int:
         raise error.in_file(path) from None
     where = {"jobs": options.jobs, "scheduler": options.scheduler}
     if kind == "sweep":
-        from quasistatic_ref.study.sweep import run_sweep, sweep_study
+        from quasistatic_ref.study.spec_sweep import sweep_study
+        from quasistatic_ref.study.sweep import run_sweep
 
         rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
         return _swept(rows, options)
@@ -93,12 +94,12 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
         shared.print_json({"rows": len(rows), "failed": failed, "store": str(options.out)})
         return 0
     measures = sorted({name for row in rows for name in row["measures"]})
-    table: list[tuple[str, ...]] = [("scenario", "values", "outcome", *measures)]
+    table: list[tuple[str, ...]] = [("sweep", "values", "outcome", *measures)]
     for row in rows:
         values = ", ".join(f"{k}={v}" for k, v in row["values"].items())
         found = (row["measures"].get(name) for name in measures)
         cells = ("-" if v is None else f"{v:.6g}" for v in found)
-        table.append((row["scenario"], values, row["outcome"], *cells))
+        table.append((row["sweep"], values, row["outcome"], *cells))
     shared.print_rows(table)
     print(f"{len(rows)} runs, {failed} of which ended early; wrote {options.out / ROWS}")
     return 0

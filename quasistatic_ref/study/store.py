@@ -20,7 +20,7 @@ from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, tex
 ROWS, STUDY = "rows.jsonl", "study.json"
 KEY = ("problem", "solver", "road", "setting", "warm", "units", "repetition")
 """What makes a measurement the same one."""
-SWEEP_KEY = ("scenario", "values", "repetition")
+SWEEP_KEY = ("sweep", "values")
 MACHINE_DEPENDENT = ("seconds",)
 """Fields that differ from run to run."""
 
