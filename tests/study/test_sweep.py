@@ -21,7 +21,7 @@ duration = 0.02
 fields = ["contacts.smooth.mu_v"]
 values = [0.0, 0.3]
 [sweeps.axes.h]
-values = [0.01, 0.005]
+values = [0.01, 0.02]
 """
 
 
@@ -37,9 +37,9 @@ def sweeps(tmp_path):
 
 def test_a_sweep_is_every_combination_of_the_values(sweeps):
     (sweep,) = sweeps(SLIDE)
-    points = [{"mu": mu, "h": h} for mu in (0.0, 0.3) for h in (0.01, 0.005)]
+    points = [{"mu": mu, "h": h} for mu in (0.0, 0.3) for h in (0.01, 0.02)]
     assert sweep.points() == points
-    assert "steps=4" in sweep.settings(points[1])
+    assert "steps=1" in sweep.settings(points[1])
 
 
 def test_a_quick_sweep_takes_the_ends_of_each_axis(sweeps):
@@ -48,7 +48,7 @@ def test_a_quick_sweep_takes_the_ends_of_each_axis(sweeps):
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3])
-@pytest.mark.parametrize("h", [0.01, 0.005])
+@pytest.mark.parametrize("h", [0.01, 0.02])
 def test_a_sliding_block_travels_as_its_closed_form_says(sweeps, mu, h):
     """Step k slips d (1 - r^(k+1)), d = h^2 g (sin a - mu cos a), r = mu^2 / (1 + mu^2).
 
@@ -92,7 +92,7 @@ def test_a_run_that_ends_early_or_is_refused_is_a_row_too(sweeps):
 
 def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
     path = tmp_path / "study.toml"
-    path.write_text(HEAD + SLIDE.replace("[0.01, 0.005]", "[0.01]"))
+    path.write_text(HEAD + SLIDE.replace("[0.01, 0.02]", "[0.01]"))
     command = ["study", "run", str(path), "--out", str(tmp_path / "store"), "--jobs", "1"]
     assert main(command) == 0
     assert "2 runs, 0 of which ended early" in capsys.readouterr().out
@@ -108,7 +108,7 @@ def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
 BAD = {
     "no sweep": ("sweeps = []", "sweeps: must hold at least one table"),
     "no axes": (SLIDE.partition("[sweeps.axes.mu]")[0], "sweeps[0].axes: is missing"),
-    "no values": (SLIDE.replace("values = [0.01, 0.005]", ""), "sweeps[0].axes.h.values"),
+    "no values": (SLIDE.replace("values = [0.01, 0.02]", ""), "sweeps[0].axes.h.values"),
     "an unknown field": (SLIDE + 'colour = "red"\n', "sweeps[0].axes.h.colour: is unknown"),
     "a field the scenario does not know": (
         SLIDE.replace("contacts.smooth.mu_v", "contacts.smooth.mu"),
