@@ -26,19 +26,21 @@ COMMANDS = {
     "extract": "write one step of a trajectory as a step file",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
+    "study": "compare solvers on problems with exact answers, or sweep a scenario's parameters",
     "figures": "make the figures, as PNG and PDF",
     "backends": "list the solvers that can be chosen here",
 }
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that suggests the nearest command."""
+    """An argument parser that suggests the nearest command, or action of a command."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with status 2 and a sentence."""
         unknown = re.search(r"invalid choice: '(\w*)'", message)
-        hint = suggestion(unknown[1], COMMANDS) if unknown else ""
-        super().error(f"{message.split(' (choose from')[0]}{hint}")
+        said, _, choices = message.partition(" (choose from")
+        hint = suggestion(unknown[1], re.findall(r"\w+", choices)) if unknown else ""
+        super().error(f"{said}{hint}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

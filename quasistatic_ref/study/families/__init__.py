@@ -1,0 +1,1 @@
+"""Where the problems of a study come from: scenarios, and families scaled on purpose."""

@@ -1,0 +1,104 @@
+"""The solvers of a study, by the road on which they are asked, and the settings to ask at."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from quasistatic_ref.solve.plain_options import WARM, plain_options, time_option, tuned_options
+
+ROADS = ("cvxpy", "qpsolvers", "callable", "executable")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One column of a study.
+
+    Parameters
+    ----------
+    name : str
+    accuracy : float or None
+        Asked of residuals and gap, in the units of the problem as asked [-]; None: the default.
+    promised : float
+        Correct digits of delta_q that an "optimal" promises.
+    tuned : bool
+        The options that the simulator uses in place of the plain ones.
+    """
+
+    name: str
+    accuracy: float | None
+    promised: float
+    tuned: bool = False
+
+
+# By strong convexity ||x - x*||_H^2 <= 2 gap, so that an accuracy of eps promises an error of
+# sqrt(2 eps) in natural units, about half of its digits. Of a default nobody expects fewer than 3.
+SETTINGS = (
+    Setting("default", None, 3.0),
+    Setting("low", 1e-3, 1.0),
+    Setting("mid", 1e-6, 2.5),
+    Setting("high", 1e-9, 4.0),
+    Setting("tuned", 1e-12, 5.5, tuned=True),
+)
+
+
+@dataclass(frozen=True)
+class Solver:
+    """One solver of a study.
+
+    Parameters
+    ----------
+    name : str
+    road : str
+        One of ``ROADS``.
+    target : str or tuple of str
+        The solver's name there; ``module:function``; or a command with its arguments.
+    options : mapping of str to mapping
+        Options of its own by setting, in place of ours.
+    """
+
+    name: str
+    road: str
+    target: str | tuple[str, ...]
+    options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """Road and name, unique in a study."""
+        return f"{self.road}:{self.name}"
+
+    @property
+    def warm(self) -> bool:
+        """Whether a start can be handed to it."""
+        return self.target in WARM.get(self.road, ())
+
+    @property
+    def known(self) -> bool:
+        """Whether its options are in our table."""
+        return self.road in ("cvxpy", "qpsolvers")
+
+    def takes(self, setting: Setting) -> bool:
+        """Whether a setting means anything to it."""
+        if setting.name in self.options:
+            return True
+        has_accuracy = self.known and self.target != "quadprog"
+        return setting.accuracy is None or has_accuracy
+
+    def settings_of(self, setting: Setting, seconds: float) -> dict[str, Any]:
+        """The options that a setting is to this solver.
+
+        Parameters
+        ----------
+        setting : Setting
+        seconds : float
+            The time limit of a problem [s].
+        """
+        if setting.name in self.options:
+            return dict(self.options[setting.name])
+        if not self.known:
+            return {}
+        name = str(self.target)
+        if setting.tuned and setting.accuracy is not None:
+            return time_option(name, seconds) | tuned_options(name, setting.accuracy)
+        return time_option(name, seconds) | plain_options(name, setting.accuracy)

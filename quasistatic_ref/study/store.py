@@ -1,0 +1,156 @@
+"""The store of a study: a folder whose rows are only ever added to.
+
+``rows.jsonl`` holds one measurement a line. A line is written by one call; whatever ends the
+program in the middle of it leaves a last line that does not parse, which is dropped when the study
+goes on. Order in the file is the order of time; readers sort.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import IO, Any
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
+
+ROWS, STUDY = "rows.jsonl", "study.json"
+KEY = ("problem", "solver", "road", "setting", "warm", "units", "repetition")
+"""What makes a measurement the same one."""
+SWEEP_KEY = ("sweep", "values")
+MACHINE_DEPENDENT = ("seconds",)
+"""Fields that differ from run to run."""
+
+Row = dict[str, Any]
+
+
+def key_of(row: Row) -> str:
+    """The key of a row as text: equal for equal measurements, and sortable."""
+    names = KEY if "problem" in row else SWEEP_KEY
+    return json.dumps([row[name] for name in names], sort_keys=True)
+
+
+class Store:
+    """A store opened for writing, by one program at a time.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Made if it is missing.
+    study : mapping
+        What ``study.json`` holds. A folder that holds another study is refused.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another study, is in use, or cannot be read.
+    """
+
+    def __init__(self, folder: str | Path, study: dict[str, Any]) -> None:
+        self.folder = Path(folder)
+        self._claim(study)
+        path = self.folder / ROWS
+        self._file: IO[bytes] = path.open("ab")
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            self._file.close()
+            raise InputError("is being written by another run; wait for its end", file=path) from (
+                None
+            )
+        self.rows, whole = _parsed(path)
+        os.truncate(path, whole)
+
+    def _claim(self, study: dict[str, Any]) -> None:
+        path = self.folder / STUDY
+        text = json_text(study)
+        if not path.exists():
+            text_written(path, text + "\n")
+            return
+        there = json_read(path)
+        for name, value in json.loads(text).items():
+            if there.get(name) != value:
+                raise InputError(
+                    f"holds a study that was begun with another {name!r}; choose another folder "
+                    "with --out, or remove this one",
+                    file=self.folder,
+                )
+
+    @property
+    def keys(self) -> set[str]:
+        """Keys of the measurements that are there."""
+        return {key_of(row) for row in self.rows}
+
+    def add(self, row: Row) -> None:
+        """Add one measurement; it is in the file when this returns."""
+        self._file.write((json_text(row) + "\n").encode())
+        self._file.flush()
+        self.rows.append(row)
+
+    def close(self) -> None:
+        """Close the file, and let others write."""
+        self._file.close()
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+def rows_read(folder: str | Path) -> list[Row]:
+    """The rows of a store, sorted by their keys; a torn last line is left out.
+
+    Raises
+    ------
+    InputError
+        If there is no store, or a line before the last does not parse.
+    """
+    rows, _ = _parsed(Path(folder) / ROWS)
+    return sorted(rows, key=key_of)
+
+
+def study_read(folder: str | Path) -> dict[str, Any]:
+    """What ``study.json`` of a store holds.
+
+    Raises
+    ------
+    InputError
+        If there is no store.
+    """
+    study = json_read(Path(folder) / STUDY)
+    if not isinstance(study, dict) or study.get("format") != "quasistatic-ref/study-store":
+        raise InputError("is no store of a study", file=folder)
+    return study
+
+
+def table(rows: Iterable[Row]) -> list[Row]:
+    """Rows without what differs from run to run, sorted: equal for equal studies."""
+    kept = [{k: v for k, v in row.items() if k not in MACHINE_DEPENDENT} for row in rows]
+    return sorted(kept, key=key_of)
+
+
+def _parsed(path: Path) -> tuple[list[Row], int]:
+    """Return the rows of a file, and the length of what parses [bytes]."""
+    content = bytes_read(path)
+    rows: list[Row] = []
+    whole = 0
+    lines = content.split(b"\n")
+    for number, line in enumerate(lines[:-1], start=1):
+        try:
+            row = json.loads(text_of(line, path))
+            key_of(row)
+        except (ValueError, InputError, KeyError, TypeError):
+            if number == len(lines) - 1:
+                break  # the last line, torn
+            raise InputError(
+                "is no row of a study; remove this line, or the folder",
+                file=path,
+                field=f"line {number}",
+            ) from None
+        rows.append(row)
+        whole += len(line) + 1
+    return rows, whole

@@ -1,0 +1,37 @@
+"""Studies small enough for a test: a few scaled problems, and solvers planted on purpose."""
+
+import pytest
+
+from quasistatic_ref.study.problems import problem_of
+from quasistatic_ref.study.run import run_study
+from quasistatic_ref.study.spec import solver_study, study_tables
+from tests.study.planted import FAKES, slab
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A function that writes a study file beside the planted solvers, and reads it."""
+    (tmp_path / "planted_solvers.py").write_text(FAKES)
+
+    def written(text, **changes):
+        path = tmp_path / "study.toml"
+        path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + text)
+        return solver_study(path, study_tables(path), **changes)
+
+    return written
+
+
+@pytest.fixture
+def run(study, tmp_path):
+    """A function that runs a study in the folder ``store``; returns its rows."""
+
+    def ran(text, folder="store", **options):
+        return run_study(study(text), tmp_path / folder, progress=False, **options)
+
+    return ran
+
+
+@pytest.fixture(scope="session")
+def problem():
+    """One problem of 12 contacts with its exact answer."""
+    return problem_of(slab())

@@ -1,0 +1,131 @@
+"""A study from its file to its table: complete, the same however often it was interrupted."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import distributed
+import pytest
+
+import quasistatic_ref
+from quasistatic_ref.study.run import run_study
+from quasistatic_ref.study.spec import solver_study, study_tables
+from quasistatic_ref.study.store import ROWS, rows_read, study_read, table
+
+SMALL = """
+time_limit = 20.0
+[problems]
+families = { contacts = 4, mass_ratio = 3 }
+[[runs]]
+solvers = ["qpsolvers:daqp", "qpsolvers:clarabel"]
+settings = ["default", "high"]
+units = ["raw", "natural"]
+"""
+CALLS = (4 + 3) * 2 * 2 * 2
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The folder of the small study, run once without interruption; tests leave it as it is."""
+    folder = tmp_path_factory.mktemp("whole")
+    path = folder / "study.toml"
+    path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + SMALL)
+    run_study(solver_study(path, study_tables(path)), folder / "store", progress=False)
+    return folder / "store"
+
+
+def test_every_measurement_of_the_plan_is_in_the_table_once(whole):
+    rows = rows_read(whole)
+    assert len(rows) == len({json.dumps(r) for r in table(rows)}) == CALLS
+    assert {r["outcome"] for r in rows} <= {"solved", "failed"}
+    asked = study_read(whole)
+    assert asked["problems"]["count"] == asked["problems"]["exact"] == 7
+    assert {"clarabel", "daqp", "qpsolvers", "numpy"} <= set(asked["versions"])
+
+
+def test_an_active_set_solver_in_natural_units_has_nearly_all_digits(whole):
+    rows = [r for r in rows_read(whole) if r["solver"] == "daqp" and r["units"] == "natural"]
+    found = [r["digits"]["delta_q"] for r in rows if r["setting"] == "high"]
+    assert len(found) == 7
+    assert min(found) > 9
+
+
+def command(path, store):
+    return [sys.executable, "-m", "quasistatic_ref.cli.main", "study", "run", str(path),
+            "--out", str(store)]  # fmt: skip
+
+
+def lines(store):
+    path = store / ROWS
+    return path.read_bytes().count(b"\n") if path.exists() else 0
+
+
+def test_a_study_killed_at_random_moments_gives_the_same_table(study, run, whole, tmp_path):
+    path, store = study(SMALL).path, tmp_path / "killed"
+    root = str(Path(quasistatic_ref.__file__).parents[1])
+    environment = os.environ | {"PYTHONPATH": root}
+    chosen = random.Random().sample(range(1, CALLS - 8), 2)
+    for moment in sorted(chosen):
+        process = subprocess.Popen(
+            command(path, store), env=environment, stdout=subprocess.DEVNULL, cwd=tmp_path
+        )
+        while lines(store) < moment and process.poll() is None:
+            time.sleep(0.001)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        assert lines(store) >= moment
+    before = rows_read(store)
+    assert len(before) < CALLS, f"killed at {chosen}, the study was over already"
+    rows = run(SMALL, "killed")
+    assert table(rows) == table(rows_read(whole)), f"killed at {chosen}"
+    kept = [r for r in rows if r in before]  # nothing is measured twice: times are the old ones
+    assert len(kept) == len(before)
+
+
+def test_a_finished_study_measures_nothing_again(study, whole):
+    before = (whole / ROWS).read_bytes()
+    run_study(study(SMALL), whole, progress=False)
+    assert (whole / ROWS).read_bytes() == before
+
+
+PLANTED = """
+time_limit = 0.3
+budget = {budget}
+[problems]
+families = {{ contacts = 4 }}
+[solvers.loops]
+callable = "planted_solvers:loops"
+[solvers.honest]
+callable = "planted_solvers:honest"
+[[runs]]
+solvers = ["loops", "honest"]
+units = ["raw", "natural"]
+"""
+
+
+def test_what_a_budget_does_not_reach_is_told_also_after_an_interruption(run, tmp_path):
+    text = PLANTED.format(budget=2.0)
+    rows = run(text)
+    outcomes = {n: [r["outcome"] for r in rows if r["solver"] == n] for n in ("loops", "honest")}
+    assert len(outcomes["loops"]) == len(outcomes["honest"]) == 4 * 2
+    # a call of it takes 0.3 s and more: after six at most the budget is used up
+    assert 1 <= outcomes["loops"].count("timeout") <= 6
+    assert set(outcomes["loops"]) == {"timeout", "not_run_budget"}
+    assert outcomes["honest"][0] == "solved"  # one solver's budget is not another's
+
+    kept = [r for r in rows if r["outcome"] != "not_run_budget"]
+    (tmp_path / "store" / ROWS).write_text("".join(json.dumps(r) + "\n" for r in kept))
+    assert table(run(text)) == table(rows)
+
+
+def test_on_a_cluster_of_two_workers_the_results_are_the_same(run, whole):
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster:
+        there = run(SMALL, "there", scheduler=cluster.scheduler_address)
+    assert table(there) == table(rows_read(whole))

@@ -1,0 +1,127 @@
+"""STUDY.toml: what it means, and that a mistake in it is one sentence."""
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.solve.plain_options import DIRECT, OPTIONS, installed_solvers, plain_options
+from quasistatic_ref.study.plan import plan
+from quasistatic_ref.study.spec import QUICK, solver_study, study_path, study_tables
+
+RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
+MINE = '[solvers.mine]\ncallable = "planted_solvers:honest"\n'
+
+BAD = {
+    "an unknown field": ("tim_limit = 1", "tim_limit: is unknown; did you mean 'time_limit'?"),
+    "no time": ("time_limit = 0", "time_limit: must be greater than 0"),
+    "an unknown family": ("problems.families.contact = 3", "did you mean 'contacts'?"),
+    "no problems": ("problems.families.contacts = 0", "problems.families: must name at least one"),
+    "an unknown scenario": ('problems.scenarios = ["bunny"]', "did you mean 'bunny_grasp'?"),
+    "an unknown solver": ('[[runs]]\nsolvers = ["qpsolvers:dapq"]', "did you mean 'daqp'?"),
+    "an unknown road": ('[[runs]]\nsolvers = ["cvxopt:daqp"]', "runs[0].solvers: holds no solver"),
+    "no solvers": ("[[runs]]\nsolvers = []", "runs[0].solvers: must not be empty"),
+    "an unknown setting": (RUN + 'settings = ["hihg"]', "did you mean 'high'?"),
+    "unknown units": (RUN + 'units = ["si"]', "runs[0].units: must be among raw, natural"),
+    "warm that is no choice": (RUN + "warm = [1]", "runs[0].warm: must be a list of true and"),
+    "no repetition": (RUN + "repetitions = 0", "runs[0].repetitions: must be at least 1"),
+    "two roads": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
+    "no road": ("[solvers.mine]\n", "solvers.mine: must say one of"),
+    "no function": ('[solvers.mine]\ncallable = "module"', "must read module:function"),
+    "no command": ("[solvers.mine]\nexecutable = []", "must be a list of words"),
+    "options of no setting": (MINE + "options.higher.a = 1", "solvers.mine.options.higher"),
+    "a setting without accuracy": ("[settings.mine]\n", "settings.mine.accuracy: is missing"),
+    "a setting that says nothing to a solver": (
+        MINE + '[[runs]]\nsolvers = ["mine"]\nsettings = ["high"]',
+        "hold nothing that callable:mine can be set to",
+    ),
+    "another kind": ('kind = "race"', "kind: is not a choice"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_mistake_is_one_sentence_that_names_file_field_and_remedy(name, study):
+    text, says = BAD[name]
+    with pytest.raises(InputError) as refused:
+        study(text)
+    assert says in str(refused.value)
+    assert "study.toml" in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
+    for name, content, says in (
+        ("a.toml", "x = ", "is not TOML"),
+        ("b.toml", "format = 3", "format"),
+        ("c.toml", None, "no such file"),
+    ):
+        path = tmp_path / name
+        if content is not None:
+            path.write_text(content)
+        assert main(["study", "run", str(path), "--out", str(tmp_path / "out")]) == 2
+        told = capsys.readouterr().err
+        assert says in told
+        assert told.count("\n") == 1
+    assert main(["study", "run", "defalt"]) == 2
+    assert "did you mean 'default'?" in capsys.readouterr().err
+
+
+def test_the_default_study_is_as_large_as_it_is_said_to_be():
+    path = study_path("default")
+    full, quick = (solver_study(path, study_tables(path), q) for q in (False, True))
+    assert sum(full.problems.families.values()) >= 2000
+    assert len({s.target for s in full.solvers}) >= 8
+    ratio = sum(full.problems.families.values()) / sum(quick.problems.families.values())
+    assert QUICK * 0.8 < ratio <= QUICK
+
+
+def test_every_solver_of_the_table_is_installed_here_so_that_green_means_they_ran():
+    assert set(installed_solvers("qpsolvers")) == set(DIRECT)
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_a_tighter_accuracy_never_asks_for_less(name):
+    loose, tight = plain_options(name, 1e-3), plain_options(name, 1e-9)
+    assert plain_options(name, None) == {}
+    assert loose.keys() == tight.keys()
+    changed = [key for key in loose if loose[key] != tight[key]]
+    assert changed
+    assert all(tight[key] < loose[key] for key in changed)
+
+
+def test_all_solvers_are_asked_on_a_problem_before_the_next_and_take_turns(study):
+    spec = study(
+        "[problems]\nfamilies.contacts = 6\n[[runs]]\n"
+        'solvers = ["qpsolvers:daqp", "qpsolvers:osqp", "qpsolvers:clarabel"]\nrepetitions = 2'
+    )
+    problems = [(f"p{i}", "f") for i in range(6)]
+    planned = plan(spec, problems)
+    assert len(planned) == 6 * 3 * 2
+    blocks = [planned[i : i + 3] for i in range(0, len(planned), 3)]
+    assert all(len({(m.problem, m.repetition) for m in block}) == 1 for block in blocks)
+    assert {block[0].solver.name for block in blocks} == {"daqp", "osqp", "clarabel"}
+    assert [block[0].problem for block in blocks[:6]] != [p for p, _ in problems]  # scattered
+
+
+def test_a_measurement_that_two_tables_ask_for_is_made_once(study):
+    spec = study("[problems]\nfamilies.contacts = 4\n" + RUN + RUN + "every = 2\nunits = ['raw']")
+    planned = plan(spec, [(f"p{i}", "f") for i in range(4)])
+    assert sorted(m.units for m in planned) == ["natural"] * 4 + ["raw"] * 2
+    again = study("[problems]\nfamilies.contacts = 4\n" + RUN + RUN)
+    assert len(plan(again, [(f"p{i}", "f") for i in range(4)])) == 4
+
+
+def test_only_solvers_that_take_a_start_are_asked_warm(study):
+    spec = study(
+        "[problems]\nfamilies.contacts = 1\n[[runs]]\nwarm = [false, true]\n"
+        'solvers = ["qpsolvers:daqp", "qpsolvers:piqp"]'
+    )
+    planned = plan(spec, [("p", "f")])
+    assert sorted((m.solver.name, m.warm) for m in planned) == [
+        ("daqp", False), ("daqp", True), ("piqp", False)]  # fmt: skip
+
+
+def test_a_studys_own_options_replace_ours(study):
+    text = '[solvers.mine]\nqpsolvers = "osqp"\noptions.high = { eps_abs = 1e-7 }\n'
+    (solver,) = study(text + '[[runs]]\nsolvers = ["mine"]\nsettings = ["high"]').solvers
+    (setting,) = study(text + '[[runs]]\nsolvers = ["mine"]\nsettings = ["high"]').settings
+    assert solver.settings_of(setting, 1.0) == {"eps_abs": 1e-7}

@@ -1,0 +1,129 @@
+"""Sweeps of simulation parameters: each run is measured, whatever becomes of it."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.study.spec import study_tables
+from quasistatic_ref.study.spec_sweep import sweep_study
+from quasistatic_ref.study.store import rows_read, table
+from quasistatic_ref.study.sweep import sweep_row
+
+HEAD = 'format = "quasistatic-ref/study"\nversion = 1\nkind = "sweep"\n'
+SLIDE = """
+[[sweeps]]
+name = "slide"
+scenario = "block_incline"
+link = "smooth"
+duration = 0.02
+[sweeps.axes.mu]
+fields = ["contacts.smooth.mu_v"]
+values = [0.0, 0.3]
+[sweeps.axes.h]
+values = [0.01, 0.02]
+"""
+
+
+@pytest.fixture
+def sweeps(tmp_path):
+    def read(text, **changes):
+        path = tmp_path / "study.toml"
+        path.write_text(HEAD + text)
+        return sweep_study(path, study_tables(path), **changes)
+
+    return read
+
+
+def test_a_sweep_is_every_combination_of_the_values(sweeps):
+    (sweep,) = sweeps(SLIDE)
+    points = [{"mu": mu, "h": h} for mu in (0.0, 0.3) for h in (0.01, 0.02)]
+    assert sweep.points() == points
+    assert "steps=1" in sweep.settings(points[1])
+
+
+def test_a_quick_sweep_takes_the_ends_of_each_axis(sweeps):
+    text = SLIDE.replace("[0.0, 0.3]", "[0.0, 0.1, 0.2, 0.3]")
+    assert sweeps(text, quick=True)[0].points() == sweeps(SLIDE)[0].points()
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+@pytest.mark.parametrize("h", [0.01, 0.02])
+def test_a_sliding_block_travels_as_its_closed_form_says(sweeps, mu, h):
+    """Step k slips d (1 - r^(k+1)), d = h^2 g (sin a - mu cos a), r = mu^2 / (1 + mu^2).
+
+    It is then mu times its last slip above the slope: docs/derivations.md.
+    """
+    (sweep,) = sweeps(SLIDE)
+    row = sweep_row(sweep, {"mu": mu, "h": h})
+    angle, steps = np.radians(25), round(0.02 / h)
+    d, r = h**2 * 9.81 * (np.sin(angle) - mu * np.cos(angle)), mu**2 / (1 + mu**2)
+    slips = d * (1 - r ** np.arange(1, steps + 1))
+    travel = np.hypot(slips.sum(), mu * slips[-1])
+    measures = row["measures"]
+    assert row["outcome"] == "done"
+    assert measures["travel_mm"] == pytest.approx(1e3 * travel, rel=1e-9)
+    assert measures["boundary_layer_um"] == pytest.approx(1e6 * mu * slips[-1], rel=1e-9, abs=1e-9)
+    assert measures["rotation_deg"] < 1e-9
+    assert (measures["steps"], measures["exact"]) == (steps, 1.0)
+
+
+REACH = """
+[[sweeps]]
+scenario = "block_incline"
+link = "smooth"
+[sweeps.axes.reach]
+fields = ["limits.reach"]
+values = [100.0, 0.2063, 0.1]
+"""
+
+
+def test_a_run_that_ends_early_or_is_refused_is_a_row_too(sweeps):
+    """The block starts at 0.20616 m from the origin and slides past 0.2063 m on its way down."""
+    (sweep,) = sweeps(REACH)
+    rows = [sweep_row(sweep, point) for point in sweep.points()]
+    assert [row["outcome"] for row in rows] == ["done", "ended_early", "refused"]
+    assert [row["reason"] is None for row in rows] == [True, False, False]
+    steps = [row["measures"].get("steps") for row in rows]
+    assert steps[0] == 100
+    assert 0 < steps[1] < 100
+    assert steps[2] is None
+
+
+def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
+    path = tmp_path / "study.toml"
+    path.write_text(HEAD + SLIDE.replace("[0.01, 0.02]", "[0.01]"))
+    command = ["study", "run", str(path), "--out", str(tmp_path / "store"), "--jobs", "1"]
+    assert main(command) == 0
+    assert "2 runs, 0 of which ended early" in capsys.readouterr().out
+    rows = rows_read(tmp_path / "store")
+    assert [row["values"] for row in table(rows)] == [
+        {"mu": 0.0, "h": 0.01},
+        {"mu": 0.3, "h": 0.01},
+    ]
+    assert main(command) == 0  # nothing is run again
+    assert rows_read(tmp_path / "store") == rows
+
+
+BAD = {
+    "no sweep": ("sweeps = []", "sweeps: must hold at least one table"),
+    "no axes": (SLIDE.partition("[sweeps.axes.mu]")[0], "sweeps[0].axes: is missing"),
+    "no values": (SLIDE.replace("values = [0.01, 0.02]", ""), "sweeps[0].axes.h.values"),
+    "an unknown field": (SLIDE + 'colour = "red"\n', "sweeps[0].axes.h.colour: is unknown"),
+    "a field the scenario does not know": (
+        SLIDE.replace("contacts.smooth.mu_v", "contacts.smooth.mu"),
+        "contacts.smooth.mu",
+    ),
+    "an unknown scenario": (SLIDE.replace("block_incline", "block_inclne"), "block_incline"),
+    "an unknown link": (SLIDE.replace('"smooth"', '"smoth"', 1), "smooth"),
+    "a name twice": (SLIDE + SLIDE, "is given twice"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_mistake_in_a_sweep_is_one_sentence(name, sweeps):
+    text, says = BAD[name]
+    with pytest.raises(InputError) as refused:
+        sweeps(text)
+    assert says in str(refused.value)
+    assert "study.toml" in str(refused.value) or "block_incline" in str(refused.value)
