@@ -17,20 +17,16 @@ from quasistatic_ref.contact.ball_tree import BallTree, ball_tree
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
-from quasistatic_ref.contact.shortlist import Shortlist, shortlist, size
+from quasistatic_ref.contact.proofs import CORNERS, Proofs
+from quasistatic_ref.contact.shortlist import shortlist, size
 from quasistatic_ref.contact.solid_rows import SolidRows, kind_order
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import UNSEEN
-
-CORNERS = 8
-"""Corners of the box around a cloud: they stand before the points in each row."""
 
 WIDTH = 32
 """Points of a list to begin with; twice as many where they do not suffice."""
 
 _SIGNS = 2.0 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
-_SQRT_3 = float(np.nextafter(np.sqrt(3.0), 2.0))
 _TREES: WeakKeyDictionary[PointCloud, BallTree] = WeakKeyDictionary()
 
 
@@ -38,8 +34,8 @@ class CloudTracker:
     """The contacts of pairs of a cloud and a solid.
 
     All pairs are measured at once: the points of a pair are a row, and rows are as long as the
-    longest, the others filled up with NaN. A row begins with the corners of the box around its
-    cloud, whose motion bounds that of every point.
+    longest, the others filled up with NaN. In memory they follow each other, x, y and z apart,
+    after the corners of the boxes around the clouds, whose motion bounds that of every point.
 
     Parameters
     ----------
@@ -55,32 +51,27 @@ class CloudTracker:
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
         sides = [_sides(pair) for pair in pairs]
         rows = kind_order([solid.shape for solid, _, _ in sides])
-        solids = [sides[p][0] for p in rows]
-        clouds = [sides[p][1] for p in rows]
-        P = len(rows)
+        solids, clouds = [sides[p][0] for p in rows], [sides[p][1] for p in rows]
         self.shapes = [solid.shape for solid in solids]
         self.points = [_points(cloud) for cloud in clouds]
         self.trees = [_tree(cloud) for cloud in clouds]
-        self.placements, self.measured = Placements(solids, clouds), SolidRows(self.shapes)
+        self.placements = Placements(solids, clouds)
         n_c = np.array([pairs[p].n_c for p in rows])
+        self.n_c, counts = n_c, np.array([len(points) for points in self.points])
+        self.width = np.minimum(np.maximum(WIDTH, 4 * n_c), counts)
         # Contacts in the order of the pairs: each one's row, and its rank in the row.
         at = np.argsort(rows)
         self.row = np.repeat(at, n_c[at])
         self.rank = np.concatenate([np.arange(n) for n in n_c[at]])
         self.furthest = np.cumsum(n_c[at])[rows] - 1  # each row's k-th closest
-        self.side = np.stack([self.row, P + self.row])
+        self.side = np.concatenate([self.row, len(rows) + self.row])
         self.sign = np.array([sides[p][2] for p in rows])[self.row, None]
-        self.n_c, self.width = (
-            n_c,
-            np.minimum(np.maximum(WIDTH, 4 * n_c), [len(points) for points in self.points]),
-        )
         self.box = np.array([_box_corners(points) for points in self.points])
         self.sizes = np.array(
             [size(s) + np.abs(b).max() for s, b in zip(self.shapes, self.box, strict=True)]
         )
-        self.by_distance, self.by_height = np.full(P, -np.inf), np.full(P, -np.inf)
-        self.n, self.corners_at = np.zeros((P, 1, 3)), np.zeros((P, CORNERS, 3))
-        self.far = np.zeros(P)
+        self.swaps = bool((self.sign < 0).any())
+        self.proofs = Proofs(len(rows))
         self.lists_made = 0
         self.lists = [np.arange(width) for width in self.width]
         self._fill()
@@ -96,44 +87,41 @@ class CloudTracker:
         poses = self.placements.poses(R, t)
         tries = 0
         while True:
-            x = rotated(poses.R_rel[:, None], self.rows) + poses.t_rel[:, None]
-            phi, normal = self.measured(x)
-            order = np.argsort(phi[:, CORNERS:], axis=1, kind="stable")
-            found = order.ravel()[self._ranked] + self._first
-            distance = phi.ravel()[found]
+            x = self._in_solids(poses)
+            phi, normal = self.measured(x[:, self.first :].T)
+            order = phi.reshape(len(self.shapes), -1).argsort(axis=1, kind="stable")
+            found = order.ravel().take(self.ranked) + self.row_start
+            distance = phi.take(found)
             # Written so that a NaN is no proof.
-            unproved = ~(distance[self.furthest] < self._limit(x))
-            if not unproved.any():
-                break
+            proved = distance.take(self.furthest) < self.proofs.limit(x[:, : self.first])
+            if proved.all():
+                return self._contacts(poses, normal, found, distance)
             if not tries:
                 check_finite(R, t)
-            self._make_lists(np.flatnonzero(unproved), poses, normal, found, distance, tries)
+            self._make_lists(np.flatnonzero(~proved), poses, normal, found, distance, tries)
             tries += 1
-        return self._contacts(poses, normal, found, distance)
 
-    def _limit(self, x: Array) -> Array:
-        """Below which signed distances (P,) [m] all points outside the lists cannot come."""
-        u = x[:, :CORNERS] - self.corners_at
-        moved = _SQRT_3 * np.abs(u).reshape(len(u), -1).max(axis=1)
-        along = u * self.n
-        risen = (along[..., 0] + along[..., 1] + along[..., 2]).min(axis=1)
-        limit = np.minimum(self.by_distance - moved, self.by_height + risen)
-        return np.asarray(limit - UNSEEN * (self.far + moved))
+    def _in_solids(self, poses: PairPoses) -> Array:
+        """Corners and points in the frames of their solids, shape (3, columns) [m]."""
+        pose = np.concatenate([poses.R_rel, poses.t_rel[..., None]], axis=2)
+        # The sums of `rotated`, without broadcasting, which takes longer than the sums.
+        term = pose.T.take(self.of, axis=2) * self.columns
+        return np.asarray(term[0] + term[1] + term[2] + term[3])
 
     def _contacts(
         self, poses: PairPoses, normal: Array, found: NDArray[np.int64], distance: Array
     ) -> ClosestPoints:
-        both = np.empty((2, len(found), 3))
-        normal.reshape(-1, 3).take(found, axis=0, out=both[0])
-        self.rows.reshape(-1, 3).take(found, axis=0, out=both[1])
-        n, centre = rotated(poses.R[self.side], both)
-        centre += poses.t[self.side[1]]
-        foot = centre - distance[:, None] * n
-        point = self.index.ravel()[found]
-        if (self.sign < 0).any():
-            swapped = self.sign < 0
-            alpha, beta = np.where(swapped, centre, foot), np.where(swapped, foot, centre)
-            return ClosestPoints(distance, alpha, beta, self.sign * n, point)
+        vectors = np.concatenate([normal.T.take(found, axis=1), self.local.take(found, axis=1)], 1)
+        term = poses.R.T.take(self.side, axis=2) * vectors[:, None]
+        turned = term[0] + term[1] + term[2]
+        n, centre = turned[:, : len(found)], turned[:, len(found) :]
+        centre += poses.t.T.take(self.side[len(found) :], axis=1)
+        foot = centre - distance * n
+        n, foot, centre = (np.ascontiguousarray(vector.T) for vector in (n, foot, centre))
+        point = self.index.take(found)
+        if self.swaps:
+            n, swapped = self.sign * n, self.sign < 0
+            foot, centre = np.where(swapped, centre, foot), np.where(swapped, foot, centre)
         return ClosestPoints(distance, foot, centre, n, point)
 
     def _make_lists(
@@ -156,35 +144,28 @@ class CloudTracker:
             last = self.furthest[p]
             nearest = found[last - self.n_c[p] + 1]
             R, t = poses.R_rel[p], poses.t_rel[p]
-            made = shortlist(
-                self.trees[p],
-                self.shapes[p],
-                R,
-                t,
-                normal.reshape(-1, 3)[nearest],
-                float(distance[last]),
-                int(self.width[p]),
-            )
-            self._keep(p, made, rotated(R, self.box[p]) + t)
+            phi_k, width = float(distance[last]), int(self.width[p])
+            made = shortlist(self.trees[p], self.shapes[p], R, t, normal[nearest], phi_k, width)
+            self.lists[p] = made.index
+            self.proofs.keep(p, made, rotated(R, self.box[p]) + t, self.sizes[p])
         self.lists_made += len(which)
         self._fill()
 
-    def _keep(self, p: int, made: Shortlist, corners: Array) -> None:
-        self.lists[p], self.n[p], self.corners_at[p] = made.index, made.n, corners
-        self.by_distance[p], self.by_height[p] = made.by_distance, made.by_height
-        self.far[p] = self.sizes[p] + np.abs(corners).max()
-
     def _fill(self) -> None:
-        """The rows of points, and where in them the contacts are looked up."""
-        P, longest = len(self.lists), max(len(index) for index in self.lists)
-        self.rows = np.full((P, CORNERS + longest, 3), np.nan)
-        self.index = np.full((P, CORNERS + longest), -1)
-        self.rows[:, :CORNERS] = self.box
+        """The columns of numbers, and where in them the contacts are looked up."""
+        P, W = len(self.lists), max(len(index) for index in self.lists)
+        rows, self.index = np.full((P, W, 3), np.nan), np.full((P, W), -1)
         for p, index in enumerate(self.lists):
-            self.rows[p, CORNERS : CORNERS + len(index)] = self.points[p][index]
-            self.index[p, CORNERS : CORNERS + len(index)] = index
-        self._ranked = self.row * longest + self.rank
-        self._first = self.row * (CORNERS + longest) + CORNERS
+            rows[p, : len(index)], self.index[p, : len(index)] = self.points[p][index], index
+        self.first = P * CORNERS
+        self.local = np.ascontiguousarray(rows.reshape(-1, 3).T)
+        every = np.concatenate([self.box.reshape(-1, 3).T, self.local], axis=1)
+        self.columns = np.ones((4, 3, every.shape[1]))
+        self.columns[:3] = every[:, None]
+        self.of = np.concatenate([np.repeat(np.arange(P), CORNERS), np.repeat(np.arange(P), W)])
+        self.row_start = self.row * W
+        self.ranked = self.row_start + self.rank
+        self.measured = SolidRows(self.shapes, W)
 
 
 def _sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape, float]:

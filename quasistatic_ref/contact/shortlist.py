@@ -17,8 +17,9 @@ from quasistatic_ref.model.shapes import HalfSpace, Shape, Sphere
 from quasistatic_ref.step.data import Array
 
 RATIO = 16.0
-"""How much farther than in height a point must be in distance to be left out: the distance of a
-cloud that comes or goes changes as fast as it moves, the order of heights only as fast as it turns."""
+"""How much farther than in height a point must be in distance to be left out.
+
+Distances change as fast as a cloud comes or goes, the order of heights only as fast as it turns."""
 
 BEAM = 48
 """Balls of a level that are opened, at least."""
