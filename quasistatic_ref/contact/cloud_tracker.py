@@ -11,31 +11,35 @@ from collections.abc import Sequence
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.ball_tree import BallTree, ball_tree
+from quasistatic_ref.contact.batch import Batch, Nearest
+from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
-from quasistatic_ref.contact.proofs import CORNERS, Proofs
-from quasistatic_ref.contact.shortlist import shortlist, size
-from quasistatic_ref.contact.solid_rows import SolidRows, kind_order
+from quasistatic_ref.contact.shortlist import Shortlist, shortlist
+from quasistatic_ref.contact.solid_rows import kind_order
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
 WIDTH = 32
-"""Points of a list to begin with; twice as many where they do not suffice."""
+"""Least length of a list, where the cloud has so many points."""
 
-_SIGNS = 2.0 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
+WIDE = 256
+"""Length above which a list, of points that are equally close, is measured by itself."""
+
+SHORT = 8
+"""Steps; a list that suffices for fewer is made twice as long, up to WIDE."""
+
+SOME = 1024
+"""Points of a cloud from which its first normal is taken."""
+
 _TREES: WeakKeyDictionary[PointCloud, BallTree] = WeakKeyDictionary()
 
 
 class CloudTracker:
     """The contacts of pairs of a cloud and a solid.
-
-    All pairs are measured at once: the points of a pair are a row, and rows are as long as the
-    longest, the others filled up with NaN. In memory they follow each other, x, y and z apart,
-    after the corners of the boxes around the clouds, whose motion bounds that of every point.
 
     Parameters
     ----------
@@ -50,31 +54,20 @@ class CloudTracker:
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
         sides = [_sides(pair) for pair in pairs]
-        rows = kind_order([solid.shape for solid, _, _ in sides])
-        solids, clouds = [sides[p][0] for p in rows], [sides[p][1] for p in rows]
-        self.shapes = [solid.shape for solid in solids]
-        self.points = [_points(cloud) for cloud in clouds]
-        self.trees = [_tree(cloud) for cloud in clouds]
+        # Rows are pairs in another order, in which like solids follow each other.
+        self.pair = kind_order([solid.shape for solid, _, _ in sides])
+        solids, clouds = [sides[p][0] for p in self.pair], [sides[p][1] for p in self.pair]
+        self.solids = [solid.shape for solid in solids]
+        self.clouds = [_cloud(cloud) for cloud in clouds]
+        self.trees = [_tree(cloud) for cloud in self.clouds]
         self.placements = Placements(solids, clouds)
-        n_c = np.array([pairs[p].n_c for p in rows])
-        self.n_c, counts = n_c, np.array([len(points) for points in self.points])
-        self.width = np.minimum(np.maximum(WIDTH, 4 * n_c), counts)
-        # Contacts in the order of the pairs: each one's row, and its rank in the row.
-        at = np.argsort(rows)
-        self.row = np.repeat(at, n_c[at])
-        self.rank = np.concatenate([np.arange(n) for n in n_c[at]])
-        self.furthest = np.cumsum(n_c[at])[rows] - 1  # each row's k-th closest
-        self.side = np.concatenate([self.row, len(rows) + self.row])
-        self.sign = np.array([sides[p][2] for p in rows])[self.row, None]
-        self.box = np.array([_box_corners(points) for points in self.points])
-        self.sizes = np.array(
-            [size(s) + np.abs(b).max() for s, b in zip(self.shapes, self.box, strict=True)]
-        )
-        self.swaps = bool((self.sign < 0).any())
-        self.proofs = Proofs(len(rows))
-        self.lists_made = 0
-        self.lists = [np.arange(width) for width in self.width]
-        self._fill()
+        self.signs = np.array([sides[p][2] for p in self.pair])
+        self.n_c = [pairs[p].n_c for p in self.pair]
+        self.width = [max(WIDTH, 4 * n_c) for n_c in self.n_c]
+        self.lists: list[Shortlist] = []
+        self.batches: list[Batch] = []
+        self.lists_made = self.steps = 0
+        self.made_at = [0] * len(self.pair)
 
     def closest_points(self, R: Array, t: Array) -> ClosestPoints:
         """The contacts at the poses of the links, shapes (L, 3, 3) and (L, 3).
@@ -85,87 +78,98 @@ class CloudTracker:
             If a pose is not finite.
         """
         poses = self.placements.poses(R, t)
-        tries = 0
+        if len(self.batches) != 1:
+            check_finite(R, t)
+        self.steps += 1
+        if not self.lists:
+            self.lists = [self._first_list(row, poses) for row in range(len(self.solids))]
+            self._arrange()
         while True:
-            x = self._in_solids(poses)
-            phi, normal = self.measured(x[:, self.first :].T)
-            order = phi.reshape(len(self.shapes), -1).argsort(axis=1, kind="stable")
-            found = order.ravel().take(self.ranked) + self.row_start
-            distance = phi.take(found)
-            # Written so that a NaN is no proof.
-            proved = distance.take(self.furthest) < self.proofs.limit(x[:, : self.first])
-            if proved.all():
-                return self._contacts(poses, normal, found, distance)
-            if not tries:
-                check_finite(R, t)
-            self._make_lists(np.flatnonzero(~proved), poses, normal, found, distance, tries)
-            tries += 1
+            nearest = _joined([batch.nearest(poses) for batch in self.batches])
+            if nearest.proved.all():
+                return self._contacts(poses, nearest)
+            check_finite(R, t)
+            last = np.cumsum([self.n_c[row] for row in self.rows]) - 1
+            for i in np.flatnonzero(~nearest.proved).tolist():
+                row = int(self.rows[i])
+                if self.steps - self.made_at[row] < SHORT:
+                    self.width[row] = min(2 * self.width[row], WIDE)
+                first = last[i] - self.n_c[row] + 1
+                n, phi_k = nearest.normal[:, first].copy(), float(nearest.phi[last[i]])
+                self.lists[row] = self._list(row, poses, n, phi_k)
+            self._arrange()
 
-    def _in_solids(self, poses: PairPoses) -> Array:
-        """Corners and points in the frames of their solids, shape (3, columns) [m]."""
-        pose = np.concatenate([poses.R_rel, poses.t_rel[..., None]], axis=2)
-        # The sums of `rotated`, without broadcasting, which takes longer than the sums.
-        term = pose.T.take(self.of, axis=2) * self.columns
-        return np.asarray(term[0] + term[1] + term[2] + term[3])
+    def _first_list(self, row: int, poses: PairPoses) -> Shortlist:
+        """A list that starts from some points of the cloud, and one that starts from its best."""
+        points, solid = self.clouds[row].points, self.solids[row]
+        R, t = poses.R_rel[row], poses.t_rel[row]
+        some = points[:: max(1, len(points) // SOME)]
+        phi, normal = signed_distance(solid, rotated(R, some) + t)
+        return self._list(row, poses, normal[phi.argmin()], np.inf)
 
-    def _contacts(
-        self, poses: PairPoses, normal: Array, found: NDArray[np.int64], distance: Array
-    ) -> ClosestPoints:
-        vectors = np.concatenate([normal.T.take(found, axis=1), self.local.take(found, axis=1)], 1)
+    def _list(self, row: int, poses: PairPoses, n: Array, phi_k: float) -> Shortlist:
+        """A list of one pair at these poses; n and phi_k as :func:`shortlist` wants them."""
+        self.lists_made += 1
+        self.made_at[row] = self.steps
+        return shortlist(
+            self.trees[row],
+            self.solids[row],
+            poses.R_rel[row],
+            poses.t_rel[row],
+            n,
+            phi_k,
+            self.n_c[row],
+            self.width[row],
+        )
+
+    def _arrange(self) -> None:
+        """Batches of the lists: the short ones together, each long one by itself."""
+        long = [row for row, made in enumerate(self.lists) if len(made.index) > WIDE]
+        short = [row for row in range(len(self.lists)) if row not in long]
+        parts = [[row] for row in long] + ([short] if short else [])
+        self.batches = [self._batch(rows) for rows in parts]
+        self.rows = np.array([row for rows in parts for row in rows])
+        # Contacts are found row by row, and returned pair by pair.
+        owner = np.repeat(self.rows, [self.n_c[row] for row in self.rows])
+        self.order = np.argsort(np.array(self.pair)[owner], kind="stable")
+        row = owner[self.order]
+        self.side, self.sign = np.concatenate([row, len(self.solids) + row]), self.signs[row, None]
+        self.swaps = bool((self.sign < 0).any())
+
+    def _batch(self, rows: list[int]) -> Batch:
+        lists = [self.lists[row] for row in rows]
+        return Batch(
+            rows,
+            [self.solids[row] for row in rows],
+            lists,
+            [self.clouds[row].points[made.index] for row, made in zip(rows, lists, strict=True)],
+            [self.trees[row].box for row in rows],
+            [self.n_c[row] for row in rows],
+        )
+
+    def _contacts(self, poses: PairPoses, nearest: Nearest) -> ClosestPoints:
+        vectors = np.concatenate(
+            [nearest.normal.take(self.order, axis=1), nearest.local.take(self.order, axis=1)], 1
+        )
         term = poses.R.T.take(self.side, axis=2) * vectors[:, None]
         turned = term[0] + term[1] + term[2]
-        n, centre = turned[:, : len(found)], turned[:, len(found) :]
-        centre += poses.t.T.take(self.side[len(found) :], axis=1)
-        foot = centre - distance * n
+        count = len(self.order)
+        n, centre = turned[:, :count], turned[:, count:]
+        centre += poses.t.T.take(self.side[count:], axis=1)
+        phi = nearest.phi.take(self.order)
+        foot = centre - phi * n
         n, foot, centre = (np.ascontiguousarray(vector.T) for vector in (n, foot, centre))
-        point = self.index.take(found)
+        point = nearest.point.take(self.order)
         if self.swaps:
             n, swapped = self.sign * n, self.sign < 0
             foot, centre = np.where(swapped, centre, foot), np.where(swapped, foot, centre)
-        return ClosestPoints(distance, foot, centre, n, point)
+        return ClosestPoints(phi, foot, centre, n, point)
 
-    def _make_lists(
-        self,
-        which: NDArray[np.int64],
-        poses: PairPoses,
-        normal: Array,
-        found: NDArray[np.int64],
-        distance: Array,
-        tries: int,
-    ) -> None:
-        """New lists for some rows, at these poses.
 
-        The first list of a pair starts from any points; the second from its closest. If that is
-        not proved complete either, many points are as close: it becomes longer.
-        """
-        for p in which.tolist():
-            if tries >= 2:
-                self.width[p] = min(2 * self.width[p], len(self.points[p]))
-            last = self.furthest[p]
-            nearest = found[last - self.n_c[p] + 1]
-            R, t = poses.R_rel[p], poses.t_rel[p]
-            phi_k, width = float(distance[last]), int(self.width[p])
-            made = shortlist(self.trees[p], self.shapes[p], R, t, normal[nearest], phi_k, width)
-            self.lists[p] = made.index
-            self.proofs.keep(p, made, rotated(R, self.box[p]) + t, self.sizes[p])
-        self.lists_made += len(which)
-        self._fill()
-
-    def _fill(self) -> None:
-        """The columns of numbers, and where in them the contacts are looked up."""
-        P, W = len(self.lists), max(len(index) for index in self.lists)
-        rows, self.index = np.full((P, W, 3), np.nan), np.full((P, W), -1)
-        for p, index in enumerate(self.lists):
-            rows[p, : len(index)], self.index[p, : len(index)] = self.points[p][index], index
-        self.first = P * CORNERS
-        self.local = np.ascontiguousarray(rows.reshape(-1, 3).T)
-        every = np.concatenate([self.box.reshape(-1, 3).T, self.local], axis=1)
-        self.columns = np.ones((4, 3, every.shape[1]))
-        self.columns[:3] = every[:, None]
-        self.of = np.concatenate([np.repeat(np.arange(P), CORNERS), np.repeat(np.arange(P), W)])
-        self.row_start = self.row * W
-        self.ranked = self.row_start + self.rank
-        self.measured = SolidRows(self.shapes, W)
+def _joined(found: list[Nearest]) -> Nearest:
+    if len(found) == 1:
+        return found[0]
+    return Nearest(*(np.concatenate(part, axis=-1) for part in zip(*found, strict=True)))
 
 
 def _sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape, float]:
@@ -175,20 +179,13 @@ def _sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape, float]:
     return pair.beta, pair.alpha, -1.0
 
 
-def _points(placed: PlacedShape) -> Array:
+def _cloud(placed: PlacedShape) -> PointCloud:
     assert isinstance(placed.shape, PointCloud)
-    return placed.shape.points
+    return placed.shape
 
 
-def _tree(placed: PlacedShape) -> BallTree:
+def _tree(cloud: PointCloud) -> BallTree:
     """The cloud's tree, built once for all pairs and trackers."""
-    cloud = placed.shape
-    assert isinstance(cloud, PointCloud)
     if cloud not in _TREES:
         _TREES[cloud] = ball_tree(cloud.points)
     return _TREES[cloud]
-
-
-def _box_corners(points: Array) -> Array:
-    low, high = points.min(axis=0), points.max(axis=0)
-    return np.asarray(np.where(_SIGNS > 0, high, low))
