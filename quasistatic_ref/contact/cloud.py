@@ -88,8 +88,8 @@ def closest(phi: Array, k: int) -> NDArray[np.int64]:
     ndarray of int, shape (min(k, N),)
     """
     if k < len(phi):
-        # Only what can be among the k smallest is sorted; <= keeps every tie in the running.
-        candidates = np.flatnonzero(phi <= np.partition(phi, k - 1)[k - 1])
+        # Only what can be among the k smallest is sorted; every tie stays in the running.
+        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
     else:
         candidates = np.arange(len(phi))
     return candidates[np.argsort(phi[candidates], kind="stable")[:k]]

@@ -78,10 +78,9 @@ class CloudTracker:
             If a pose is not finite.
         """
         poses = self.placements.poses(R, t)
-        if len(self.batches) != 1:
-            check_finite(R, t)
         self.steps += 1
         if not self.lists:
+            check_finite(R, t)
             self.lists = [self._first_list(row, poses) for row in range(len(self.solids))]
             self._arrange()
         while True:
