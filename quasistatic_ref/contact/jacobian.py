@@ -7,8 +7,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.motion import cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
+
+AXES = np.eye(3)
 
 
 def contact_jacobian(
@@ -37,26 +40,14 @@ def contact_jacobian(
     ndarray, shape (n_c, 4, n_v)
         Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha) [rad].
     """
-    nu_alpha, omega_alpha = _point_jacobian(kinematics, link_alpha, alpha)
-    nu_beta, omega_beta = _point_jacobian(kinematics, link_beta, beta)
-    spin = n[:, None, :] @ (omega_beta - omega_alpha)
-    return np.concatenate([nu_beta - nu_alpha, spin], axis=1)  # Eqs. (2)-(3)
-
-
-def _point_jacobian(
-    kinematics: Kinematics, link: NDArray[np.int64], point: Array
-) -> tuple[Array, Array]:
-    """Jacobians of a point's velocity, nu = nu_origin + omega x r, and of its link's omega."""
-    r = point - kinematics.t[link]
-    nu_origin, omega = kinematics.J[link, :3], kinematics.J[link, 3:]
-    return nu_origin - _cross_matrix(r) @ omega, omega
-
-
-def _cross_matrix(r: Array) -> Array:
-    """[r x], so that [r x] w = r x w; shape (n_c, 3, 3)."""
-    zero = np.zeros(len(r))
-    x, y, z = r.T
-    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+    n_c = len(n)
+    twist = kinematics.twist[np.concatenate([link_alpha, link_beta])]  # of the two bodies
+    nu_origin, omega = twist[:, :3], twist[:, 3:]
+    nu = nu_origin - cross_matrix(np.concatenate([alpha, beta])) @ omega  # nu + omega x r
+    J = np.empty((n_c, 4, nu.shape[2]))
+    np.subtract(nu[n_c:], nu[:n_c], out=J[:, :3])  # Eqs. (2)-(3)
+    np.matmul(n[:, None, :], omega[n_c:] - omega[:n_c], out=J[:, 3:])
+    return J
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -74,10 +65,10 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    axis = np.eye(3)[np.abs(n).argmin(axis=1)]
-    d1 = axis - np.sum(axis * n, axis=1, keepdims=True) * n
-    d1 /= np.linalg.norm(d1, axis=1, keepdims=True)
-    return d1, np.cross(n, d1)
+    axis = AXES[np.abs(n).argmin(axis=1)]
+    d1 = axis - (axis * n).sum(axis=1, keepdims=True) * n
+    d1 /= np.sqrt((d1 * d1).sum(axis=1, keepdims=True))
+    return d1, (cross_matrix(n) @ d1[:, :, None])[:, :, 0]
 
 
 def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:

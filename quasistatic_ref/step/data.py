@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 ROWS = (4, 6)
 
 
@@ -102,6 +103,19 @@ class Contacts:
     def n_c(self) -> int:
         """Number of contacts."""
         return len(self.name)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(mu_v, mu_v, mu_omega) of each contact, mu_omega being 0 where it is not used."""
+        mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
+        return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
+
+    def moved(self, name: tuple[str, ...], **geometry: Array) -> Contacts:
+        """The same contacts elsewhere: phi, n, d1, d2 and J anew, and nothing is checked.
+
+        What does not depend on where they are is not made again: for steps in sequence.
+        """
+        return _changed(self, geometry, name=name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,13 +235,46 @@ class StepData:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return read_only(np.concatenate([[0], np.cumsum(self.counts)]))
 
+    @cached_property
+    def row_index(self) -> NDArray[np.int64]:
+        """Which rows of all the cone's, contact-major, the contacts have, shape (m,)."""
+        return read_only(np.flatnonzero(self.mask))
+
+    @cached_property
+    def H(self) -> Array:
+        """H of Eq. (13), shape (n_v, n_v)."""
+        H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
+        H[:n_a, :n_a] = self.h * self.K_q
+        H[n_a:, n_a:] = self.M_u / self.h
+        return read_only(H)
+
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
         return replace(self, **changes)
 
+    def moved(self, contacts: Contacts, M_u: Array, **loads: Array) -> StepData:
+        """The same kind of step elsewhere: tau_a, tau_u, delta_q_bar_a anew, nothing is checked.
+
+        For steps in sequence, whose numbers are as good as those of the step before. M_u must be
+        read-only; while it is the same array, H is not formed again.
+        """
+        other = _changed(self, loads, contacts=contacts, M_u=M_u)
+        if M_u is not self.M_u:
+            other.__dict__.pop("H", None)
+        return other
+
     def same_as(self, other: StepData) -> bool:
         """Tell whether two steps hold the same numbers, bit for bit."""
         return _same(self, other)
+
+
+def _changed(like: T, arrays: dict[str, Array], **others: Any) -> T:
+    """Copy all of an object that is not given, what it has cached included."""
+    other = object.__new__(type(like))
+    other.__dict__.update(like.__dict__, **others)
+    for key, array in arrays.items():
+        other.__dict__[key] = read_only(array + 0.0)  # never -0.0
+    return other
 
 
 def _same(one: Any, two: Any) -> bool:
