@@ -71,7 +71,12 @@ def tangents(n: Array) -> tuple[Array, Array]:
     return d1, (cross_matrix(n) @ d1[:, :, None])[:, :, 0]
 
 
-def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+def contacts(
+    layout: ContactLayout,
+    points: ClosestPoints,
+    kinematics: Kinematics,
+    like: Contacts | None = None,
+) -> Contacts:
     """The contacts of one step, from the closest points of all pairs.
 
     Parameters
@@ -81,15 +86,20 @@ def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematic
     points : ClosestPoints
     kinematics : Kinematics
         At the same configuration.
+    like : Contacts, optional
+        Those of an earlier step: of the same layout, so that it is not checked again.
 
     Returns
     -------
     Contacts
     """
-    d1, d2 = tangents(points.n)
+    phi, n = points.phi, points.n
+    d1, d2 = tangents(n)
     J = contact_jacobian(
-        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, points.n
+        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, n
     )
-    names = tuple(f"{name}/{i}" for name, i in zip(layout.names, points.point, strict=True))
+    name = tuple([f"{pair}/{i}" for pair, i in zip(layout.names, points.point.tolist(), strict=True)])
+    if like is not None:
+        return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
     mu_v, mu_omega, rows = layout.mu_v, layout.mu_omega, layout.rows
-    return Contacts(names, points.phi, points.n, d1, d2, J, mu_v, mu_omega, rows)
+    return Contacts(name, phi, n, d1, d2, J, mu_v, mu_omega, rows)

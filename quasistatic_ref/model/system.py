@@ -235,7 +235,7 @@ class System:
         pin.computeJointJacobians(model, data, self._order.model_q(q))
         pin.updateFramePlacements(model, data)
         poses = np.array([WORLD_POSE, *[data.oMf[frame].homogeneous for frame in self._frames]])
-        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], self._motion.twists(data.J))
+        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], self._motion.twists(data.J.reshape(6, -1)))
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

@@ -79,7 +79,7 @@ def _through_qpsolvers(
 ) -> Answer:
     del problem  # this road needs no CVXPY
     form = standard_form(step)
-    program = qpsolvers.Problem(P=form.H, q=-form.g, G=-form.A, h=-form.b)
+    program = qpsolvers.Problem(P=form.H.copy(), q=-form.g, G=-form.A, h=-form.b)
     with warnings.catch_warnings():
         # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
         # and of statuses, which are dealt with below.
