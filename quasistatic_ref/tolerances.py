@@ -132,3 +132,8 @@ bodies are then wrong by a tenth of friction."""
 
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
+
+UNSEEN: Final = 1e-11
+"""Room for rounding in the proof that unmeasured points are not among the closest, relative to the
+sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
+jump in them), and the bound takes two of them and two transformed points."""
