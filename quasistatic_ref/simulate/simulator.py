@@ -10,9 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.artifacts import warning
@@ -106,6 +107,7 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
+        self.tracker = ContactTracker(self.pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
@@ -142,7 +144,7 @@ class Simulator:
         """
         lap = Stopwatch()
         kinematics = self.kinematics(q)
-        points = closest_points(self.pairs, kinematics)
+        points = self.tracker.closest_points(kinematics.R, kinematics.t)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, points, kinematics)
         own = None if self.extension is None else self.extension(q)
