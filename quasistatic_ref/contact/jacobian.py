@@ -40,14 +40,15 @@ def contact_jacobian(
     ndarray, shape (n_c, 4, n_v)
         Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha) [rad].
     """
-    n_c = len(n)
-    twist = kinematics.twist[np.concatenate([link_alpha, link_beta])]  # of the two bodies
-    nu_origin, omega = twist[:, :3], twist[:, 3:]
-    nu = nu_origin - cross_matrix(np.concatenate([alpha, beta])) @ omega  # nu + omega x r
-    J = np.empty((n_c, 4, nu.shape[2]))
-    np.subtract(nu[n_c:], nu[:n_c], out=J[:, :3])  # Eqs. (2)-(3)
-    np.matmul(n[:, None, :], omega[n_c:] - omega[:n_c], out=J[:, 3:])
-    return J
+    n_c, motion = len(n), kinematics.motion
+    r = np.concatenate([alpha, beta])
+    wrenches = np.zeros((2 * n_c, 4, 6))
+    wrenches[:, :3, :3] = AXES
+    wrenches[:, :3, 3:] = cross_matrix(r).transpose(0, 2, 1)  # nu_origin + omega x r
+    wrenches[:n_c, 3, 3:] = wrenches[n_c:, 3, 3:] = n
+    moved = (wrenches.reshape(-1, 6) @ kinematics.columns).reshape(2 * n_c, 4, -1)
+    moved *= motion.moves.take(np.concatenate([link_alpha, link_beta]), axis=0)
+    return motion.of_coordinates(moved[n_c:] - moved[:n_c])  # Eqs. (2)-(3)
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -65,10 +66,11 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    axis = AXES[np.abs(n).argmin(axis=1)]
-    d1 = axis - (axis * n).sum(axis=1, keepdims=True) * n
-    d1 /= np.sqrt((d1 * d1).sum(axis=1, keepdims=True))
-    return d1, (cross_matrix(n) @ d1[:, :, None])[:, :, 0]
+    every, k = np.arange(len(n)), np.abs(n).argmin(axis=1)
+    n_k = n[every, k][:, None]
+    length = np.sqrt(1 - n_k * n_k)
+    d1 = (AXES.take(k, axis=0) - n_k * n) / length
+    return d1, cross_matrix(n)[every, :, k] / length  # n x d1 = n x axis / length
 
 
 def contacts(
@@ -98,8 +100,12 @@ def contacts(
     J = contact_jacobian(
         kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, n
     )
-    name = tuple([f"{pair}/{i}" for pair, i in zip(layout.names, points.point.tolist(), strict=True)])
+
+    def name() -> tuple[str, ...]:
+        numbered = zip(layout.names, points.point.tolist(), strict=True)
+        return tuple([f"{pair}/{i}" for pair, i in numbered])
+
     if like is not None:
         return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
     mu_v, mu_omega, rows = layout.mu_v, layout.mu_omega, layout.rows
-    return Contacts(name, phi, n, d1, d2, J, mu_v, mu_omega, rows)
+    return Contacts(name(), phi, n, d1, d2, J, mu_v, mu_omega, rows)

@@ -33,7 +33,7 @@ def cross_matrix(r: Array) -> Array:
 
 
 class Motion:
-    """How the columns of pinocchio's Jacobian, of joints, become the twists of links.
+    """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
     coordinate: it moves with that of another.
@@ -61,11 +61,10 @@ class Motion:
         self.order, self.coordinates = order, order.paper_v(coordinates)
         self.mimics = model.nvExtended > model.nv
 
-    def twists(self, J: Array) -> Array:
-        """Twist of every link, shape (L, 6, n_v), from pinocchio's ``data.J``."""
-        moved = J * self.moves
+    def of_coordinates(self, columns: Array) -> Array:
+        """Per unit of delta_q, shape (..., n_v), from per unit of each joint's column."""
         # Without mimics it is a permutation, which costs less for many coordinates.
-        return moved @ self.coordinates if self.mimics else self.order.paper_v(moved)
+        return columns @ self.coordinates if self.mimics else self.order.paper_v(columns)
 
 
 def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:

@@ -41,19 +41,26 @@ class Kinematics:
         Rotation from each link's frame to the world's [-].
     t : ndarray, shape (L, 3)
         Origin of each link's frame in the world [m].
-    twist : ndarray, shape (L, 6, n_v)
-        Rows 0-2: velocity of the point of the link that is at the world's origin, rows 3-5:
-        angular velocity, both in the world frame, per unit of delta_q.
+    columns : ndarray, shape (6, n_x)
+        Of each joint's column, velocity of the point at the world's origin and angular velocity
+        of what the joint moves, in the world frame, per unit of its coordinate.
+    motion : Motion
+        Which columns move a link.
     """
 
     R: Array
     t: Array
-    twist: Array
+    columns: Array
+    motion: Motion
 
     @cached_property
     def J(self) -> Array:
-        """Jacobian of each link, shape (L, 6, n_v): as `twist`, but of its frame's origin."""
-        J = self.twist.copy()
+        """Jacobian of each link, shape (L, 6, n_v).
+
+        Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
+        frame, per unit of delta_q.
+        """
+        J = self.motion.of_coordinates(self.columns * self.motion.moves)
         J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
         return J
 
@@ -104,6 +111,7 @@ class System:
         self._model, self._data = world.model, world.model.createData()
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
+        self._gravity: ArrayLike | None = None
         self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
@@ -224,10 +232,13 @@ class System:
         gravity : array_like, shape (3,)
             Acceleration of free fall in the world frame [m/s^2].
         """
-        self._model.gravity.linear = np.asarray(gravity, dtype=np.float64)
+        if gravity is not self._gravity:
+            self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+            # Kept only if it cannot change unseen.
+            self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = -pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
-        return self._order.paper_v(force + 0.0)
+        force = pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
+        return np.asarray(0.0 - self._order.paper_v(force))
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
@@ -235,7 +246,8 @@ class System:
         pin.computeJointJacobians(model, data, self._order.model_q(q))
         pin.updateFramePlacements(model, data)
         poses = np.array([WORLD_POSE, *[data.oMf[frame].homogeneous for frame in self._frames]])
-        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], self._motion.twists(data.J.reshape(6, -1)))
+        columns = data.J.reshape(6, -1).copy()  # a single column comes as a vector
+        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self._motion)
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

@@ -109,6 +109,7 @@ class Simulator:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.tracker = ContactTracker(self.pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
+        self._gravity = tuple(self.gravity.tolist())
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
@@ -176,7 +177,7 @@ class Simulator:
     ) -> StepData:
         """The problem of one step: everything in Eq. (13) at q."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + force
+        tau = self.weighs * system.gravity_force(q, self._gravity) + force
         target = system.with_actuated(q, q_bar_a)
         delta_q_bar = system.difference(q, target)  # q_bar(t + h) (-) q
         loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar[:n_a]}

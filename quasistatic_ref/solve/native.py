@@ -111,7 +111,6 @@ class NativeProblem:
         StepNotSolved
             If it says anything but a full solution, or the numbers are not finite.
         """
-        self.metric = scaled.metric
         idle = self._write(scaled)
         accuracy = max(accuracy, BACKENDS[self.backend].floor)
         if accuracy not in self.attempts:
@@ -135,11 +134,13 @@ class NativeProblem:
         """Write the program in natural units; tell which rows are out of reach, if any is."""
         form, units, program = scaled.form, scaled.units, self.program
         S, ell, rho = units.coordinate, units.length, units.size
-        np.multiply(form.H, S[:, None] * S, out=program.H)
+        if self.metric is not scaled.metric:
+            np.multiply(form.H, S[:, None] * S, out=program.H)
+            self.metric = scaled.metric
         np.multiply(form.g, S / -rho, out=program.f)
         np.multiply(form.A, S / ell, out=program.A)
         np.multiply(form.b, 1 / (rho * ell), out=program.b)
-        if program.b.min(initial=0.0) >= -FAR:
+        if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
             return None
         reach = -reach_of_rows(scaled.step, units)
         np.maximum(program.b, reach, out=program.b)

@@ -38,9 +38,8 @@ class Scaled:
             self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
-        total = self.units.coordinate.sum() + self.units.length + self.units.size
-        least = min(self.units.coordinate.min(initial=1.0), self.units.length, self.units.size)
-        if not (math.isfinite(total) and least > 0):
+        finite = 0 < self.units.length < math.inf and 0 < self.units.size < math.inf
+        if not (finite and self.metric.usable):
             raise out_of_range(step)
 
     @cached_property

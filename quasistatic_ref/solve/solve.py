@@ -125,9 +125,10 @@ def solve_step(
             solution = _believed(question, certify)
         else:
             solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
-    residuals = solution.certificate.residuals.values()
-    total = solution.delta_q.sum() + solution.lam.sum() + solution.wrench.sum()
-    if not math.isfinite(sum(residuals, total + solution.lam_extra.sum())):
+    total = solution.delta_q.sum() + solution.lam.sum() + solution.lam_extra.sum()
+    if certify != "off":
+        total += solution.wrench.sum() + sum(solution.certificate.residuals.values())
+    if not math.isfinite(total):
         raise out_of_range(step)
     return solution
 
@@ -269,11 +270,11 @@ def _solution(
     statistics: SolverStatistics,
 ) -> StepSolution:
     m = int(step.offsets[-1])
-    return StepSolution(
+    return StepSolution.with_later_wrench(
+        lambda: contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         delta_q=delta_q,
         lam=lam[:m],
         lam_extra=lam[m:],
-        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         backend=backend,
         certificate=certificate,
         statistics=statistics,

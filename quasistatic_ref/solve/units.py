@@ -56,16 +56,21 @@ class Metric:
         Diagonal of S [m, rad].
     inverse : ndarray, shape (n_v, n_v)
         Of H.
+    usable : bool
+        Whether all units are finite and positive.
     """
 
     H: Array
     coordinate: Array
     inverse: Array
+    usable: bool
 
 
 def metric(H: Array) -> Metric:
     """Units in which the diagonal of H is about one, and how long a step is."""
-    return Metric(H, _powers_of_two(1 / np.sqrt(np.diag(H))), np.linalg.inv(H))
+    coordinate = _powers_of_two(1 / np.sqrt(np.diag(H)))
+    usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
+    return Metric(H, coordinate, np.linalg.inv(H), usable)
 
 
 def natural_units(step: StepData) -> Units:

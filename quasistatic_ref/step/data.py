@@ -6,9 +6,10 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,15 +24,15 @@ from quasistatic_ref.step.arrays import (
     read_only,
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
-T = TypeVar("T")
 ROWS = (4, 6)
 
 
 @dataclass(frozen=True, eq=False)
-class Contacts:
+class Contacts(Lazy):
     """The contact points of one step.
 
     Parameters
@@ -102,7 +103,7 @@ class Contacts:
     @property
     def n_c(self) -> int:
         """Number of contacts."""
-        return len(self.name)
+        return len(self.phi)
 
     @cached_property
     def mu(self) -> Array:
@@ -110,12 +111,25 @@ class Contacts:
         mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
         return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
 
-    def moved(self, name: tuple[str, ...], **geometry: Array) -> Contacts:
+    def combinations(self, cone_name: str) -> Array:
+        """Coefficients of n~, d1, d2 and spin in each n~ + d~_i of a cone, shape (n_c, R, 4)."""
+        kept: dict[str, Array] = self.__dict__.setdefault("kept", {})
+        if cone_name not in kept:
+            table = cone(cone_name).table
+            one = np.ones((self.n_c, len(table), 1))
+            kept[cone_name] = np.concatenate([one, self.mu[:, None] * table], axis=2)
+        return kept[cone_name]
+
+    def moved(self, name: Callable[[], tuple[str, ...]], **geometry: Array) -> Contacts:
         """The same contacts elsewhere: phi, n, d1, d2 and J anew, and nothing is checked.
 
-        What does not depend on where they are is not made again: for steps in sequence.
+        For steps in sequence: what does not depend on where they are is not made again, and
+        their names are not made before somebody asks for them.
         """
-        return _changed(self, geometry, name=name)
+        other = object.__new__(Contacts)
+        other.__dict__.update(self.__dict__, **geometry, later={"name": name})
+        other.__dict__.pop("name", None)
+        return other
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,6 +255,11 @@ class StepData:
         return read_only(np.flatnonzero(self.mask))
 
     @cached_property
+    def row_contact(self) -> NDArray[np.int64]:
+        """The contact that each row belongs to, shape (m,)."""
+        return read_only(np.repeat(np.arange(self.contacts.n_c), self.counts))
+
+    @cached_property
     def H(self) -> Array:
         """H of Eq. (13), shape (n_v, n_v)."""
         H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
@@ -258,23 +277,11 @@ class StepData:
         For steps in sequence, whose numbers are as good as those of the step before. M_u must be
         read-only; while it is the same array, H is not formed again.
         """
-        other = _changed(self, loads, contacts=contacts, M_u=M_u)
+        other = object.__new__(StepData)
+        other.__dict__.update(self.__dict__, contacts=contacts, M_u=M_u, **loads)
         if M_u is not self.M_u:
             other.__dict__.pop("H", None)
         return other
-
-    def same_as(self, other: StepData) -> bool:
-        """Tell whether two steps hold the same numbers, bit for bit."""
-        return _same(self, other)
-
-
-def _changed(like: T, arrays: dict[str, Array], **others: Any) -> T:
-    """Copy all of an object that is not given, what it has cached included."""
-    other = object.__new__(type(like))
-    other.__dict__.update(like.__dict__, **others)
-    for key, array in arrays.items():
-        other.__dict__[key] = read_only(array + 0.0)  # never -0.0
-    return other
 
 
 def _same(one: Any, two: Any) -> bool:

@@ -152,10 +152,11 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
         [m] per unit of delta_q. A contact uses those of :attr:`StepData.mask`: with the paper's
         cone six, or the first four.
     """
+    along = _frames(contacts) @ contacts.J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return _frames(contacts) @ contacts.J
-    directions = normal_direction(contacts.n)[:, None, :] + cone_directions(contacts, name)
-    return directions @ contacts.J  # Eq. (4)
+        return along
+    # n~ + d~_i is a combination of these that does not change with where the contact is.
+    return contacts.combinations(name) @ along  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -166,8 +167,9 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     rows = len(cone(name).row_names)
-    share = np.eye(rows)[0] if name == ELLIPSOID else np.ones(rows)
-    return contacts.phi[:, None] * share
+    if name == ELLIPSOID:
+        return contacts.phi[:, None] * np.eye(rows)[0]
+    return contacts.phi.repeat(rows).reshape(-1, rows)
 
 
 def friction_coefficients(contacts: Contacts) -> Array:
@@ -213,9 +215,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
 
 def _frames(contacts: Contacts) -> Array:
     """Return n~, d1, d2 and spin of each contact, shape (n_c, 4, 4)."""
-    axes = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
     frames = np.zeros((contacts.n_c, 4, 4))
-    frames[:, :3, :3], frames[:, 3, 3] = axes, 1.0
+    frames[:, 0, :3], frames[:, 1, :3], frames[:, 2, :3] = contacts.n, contacts.d1, contacts.d2
+    frames[:, 3, 3] = 1.0
     return frames
 
 

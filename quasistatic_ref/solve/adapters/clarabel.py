@@ -16,6 +16,7 @@ class Clarabel:
 
     ORDER = "F"
     WARM = False
+    NEAR = True
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         self.program = program

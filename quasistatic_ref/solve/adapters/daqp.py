@@ -18,6 +18,7 @@ class Daqp:
 
     ORDER = "C"
     WARM = True
+    NEAR = False
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         self.program = program

@@ -16,6 +16,7 @@ class Osqp:
 
     ORDER = "F"
     WARM = True
+    NEAR = True
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         self.program = program

@@ -15,6 +15,7 @@ class Piqp:
 
     ORDER = "F"
     WARM = False
+    NEAR = True
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         self.program = program

@@ -63,10 +63,14 @@ class Adapter(Protocol):
         ``"C"`` or ``"F"``: the memory order in which it takes A and H.
     WARM : bool
         Whether its start from the answer before differs from a cold one.
+    NEAR : bool
+        Whether it loses digits on gaps of 1e6 beside numbers of size one. An active-set method
+        does not: rows that are far are never in its set.
     """
 
     ORDER: str
     WARM: bool
+    NEAR: bool
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         """Set up with the program as it stands."""

@@ -15,6 +15,7 @@ class Quadprog:
 
     ORDER = "F"  # it takes the transpose of A in C order
     WARM = False
+    NEAR = False
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         del options  # the method has none
