@@ -7,8 +7,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.motion import cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
+
+AXES = np.eye(3)
 
 
 def contact_jacobian(
@@ -37,26 +40,15 @@ def contact_jacobian(
     ndarray, shape (n_c, 4, n_v)
         Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha) [rad].
     """
-    nu_alpha, omega_alpha = _point_jacobian(kinematics, link_alpha, alpha)
-    nu_beta, omega_beta = _point_jacobian(kinematics, link_beta, beta)
-    spin = n[:, None, :] @ (omega_beta - omega_alpha)
-    return np.concatenate([nu_beta - nu_alpha, spin], axis=1)  # Eqs. (2)-(3)
-
-
-def _point_jacobian(
-    kinematics: Kinematics, link: NDArray[np.int64], point: Array
-) -> tuple[Array, Array]:
-    """Jacobians of a point's velocity, nu = nu_origin + omega x r, and of its link's omega."""
-    r = point - kinematics.t[link]
-    nu_origin, omega = kinematics.J[link, :3], kinematics.J[link, 3:]
-    return nu_origin - _cross_matrix(r) @ omega, omega
-
-
-def _cross_matrix(r: Array) -> Array:
-    """[r x], so that [r x] w = r x w; shape (n_c, 3, 3)."""
-    zero = np.zeros(len(r))
-    x, y, z = r.T
-    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+    n_c, motion = len(n), kinematics.motion
+    r = np.concatenate([alpha, beta])
+    wrenches = np.zeros((2 * n_c, 4, 6))
+    wrenches[:, :3, :3] = AXES
+    wrenches[:, :3, 3:] = cross_matrix(r).transpose(0, 2, 1)  # nu_origin + omega x r
+    wrenches[:n_c, 3, 3:] = wrenches[n_c:, 3, 3:] = n
+    moved = (wrenches.reshape(-1, 6) @ kinematics.columns).reshape(2 * n_c, 4, -1)
+    moved *= motion.moves.take(np.concatenate([link_alpha, link_beta]), axis=0)
+    return motion.of_coordinates(moved[n_c:] - moved[:n_c])  # Eqs. (2)-(3)
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -74,13 +66,19 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    axis = np.eye(3)[np.abs(n).argmin(axis=1)]
-    d1 = axis - np.sum(axis * n, axis=1, keepdims=True) * n
-    d1 /= np.linalg.norm(d1, axis=1, keepdims=True)
-    return d1, np.cross(n, d1)
+    every, k = np.arange(len(n)), np.abs(n).argmin(axis=1)
+    n_k = n[every, k][:, None]
+    length = np.sqrt(1 - n_k * n_k)
+    d1 = (AXES.take(k, axis=0) - n_k * n) / length
+    return d1, cross_matrix(n)[every, :, k] / length  # n x d1 = n x axis / length
 
 
-def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+def contacts(
+    layout: ContactLayout,
+    points: ClosestPoints,
+    kinematics: Kinematics,
+    like: Contacts | None = None,
+) -> Contacts:
     """The contacts of one step, from the closest points of all pairs.
 
     Parameters
@@ -90,15 +88,24 @@ def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematic
     points : ClosestPoints
     kinematics : Kinematics
         At the same configuration.
+    like : Contacts, optional
+        Those of an earlier step: of the same layout, so that it is not checked again.
 
     Returns
     -------
     Contacts
     """
-    d1, d2 = tangents(points.n)
+    phi, n = points.phi, points.n
+    d1, d2 = tangents(n)
     J = contact_jacobian(
-        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, points.n
+        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, n
     )
-    names = tuple(f"{name}/{i}" for name, i in zip(layout.names, points.point, strict=True))
+
+    def name() -> tuple[str, ...]:
+        numbered = zip(layout.names, points.point.tolist(), strict=True)
+        return tuple([f"{pair}/{i}" for pair, i in numbered])
+
+    if like is not None:
+        return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
     mu_v, mu_omega, rows = layout.mu_v, layout.mu_omega, layout.rows
-    return Contacts(names, points.phi, points.n, d1, d2, J, mu_v, mu_omega, rows)
+    return Contacts(name(), phi, n, d1, d2, J, mu_v, mu_omega, rows)

@@ -133,6 +133,15 @@ class Order:
         return _scattered(np.asarray(v, dtype=np.float64), self.v)
 
 
+def joint_key(joint: str) -> str:
+    """Name of a joint inside the model.
+
+    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
+    space, so this cannot be a link's.
+    """
+    return f"joint {joint}"
+
+
 def paper_order(joints: Sequence[ModelJoint]) -> Order:
     """Actuated joints first, then the others, each block in pinocchio's order."""
     ordered: list[Joint] = []

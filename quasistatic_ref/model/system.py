@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
@@ -18,12 +19,14 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
+from quasistatic_ref.model.motion import Motion, constant_mass, cross_matrix
 from quasistatic_ref.model.world import world_of
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
 
 Array = NDArray[np.float64]
+WORLD_POSE = np.eye(4)
 _UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
@@ -38,14 +41,28 @@ class Kinematics:
         Rotation from each link's frame to the world's [-].
     t : ndarray, shape (L, 3)
         Origin of each link's frame in the world [m].
-    J : ndarray, shape (L, 6, n_v)
-        Rows 0-2: velocity of that origin, rows 3-5: angular velocity, both in the world
-        frame, per unit of delta_q.
+    columns : ndarray, shape (6, n_x)
+        Of each joint's column, velocity of the point at the world's origin and angular velocity
+        of what the joint moves, in the world frame, per unit of its coordinate.
+    motion : Motion
+        Which columns move a link.
     """
 
     R: Array
     t: Array
-    J: Array
+    columns: Array
+    motion: Motion
+
+    @cached_property
+    def J(self) -> Array:
+        """Jacobian of each link, shape (L, 6, n_v).
+
+        Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
+        frame, per unit of delta_q.
+        """
+        J = self.motion.of_coordinates(self.columns * self.motion.moves)
+        J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
+        return J
 
 
 class System:
@@ -94,6 +111,8 @@ class System:
         self._model, self._data = world.model, world.model.createData()
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
+        self._gravity: ArrayLike | None = None
+        self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
         self.inertias = world.inertias
@@ -109,6 +128,10 @@ class System:
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
         self.q_start = self._order.paper_q(world.start)
         self.q_start.setflags(write=False)
+        u = self._order.v[self.n_a :]
+        self._un_actuated = np.ix_(u, u)
+        self._motion = Motion(world.model, world.frames, self._order)
+        self._M_u = self.M_u(self.q_start) if constant_mass(world.model, self.joints) else None
         self._check_inertia()
 
     def joint(self, name: str) -> Joint:
@@ -192,10 +215,13 @@ class System:
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        if self._M_u is not None:
+            return self._M_u
         # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
         M = pin.crba(self._model, self._data, self._order.model_q(q))
-        u = self._order.v[self.n_a :]
-        return np.array(M[np.ix_(u, u)])
+        M_u: Array = M[self._un_actuated] + 0.0  # never -0.0
+        M_u.setflags(write=False)
+        return M_u
 
     def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
         """Generalised force of gravity at q, shape (n_v,) [N, N m].
@@ -206,25 +232,22 @@ class System:
         gravity : array_like, shape (3,)
             Acceleration of free fall in the world frame [m/s^2].
         """
-        self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+        if gravity is not self._gravity:
+            self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+            # Kept only if it cannot change unseen.
+            self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = -pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
-        return self._order.paper_v(force + 0.0)
+        force = pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
+        return np.asarray(0.0 - self._order.paper_v(force))
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
-        model, data, L = self._model, self._data, len(self.links)
+        model, data = self._model, self._data
         pin.computeJointJacobians(model, data, self._order.model_q(q))
         pin.updateFramePlacements(model, data)
-        R, t, J = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3)), np.zeros((L, 6, self.n_v))
-        for link, frame in enumerate(self._frames, start=1):
-            R[link], t[link] = data.oMf[frame].rotation, data.oMf[frame].translation
-            if self.n_v:  # without columns, getFrameJacobian ends the process
-                # n_v columns also with mimics, where data.J is wider.
-                jacobian = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-                # A single column comes as a vector.
-                J[link] = self._order.paper_v(jacobian.reshape(6, -1))
-        return Kinematics(R, t, J)
+        poses = np.array([WORLD_POSE, *[data.oMf[frame].homogeneous for frame in self._frames]])
+        columns = data.J.reshape(6, -1).copy()  # a single column comes as a vector
+        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self._motion)
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint
+from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf
@@ -111,15 +111,6 @@ def world_of(bodies: Sequence[Body]) -> World:
         ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
         notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
     )
-
-
-def joint_key(joint: str) -> str:
-    """Name of a joint inside the model.
-
-    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
-    space, so this cannot be a link's.
-    """
-    return f"joint {joint}"
 
 
 def _prefixed(model: Any, name: str) -> Any:

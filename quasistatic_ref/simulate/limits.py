@@ -49,6 +49,8 @@ class Limits:
         t : ndarray, shape (L, 3)
             Origins of the links [m], world frame.
         """
+        if np.abs(t).max(initial=0.0) <= self.reach / 2:  # |t| <= sqrt(3) max |t_i|
+            return None
         distance = np.hypot.reduce(t, axis=1)
         beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too
         if not beyond.size:

@@ -6,6 +6,7 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
@@ -23,6 +24,7 @@ from quasistatic_ref.step.arrays import (
     read_only,
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
@@ -30,7 +32,7 @@ ROWS = (4, 6)
 
 
 @dataclass(frozen=True, eq=False)
-class Contacts:
+class Contacts(Lazy):
     """The contact points of one step.
 
     Parameters
@@ -101,7 +103,33 @@ class Contacts:
     @property
     def n_c(self) -> int:
         """Number of contacts."""
-        return len(self.name)
+        return len(self.phi)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(mu_v, mu_v, mu_omega) of each contact, mu_omega being 0 where it is not used."""
+        mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
+        return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
+
+    def combinations(self, cone_name: str) -> Array:
+        """Coefficients of n~, d1, d2 and spin in each n~ + d~_i of a cone, shape (n_c, R, 4)."""
+        kept: dict[str, Array] = self.__dict__.setdefault("kept", {})
+        if cone_name not in kept:
+            table = cone(cone_name).table
+            one = np.ones((self.n_c, len(table), 1))
+            kept[cone_name] = np.concatenate([one, self.mu[:, None] * table], axis=2)
+        return kept[cone_name]
+
+    def moved(self, name: Callable[[], tuple[str, ...]], **geometry: Array) -> Contacts:
+        """The same contacts elsewhere: phi, n, d1, d2 and J anew, and nothing is checked.
+
+        For steps in sequence: what does not depend on where they are is not made again, and
+        their names are not made before somebody asks for them.
+        """
+        other = object.__new__(Contacts)
+        other.__dict__.update(self.__dict__, **geometry, later={"name": name})
+        other.__dict__.pop("name", None)
+        return other
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,13 +249,39 @@ class StepData:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return read_only(np.concatenate([[0], np.cumsum(self.counts)]))
 
+    @cached_property
+    def row_index(self) -> NDArray[np.int64]:
+        """Which rows of all the cone's, contact-major, the contacts have, shape (m,)."""
+        return read_only(np.flatnonzero(self.mask))
+
+    @cached_property
+    def row_contact(self) -> NDArray[np.int64]:
+        """The contact that each row belongs to, shape (m,)."""
+        return read_only(np.repeat(np.arange(self.contacts.n_c), self.counts))
+
+    @cached_property
+    def H(self) -> Array:
+        """H of Eq. (13), shape (n_v, n_v)."""
+        H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
+        H[:n_a, :n_a] = self.h * self.K_q
+        H[n_a:, n_a:] = self.M_u / self.h
+        return read_only(H)
+
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
         return replace(self, **changes)
 
-    def same_as(self, other: StepData) -> bool:
-        """Tell whether two steps hold the same numbers, bit for bit."""
-        return _same(self, other)
+    def moved(self, contacts: Contacts, M_u: Array, **loads: Array) -> StepData:
+        """The same kind of step elsewhere: tau_a, tau_u, delta_q_bar_a anew, nothing is checked.
+
+        For steps in sequence, whose numbers are as good as those of the step before. M_u must be
+        read-only; while it is the same array, H is not formed again.
+        """
+        other = object.__new__(StepData)
+        other.__dict__.update(self.__dict__, contacts=contacts, M_u=M_u, **loads)
+        if M_u is not self.M_u:
+            other.__dict__.pop("H", None)
+        return other
 
 
 def _same(one: Any, two: Any) -> bool:

@@ -31,7 +31,9 @@ def normal_direction(n: Array) -> Array:
     -------
     ndarray, shape (n_c, 4)
     """
-    return np.concatenate([n, np.zeros((len(n), 1))], axis=1)
+    n_tilde = np.zeros((len(n), 4))
+    n_tilde[:, :3] = n
+    return n_tilde
 
 
 def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
@@ -49,9 +51,11 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
     ndarray, shape (n_c, 4, 4)
         Contact, direction i, component of (2).
     """
-    d_tilde_1 = normal_direction(mu_v[:, None] * d1)  # Eq. (5)
-    d_tilde_2 = normal_direction(mu_v[:, None] * d2)  # Eq. (5)
-    return np.stack([d_tilde_1, d_tilde_2, -d_tilde_1, -d_tilde_2], axis=1)  # Eq. (6)
+    d_tilde, mu_v = np.zeros((len(mu_v), 4, 4)), mu_v[:, None]
+    np.multiply(mu_v, d1, out=d_tilde[:, 0, :3])  # Eq. (5)
+    np.multiply(mu_v, d2, out=d_tilde[:, 1, :3])  # Eq. (5)
+    np.negative(d_tilde[:, :2], out=d_tilde[:, 2:])  # Eq. (6)
+    return d_tilde
 
 
 def torsional_directions(mu_omega: Array) -> Array:
@@ -66,8 +70,10 @@ def torsional_directions(mu_omega: Array) -> Array:
     -------
     ndarray, shape (n_c, 2, 4)
     """
-    d_tilde_5 = np.concatenate([np.zeros((len(mu_omega), 3)), mu_omega[:, None]], axis=1)
-    return np.stack([d_tilde_5, -d_tilde_5], axis=1)  # Eq. (7)
+    d_tilde = np.zeros((len(mu_omega), 2, 4))
+    d_tilde[:, 0, 3] = mu_omega  # Eq. (7)
+    np.negative(d_tilde[:, 0], out=d_tilde[:, 1])
+    return d_tilde
 
 
 def pyramid(contacts: Contacts) -> Array:
@@ -146,10 +152,11 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
         [m] per unit of delta_q. A contact uses those of :attr:`StepData.mask`: with the paper's
         cone six, or the first four.
     """
+    along = _frames(contacts) @ contacts.J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return _frames(contacts) @ contacts.J
-    directions = normal_direction(contacts.n)[:, None, :] + cone_directions(contacts, name)
-    return directions @ contacts.J  # Eq. (4)
+        return along
+    # n~ + d~_i is a combination of these that does not change with where the contact is.
+    return contacts.combinations(name) @ along  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -160,8 +167,9 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     rows = len(cone(name).row_names)
-    share = np.eye(rows)[0] if name == ELLIPSOID else np.ones(rows)
-    return contacts.phi[:, None] * share
+    if name == ELLIPSOID:
+        return contacts.phi[:, None] * np.eye(rows)[0]
+    return contacts.phi.repeat(rows).reshape(-1, rows)
 
 
 def friction_coefficients(contacts: Contacts) -> Array:
@@ -172,8 +180,7 @@ def friction_coefficients(contacts: Contacts) -> Array:
     ndarray, shape (n_c, 3)
         [-], [-], [m].
     """
-    mu_omega = np.where(contacts.rows == 6, contacts.mu_omega, 0.0)
-    return np.stack([contacts.mu_v, contacts.mu_v, mu_omega], axis=1)
+    return contacts.mu
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -199,15 +206,18 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     counts = cone(name).counts(contacts.rows)
     impulses = np.zeros((contacts.n_c, len(cone(name).table)))
     impulses[np.arange(impulses.shape[1]) < counts[:, None]] = lam
-    f_d1, f_d2, tau_n = (friction_coefficients(contacts) * (impulses @ cone(name).table)).T
-    return np.stack([f_d1, f_d2, impulses.sum(axis=1), tau_n], axis=1) / h
+    wrench = np.empty((contacts.n_c, 4))
+    wrench[:, [0, 1, 3]] = friction_coefficients(contacts) * (impulses @ cone(name).table)
+    wrench[:, 2] = impulses.sum(axis=1)
+    wrench /= h
+    return wrench
 
 
 def _frames(contacts: Contacts) -> Array:
     """Return n~, d1, d2 and spin of each contact, shape (n_c, 4, 4)."""
-    axes = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
     frames = np.zeros((contacts.n_c, 4, 4))
-    frames[:, :3, :3], frames[:, 3, 3] = axes, 1.0
+    frames[:, 0, :3], frames[:, 1, :3], frames[:, 2, :3] = contacts.n, contacts.d1, contacts.d2
+    frames[:, 3, 3] = 1.0
     return frames
 
 
