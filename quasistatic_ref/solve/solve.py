@@ -28,6 +28,7 @@ from quasistatic_ref.solve.engines import CVXPY, NATIVE, check_engine
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeProblem, check_native
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
+from quasistatic_ref.solve.sparse import SparseProblem
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
@@ -39,7 +40,7 @@ from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
-Problem = StepProblem | NativeProblem
+Problem = StepProblem | NativeProblem | SparseProblem
 """What may be kept between steps."""
 NOTHING_CLAIMED = Certificate("none")
 
@@ -112,6 +113,8 @@ def solve_step(
         step = with_rows(step, own)
     if step.cone == ELLIPSOID:
         cone_backend(backend, "the ellipsoid")
+    if isinstance(problem, SparseProblem) and certify != "full" and problem.fits(step):
+        return problem.solution(step, accuracy, certify)
     if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
     # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost

@@ -68,9 +68,14 @@ class Metric:
 
 def metric(H: Array) -> Metric:
     """Units in which the diagonal of H is about one, and how long a step is."""
-    coordinate = _powers_of_two(1 / np.sqrt(np.diag(H)))
+    coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     return Metric(H, coordinate, np.linalg.inv(H), usable)
+
+
+def coordinate_units(diagonal: Array) -> Array:
+    """Diagonal of S [m, rad], from that of H."""
+    return _powers_of_two(1 / np.sqrt(diagonal))
 
 
 def natural_units(step: StepData) -> Units:
@@ -94,15 +99,20 @@ def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not."""
     rows = form.A * of_H.coordinate
     row_norms = np.sort(np.sqrt(np.einsum("ij,ij->i", rows, rows)))  # NaN comes last
-    length = _power_of_two(_typical(row_norms))
     energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
-    push_out = float(form.b.max(initial=0.0)) / length  # from penetration
-    gap = max(push_out, -float(form.b.min(initial=0.0)) / length)
+    return units_from(of_H.coordinate, row_norms, energy, form.b)
+
+
+def units_from(coordinate: Array, row_norms: Array, energy: float, b: Array) -> Units:
+    """Natural units from the lengths of the rows, ascending, and of the unconstrained step."""
+    length = _power_of_two(_typical(row_norms))
+    push_out = float(b.max(initial=0.0)) / length  # from penetration
+    gap = max(push_out, -float(b.min(initial=0.0)) / length)
     # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
     size = max(energy, push_out) or gap or STANDSTILL
     if not math.isfinite(energy + gap + (row_norms[-1] if row_norms.size else 0.0)):
         size = math.nan
-    return Units(of_H.coordinate, length, _power_of_two(size))
+    return Units(coordinate, length, _power_of_two(size))
 
 
 def natural_form(form: StandardForm, units: Units) -> StandardForm:
