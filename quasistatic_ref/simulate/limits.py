@@ -81,8 +81,7 @@ class Limits:
         LimitExceeded
         """
         phi = step.contacts.phi
-        if phi.size and phi.min() < -self.penetration:
-            j = int(phi.argmin())
+        if phi.size and phi[j := int(phi.argmin())] < -self.penetration:
             raise LimitExceeded(
                 f"contact {step.contacts.name[j]} is {-phi[j]:.3g} m deep, deeper than "
                 f"limits.penetration = {self.penetration:g} m; start the bodies apart, move "

@@ -29,6 +29,7 @@ from quasistatic_ref.solve.extended import extended_solution, extension_rows, wi
 from quasistatic_ref.solve.native import NativeProblem, check_native
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
+from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -125,10 +126,11 @@ def solve_step(
             solution = _believed(question, certify)
         else:
             solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
-    total = solution.delta_q.sum() + solution.lam.sum() + solution.lam_extra.sum()
+    numbers = [solution.delta_q, solution.lam, solution.lam_extra]
     if certify != "off":
-        total += solution.wrench.sum() + sum(solution.certificate.residuals.values())
-    if not math.isfinite(total):
+        residuals = np.array(list(solution.certificate.residuals.values()))
+        numbers += [solution.wrench.ravel(), residuals]
+    if not finite(*numbers):
         raise out_of_range(step)
     return solution
 

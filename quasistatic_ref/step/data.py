@@ -283,6 +283,10 @@ class StepData:
             other.__dict__.pop("H", None)
         return other
 
+    def same_as(self, other: StepData) -> bool:
+        """Tell whether two steps hold the same numbers, bit for bit."""
+        return _same(self, other)
+
 
 def _same(one: Any, two: Any) -> bool:
     for f in fields(one):
