@@ -18,8 +18,8 @@ def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
     installed = installed_backends()
     if options.json:
-        native = native_backends()
-        shared.print_json({"default": DEFAULT, "installed": installed, "native": native})
+        record = {"default": DEFAULT, "installed": installed, "native": native_backends()}
+        shared.print_json(record)
         return 0
     rows: list[tuple[str, ...]] = [
         ("backend", "through cvxpy", "through qpsolvers", "native", "method")

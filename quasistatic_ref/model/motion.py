@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 
 Array = NDArray[np.float64]
-_OF_VECTOR = np.zeros((3, 3, 3))
-_OF_VECTOR[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
-_OF_VECTOR[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
-_OF_VECTOR = _OF_VECTOR.reshape(3, 9)
+_LEVI_CIVITA = np.zeros((3, 3, 3))
+_LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
+_LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
+_OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
 
 
 def cross_matrix(r: Array) -> Array:

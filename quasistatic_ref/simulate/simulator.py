@@ -180,16 +180,15 @@ class Simulator:
         system, n_a = self.system, self.system.n_a
         tau = self.weighs * system.gravity_force(q, self._gravity) + force
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
-        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
-        M_u, like = system.M_u(q), self._like
+        tau_a, tau_u, M_u, like = tau[:n_a], tau[n_a:], system.M_u(q), self._like
         if like is None or tau.shape != self.weighs.shape:  # checked once, or to say what is wrong
             at = self.geometry.contacts(points, kinematics)
-            like = StepData(h=self.h, K_q=self.K_q, M_u=M_u, contacts=at, cone=self.cone, **loads)
+            step = StepData(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, at, self.cone)
         else:
             at = self.geometry.contacts(points, kinematics, like.contacts)
-            like = like.moved(at, M_u, **loads)
-        self._like = like
-        return like
+            step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
+        self._like = step
+        return step
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a problem that is built once."""

@@ -114,7 +114,7 @@ class NativeProblem:
         """
         idle = self._write(scaled)
         if not self.rows:  # not every solver takes a program without rows
-            x = -np.linalg.solve(self.program.H, self.program.f)
+            x = np.asarray(np.linalg.solve(self.program.H, -self.program.f), dtype=np.float64)
             statistics = SolverStatistics(self.backend, "optimal", 0, None, accuracy)
             return Answer(x, np.zeros(0), statistics)
         accuracy = max(accuracy, BACKENDS[self.backend].floor)
@@ -149,7 +149,7 @@ class NativeProblem:
             return None
         reach = -reach_of_rows(scaled.step, units)
         np.maximum(program.b, reach, out=program.b)
-        return program.b == reach
+        return np.asarray(program.b == reach)
 
     def _reply(self, attempt: _Attempt, scaled: Scaled, accuracy: float) -> Reply:
         """One attempt: from the answer before, where there is one, and else or then cold."""

@@ -72,7 +72,8 @@ def metric(H: Array) -> Metric:
     """Units in which the diagonal of H is about one, and how long a step is."""
     coordinate = _powers_of_two(1 / np.sqrt(np.diag(H)))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
-    return Metric(H, coordinate, np.linalg.inv(H), np.ones(len(H)), usable)
+    inverse: Array = np.linalg.inv(H).astype(np.float64)
+    return Metric(H, coordinate, inverse, np.ones(len(H)), usable)
 
 
 def natural_units(step: StepData) -> Units:

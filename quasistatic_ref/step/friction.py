@@ -154,9 +154,9 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     """
     along = _frames(contacts) @ contacts.J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return along
+        return np.asarray(along)
     # n~ + d~_i is a combination of these that does not change with where the contact is.
-    return contacts.combinations(name) @ along  # Eq. (4)
+    return np.asarray(contacts.combinations(name) @ along)  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:

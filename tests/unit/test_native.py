@@ -62,11 +62,15 @@ def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_include
     m, own = len(order), step.n_a + 1
     ours = [*order, *range(m, m + own)]
     for found, expected in (
-        (form.H, H), (form.g, g), (form.A[ours], A), (form.b[ours], b),
+        (form.H, H), (form.A[ours], A), (form.b[ours], b),
         (form.A[m + own], -E[0]), (form.b[m + own], -e[0]),
         (form.A[m + own + 1], E[0]), (form.b[m + own + 1], e[0]),
     ):  # fmt: skip
         np.testing.assert_allclose(found, expected, rtol=FOUR_ULP, atol=0.0)
+    # g is a sum that may cancel, on either side in its own order: against its terms.
+    terms = np.concatenate([np.abs(step.K_q) @ np.abs(step.delta_q_bar_a), np.zeros(step.n_u)])
+    terms += np.abs(np.concatenate([step.tau_a, step.tau_u]))
+    assert (np.abs(form.g - g) <= FOUR_ULP * step.h * terms).all()
 
 
 @every_backend
