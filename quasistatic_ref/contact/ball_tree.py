@@ -18,7 +18,7 @@ SMALL = 1024
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """One level: balls that hold all points of the cloud.
+    """One level: balls, and boxes in them, that hold all points of the cloud.
 
     Parameters
     ----------
@@ -26,10 +26,17 @@ class Balls:
         In the cloud's frame [m].
     radius : ndarray, shape (B,)
         [m].
+    half_extents : ndarray, shape (B, 3)
+        Of the boxes with the same centres along the axes of the cloud's frame [m].
+    far_side : ndarray, shape (B,)
+        From the centre to beyond a point that no other ball of the level has: the radius, or
+        infinite where all points are copies [m].
     """
 
     centre: Array
     radius: Array
+    half_extents: Array
+    far_side: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,10 +50,15 @@ class BallTree:
         numbers. The last level are the points, balls of radius 0, some of them twice.
     index : ndarray of int, shape (B of the last level,)
         Each point's index in the cloud; -1 for one that is there again to fill a leaf.
+    box : ndarray, shape (8, 3)
+        Corners of the box around the cloud [m]. In a rigid motion no point of the cloud moves
+        farther than the corner that moves most, and none less far along a direction than the one
+        that moves least: displacements are affine.
     """
 
     levels: tuple[Balls, ...]
     index: Indices
+    box: Array
 
 
 def ball_tree(points: Array) -> BallTree:
@@ -56,7 +68,7 @@ def ball_tree(points: Array) -> BallTree:
     than LEAF points.
     """
     N, depth = len(points), 0
-    while N > SMALL and N > LEAF << depth:
+    while N > SMALL and LEAF << depth < N:
         depth += 1
     leaf = -(-N // (1 << depth))
     order = np.arange(leaf << depth)
@@ -69,16 +81,23 @@ def ball_tree(points: Array) -> BallTree:
         halves = np.argpartition(key, key.shape[1] // 2, axis=1)
         order = np.take_along_axis(order.reshape(key.shape), halves, axis=1).reshape(-1)
     arranged = filled[order]
-    levels = [Balls(arranged, np.zeros(len(order)))]
+    real = order < N
+    zero = np.zeros(len(order))
+    levels = [Balls(arranged, zero, np.zeros((len(order), 3)), np.where(real, 0.0, np.inf))]
     count = 1 << depth
     while len(levels[0].centre) > SMALL:
-        levels.insert(0, _balls(arranged.reshape(count, -1, 3)))
+        levels.insert(0, _balls(arranged.reshape(count, -1, 3), real.reshape(count, -1)))
         count //= LEAF
-    return BallTree(tuple(levels), np.where(order < N, order, -1))
+    low, high = points.min(axis=0), points.max(axis=0)
+    box = np.where((np.arange(8)[:, None] >> np.arange(3)) & 1, high, low)
+    return BallTree(tuple(levels), np.where(real, order, -1), box)
 
 
-def _balls(nodes: Array) -> Balls:
-    """A ball about each node's points, shape (B, n, 3)."""
-    centre = (nodes.min(axis=1) + nodes.max(axis=1)) / 2
+def _balls(nodes: Array, real: NDArray[np.bool_]) -> Balls:
+    """A ball about each node's points, shape (B, n, 3), of which some are real."""
+    low, high = nodes.min(axis=1), nodes.max(axis=1)
+    centre = (low + high) / 2
     away = nodes - centre[:, None]
-    return Balls(centre, np.sqrt(np.sum(away * away, axis=2).max(axis=1)))
+    radius = np.sqrt(np.sum(away * away, axis=2).max(axis=1))
+    far_side = np.where(real.any(axis=1), radius, np.inf)
+    return Balls(centre, radius, (high - low) / 2, far_side)

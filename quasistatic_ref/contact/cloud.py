@@ -88,15 +88,15 @@ def closest(phi: Array, k: int) -> NDArray[np.int64]:
     ndarray of int, shape (min(k, N),)
     """
     if k < len(phi):
-        # Only what can be among the k smallest is sorted; <= keeps every tie in the running.
-        candidates = np.flatnonzero(phi <= np.partition(phi, k - 1)[k - 1])
+        # Only what can be among the k smallest is sorted; every tie stays in the running.
+        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
     else:
         candidates = np.arange(len(phi))
     return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
 
 
 def rounded_box(shape: Sphere | Capsule | Box) -> tuple[Array, float]:
-    """The half extents (3,) of a shape's core, a point, segment or cuboid, and the ball's radius."""
+    """Half extents (3,) of a shape's core, a point, segment or cuboid, and the ball's radius."""
     if isinstance(shape, Box):
         return shape.half_extents, 0.0
     half_length = shape.half_length if isinstance(shape, Capsule) else 0.0
@@ -122,11 +122,12 @@ def distance_to_rounded_box(
     outside = _norm(beyond)
     inside = np.maximum(np.maximum(excess[..., 0], excess[..., 1]), excess[..., 2])
     is_outside = outside > 0
-    nearest_face = _AXES[excess.argmax(axis=-1)]
+    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
     away = np.where(is_outside[..., None], beyond, nearest_face)
     away /= np.where(is_outside, outside, 1.0)[..., None]
     # Zero has the positive sign, whichever zero it is.
-    return np.where(is_outside, outside, inside) - radius, np.copysign(away, points + 0.0)
+    normal = np.copysign(away, points + 0.0)
+    return outside + np.minimum(inside, 0.0) - radius, normal
 
 
 def distance_to_cylinder(points: Array, radius: float, half_length: float) -> Distance:

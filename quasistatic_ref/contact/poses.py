@@ -49,9 +49,9 @@ class Placements:
         Each product is one of 3 x 3 matrices, whatever the number of pairs, so that a pair's pose
         does not depend on the others.
         """
-        R_link = R[self.link]
+        R_link = R.take(self.link, axis=0)
         R_all = R_link @ self.R
-        t_all = (R_link @ self.t)[..., 0] + t[self.link]
+        t_all = (R_link @ self.t)[..., 0] + t.take(self.link, axis=0)
         inverse = R_all[: self.P].transpose(0, 2, 1)
         apart = t_all[self.P :] - t_all[: self.P]
         return PairPoses(

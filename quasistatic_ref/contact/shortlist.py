@@ -15,10 +15,12 @@ from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.support import support_value
 from quasistatic_ref.model.shapes import HalfSpace, Shape, Sphere
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import UNSEEN
 
 RATIO = 16.0
-"""How much farther than in height a point must be in distance to be left out: the distance of a
-cloud that comes or goes changes as fast as it moves, the order of heights only as fast as it turns."""
+"""How much farther than in height a point must be in distance to be left out.
+
+Distances change as fast as a cloud comes or goes, the order of heights only as fast as it turns."""
 
 BEAM = 48
 """Balls of a level that are opened, at least."""
@@ -36,15 +38,18 @@ class Shortlist:
     index : ndarray of int, shape (m,)
         Of the points, ascending.
     by_distance, by_height : float
-        [m]; infinite if no point is kept out that way.
+        [m], less the room for rounding; infinite if no point is kept out that way.
     n : ndarray, shape (3,)
         Unit vector in the solid's frame.
+    corners : ndarray, shape (8, 3)
+        Of the box around the cloud, in the solid's frame [m].
     """
 
     index: Indices
     by_distance: float
     by_height: float
     n: Array
+    corners: Array
 
 
 def reach(shape: Shape, n: Array) -> float:
@@ -69,12 +74,19 @@ def size(shape: Shape) -> float:
 
 
 def shortlist(
-    tree: BallTree, solid: Shape, R: Array, t: Array, n: Array, phi_k: float, width: int
+    tree: BallTree,
+    solid: Shape,
+    R: Array,
+    t: Array,
+    n: Array,
+    phi_k: float,
+    k: int,
+    width: int,
 ) -> Shortlist:
-    """The `width` points that will be the last to be kept out, or almost.
+    """The points that can be among the k closest at this pose, and as many as `width` in all.
 
-    The tree is walked by levels. Of each level, the balls that are opened are those whose score is
-    least, the score being what the motion must use up before a point of the ball can matter.
+    The tree is walked by levels. Balls and points are ordered by a score: what the motion must use
+    up before they can matter. Those that matter at this pose are opened, and the next best.
 
     Parameters
     ----------
@@ -86,25 +98,37 @@ def shortlist(
         Any unit vector in the solid's frame; good is the normal at the closest point. Of a
         half-space its normal.
     phi_k : float
-        About the k-th least signed distance [m]; any number is right, a good one is good.
-    width : int
+        [m], at least the k-th smallest signed distance at this pose; infinite if not known.
+    k, width : int
 
     Returns
     -------
     Shortlist
     """
+    corners = rotated(R, tree.box) + t
+    slack = UNSEEN * (size(solid) + np.abs(tree.box).max() + np.abs(corners).max())
     touching = reach(solid, n)
     by_distance = by_height = np.inf
+    n_cloud = np.abs(n[0] * R[0] + n[1] * R[1] + n[2] * R[2])  # n along the axes of the boxes
     nodes = np.arange(len(tree.levels[0].centre))
     for depth, balls in enumerate(tree.levels):
+        radius = balls.radius[nodes]
         x = rotated(R, balls.centre[nodes]) + t
-        phi = signed_distance(solid, x)[0] - balls.radius[nodes]
-        height = x[:, 0] * n[0] + x[:, 1] * n[1] + x[:, 2] * n[2] - touching - balls.radius[nodes]
+        phi = signed_distance(solid, x)[0]
+        if len(nodes) >= k:
+            far_side = phi + balls.far_side[nodes]
+            phi_k = min(phi_k, float(np.partition(far_side, k - 1)[k - 1]))
+        extent = balls.half_extents[nodes] * n_cloud
+        depth_below = extent[:, 0] + extent[:, 1] + extent[:, 2]
+        height = x[:, 0] * n[0] + x[:, 1] * n[1] + x[:, 2] * n[2] - touching - depth_below
+        phi = np.maximum(phi - radius, height)
         far, high = phi - phi_k, RATIO * (height - phi_k)
+        score = np.maximum(far, high)
         last = depth + 1 == len(tree.levels)
-        keep = width if last else max(BEAM, width // 4)
+        matter = int(np.count_nonzero(score <= 2 * RATIO * slack))
+        keep = max(width if last else max(BEAM, width // 4), matter)
         if len(nodes) > keep:
-            split = np.argpartition(np.maximum(far, high), keep)
+            split = np.argpartition(score, keep)
             out, nodes = split[keep:], nodes[split[:keep]]
             is_high = high[out] > far[out]
             by_height = min(by_height, float(height[out[is_high]].min(initial=np.inf)))
@@ -113,4 +137,5 @@ def shortlist(
             children = len(tree.levels[depth + 1].centre) // len(balls.centre)
             nodes = (nodes[:, None] * children + np.arange(children)).reshape(-1)
     index = tree.index[nodes]
-    return Shortlist(np.sort(index[index >= 0]), by_distance, by_height, n)
+    kept = np.sort(index[index >= 0])
+    return Shortlist(kept, by_distance - slack, by_height - slack, n, corners)

@@ -27,37 +27,63 @@ def _rank(shape: Shape) -> int:
 
 
 class SolidRows:
-    """P solids in :func:`kind_order`: those of the first two kinds are measured at once.
+    """P solids in :func:`kind_order`, each to be measured from W points of its own.
 
     The bits are those of :func:`~quasistatic_ref.contact.cloud.signed_distance`.
+
+    Parameters
+    ----------
+    shapes : sequence of Shape, length P
+    W : int
     """
 
-    def __init__(self, shapes: Sequence[Shape]) -> None:
+    def __init__(self, shapes: Sequence[Shape], W: int) -> None:
         ranks = [_rank(shape) for shape in shapes]
-        self.boxes, self.planes = slice(0, ranks.count(0)), slice(ranks.count(0), len(ranks))
-        if 2 in ranks:
-            self.planes = slice(ranks.count(0), ranks.index(2))
-        self.others = [(p, shape) for p, shape in enumerate(shapes) if ranks[p] == 2]
         cores = [rounded_box(s) for s in shapes if isinstance(s, Sphere | Capsule | Box)]
-        self.half_extents = np.array([core[0] for core in cores]).reshape(-1, 1, 3)
-        self.ball = np.array([core[1] for core in cores]).reshape(-1, 1)
         walls = [s for s in shapes if isinstance(s, HalfSpace)]
-        self.n = np.array([wall.normal for wall in walls]).reshape(-1, 1, 3)
-        self.offset = np.array([wall.offset for wall in walls]).reshape(-1, 1)
+        first, second = len(cores) * W, (len(cores) + len(walls)) * W
+        self.boxes, self.planes = slice(0, first), slice(first, second)
+        self.half_extents = _repeated([half_extents for half_extents, _ in cores], W)
+        self.ball = np.repeat([radius for _, radius in cores], W)
+        self.n = _repeated([wall.normal for wall in walls], W)
+        self.offset = np.repeat([wall.offset for wall in walls], W)
+        self.others = [
+            (slice(p * W, (p + 1) * W), shape) for p, shape in enumerate(shapes) if ranks[p] == 2
+        ]
+        # Kept between calls: the normals of half-spaces stay what they are.
+        self.normal = np.full((3, len(shapes) * W), np.nan).T
+        self.normal[self.planes] = self.n
 
     def __call__(self, x: Array) -> tuple[Array, Array]:
-        """Signed distances (P, W) [m] and unit normals (P, W, 3) of points (P, W, 3)."""
-        phi, normal = np.empty(x.shape[:2]), np.empty(x.shape)
-        if len(self.half_extents):
+        """Signed distances and unit normals of points, a row of W after the other.
+
+        Parameters
+        ----------
+        x : ndarray, shape (P W, 3)
+            Each in its solid's frame [m]; NaN where a row is shorter.
+
+        Returns
+        -------
+        phi : ndarray, shape (P W,)
+            [m].
+        normal : ndarray, shape (P W, 3)
+            Until the next call.
+        """
+        phi, normal = np.empty(len(x)), self.normal
+        if self.boxes.stop:
             phi[self.boxes], normal[self.boxes] = distance_to_rounded_box(
-                x[self.boxes], self.half_extents, self.ball
+                np.ascontiguousarray(x[self.boxes].T).T, self.half_extents, self.ball
             )
         if len(self.n):
             level = x[self.planes] * self.n
-            phi[self.planes] = level[..., 0] + level[..., 1] + level[..., 2] - self.offset
-            normal[self.planes] = self.n
-        for p, shape in self.others:
-            given = ~np.isnan(x[p, :, 0])  # rows are filled up with NaN
-            phi[p], normal[p] = np.nan, np.nan
-            phi[p, given], normal[p, given] = signed_distance(shape, x[p, given])
+            phi[self.planes] = level[:, 0] + level[:, 1] + level[:, 2] - self.offset
+        for row, shape in self.others:
+            given = ~np.isnan(x[row, 0])
+            phi[row], normal[row] = np.nan, np.nan
+            phi[row][given], normal[row][given] = signed_distance(shape, x[row][given])
         return phi, normal
+
+
+def _repeated(vectors: Sequence[Array], W: int) -> Array:
+    """Each vector W times, shape (P W, 3), with x before y before z in memory like the points."""
+    return np.repeat(np.array(vectors).reshape(-1, 3).T, W, axis=1).T
