@@ -137,3 +137,6 @@ UNSEEN: Final = 1e-11
 """Room for rounding in the proof that unmeasured points are not among the closest, relative to the
 sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
 jump in them), and the bound takes two of them and two transformed points."""
+
+SPARSE_FROM: Final = 100_000
+"""Entries of a step's dense J, 4 n_c n_v, from which steps that are not certified are sparse."""

@@ -54,9 +54,8 @@ def run(options: argparse.Namespace) -> int:
         return 0
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     worst = _worst(summary["worst_residual"])
-    print(
-        f"{summary['certified']}; backend {summary['backend']} ({summary['engine']}), worst residual {worst}"
-    )
+    asked = f"{summary['backend']} ({summary['engine']})"
+    print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
     print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")

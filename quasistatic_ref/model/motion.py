@@ -64,7 +64,10 @@ class Motion:
     def of_coordinates(self, columns: Array) -> Array:
         """Per unit of delta_q, shape (..., n_v), from per unit of each joint's column."""
         # Without mimics it is a permutation, which costs less for many coordinates.
-        return columns @ self.coordinates if self.mimics else self.order.paper_v(columns)
+        if not self.mimics:
+            return self.order.paper_v(columns)
+        flat = columns.reshape(-1, columns.shape[-1]) @ self.coordinates
+        return flat.reshape(*columns.shape[:-1], flat.shape[1])
 
 
 def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:

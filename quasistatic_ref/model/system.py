@@ -138,6 +138,11 @@ class System:
         self._M_u = self.M_u(self.q_start) if constant_mass(world.model, self.joints) else None
         self._check_inertia()
 
+    @property
+    def rigid(self) -> bool:
+        """Whether M_u is the same array at every q, and no coordinate moves with another."""
+        return self._M_u is not None and not self.motion.mimics
+
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``."""
         for joint in self.joints:

@@ -49,7 +49,7 @@ class Limits:
         t : ndarray, shape (L, 3)
             Origins of the links [m], world frame.
         """
-        if np.abs(t).max(initial=0.0) <= self.reach / 2:  # |t| <= sqrt(3) max |t_i|
+        if np.vdot(t, t) <= self.reach**2:  # all of them together
             return None
         distance = np.hypot.reduce(t, axis=1)
         beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too

@@ -28,6 +28,7 @@ from quasistatic_ref.solve.engines import CVXPY, NATIVE, check_engine
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeProblem, check_native
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
+from quasistatic_ref.solve.sparse import SparseProblem
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
 from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -40,7 +41,7 @@ from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
-Problem = StepProblem | NativeProblem
+Problem = StepProblem | NativeProblem | SparseProblem
 """What may be kept between steps."""
 NOTHING_CLAIMED = Certificate("none")
 
@@ -113,6 +114,8 @@ def solve_step(
         step = with_rows(step, own)
     if step.cone == ELLIPSOID:
         cone_backend(backend, "the ellipsoid")
+    if isinstance(problem, SparseProblem) and certify != "full" and problem.fits(step):
+        return problem.solution(step, accuracy, certify)
     if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
     # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost
@@ -161,7 +164,8 @@ class _Question:
         if isinstance(self.problem, NativeProblem):
             return self.problem.answer(self.scaled, self.accuracy)
         natural = self.scaled.natural
-        answer = backend_answer(within_reach(natural), self.backend, self.accuracy, self.problem)
+        kept = self.problem if isinstance(self.problem, StepProblem) else None
+        answer = backend_answer(within_reach(natural), self.backend, self.accuracy, kept)
         idle = np.repeat(out_of_reach(natural), natural.counts)
         answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
         return answer

@@ -70,10 +70,15 @@ class Metric:
 
 def metric(H: Array) -> Metric:
     """Units in which the diagonal of H is about one, and how long a step is."""
-    coordinate = _powers_of_two(1 / np.sqrt(np.diag(H)))
+    coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     inverse: Array = np.linalg.inv(H).astype(np.float64)
     return Metric(H, coordinate, inverse, np.ones(len(H)), usable)
+
+
+def coordinate_units(diagonal: Array) -> Array:
+    """Diagonal of S [m, rad], from that of H."""
+    return _powers_of_two(1 / np.sqrt(diagonal))
 
 
 def natural_units(step: StepData) -> Units:
@@ -97,17 +102,22 @@ def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not."""
     squares = np.square(form.A * of_H.coordinate) @ of_H.ones
     squares.sort()  # NaN comes last
-    length = _power_of_two(_typical(squares))
     energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
+    return units_from(of_H.coordinate, squares, energy, form.b)
+
+
+def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
+    """Natural units from the rows' squared lengths, ascending, and the unconstrained step's."""
+    length = _power_of_two(_typical(squares))
     push_out, gap = 0.0, 0.0
     if squares.size:
-        push_out = max(float(form.b[form.b.argmax()]), 0.0) / length  # from penetration
-        gap = max(push_out, -float(form.b[form.b.argmin()]) / length)
+        push_out = max(float(b[b.argmax()]), 0.0) / length  # from penetration
+        gap = max(push_out, -float(b[b.argmin()]) / length)
     # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
     size = max(energy, push_out) or gap or STANDSTILL
     if not math.isfinite(energy + gap + (squares[-1] if squares.size else 0.0)):
         size = math.nan
-    return Units(of_H.coordinate, length, _power_of_two(size))
+    return Units(coordinate, length, _power_of_two(size))
 
 
 def natural_form(form: StandardForm, units: Units) -> StandardForm:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from quasistatic_ref.step.arrays import (
     positive_definite,
     read_only,
 )
+from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.tolerances import ORTHONORMAL
@@ -53,6 +54,11 @@ class Contacts(Lazy):
     rows : ndarray of int, shape (n_c,)
         6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
 
+    Attributes
+    ----------
+    blocks : Blocks or None
+        In steps of many bodies, J without its zeros; J is then formed when somebody asks for it.
+
     Raises
     ------
     StepDataError
@@ -68,6 +74,7 @@ class Contacts(Lazy):
     mu_v: Array
     mu_omega: Array
     rows: NDArray[np.int64]
+    blocks: ClassVar[Blocks | None] = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", names(self.name, "contacts.name"))
@@ -120,8 +127,25 @@ class Contacts(Lazy):
             kept[cone_name] = np.concatenate([one, self.mu[:, None] * table], axis=2)
         return kept[cone_name]
 
-    def moved(self, name: Callable[[], tuple[str, ...]], **geometry: Array) -> Contacts:
+    @property
+    def n_v(self) -> int:
+        """Number of columns of J."""
+        return int(self.J.shape[-1]) if self.blocks is None else self.blocks.n_v
+
+    def motion(self, delta_q: Array) -> Array:
+        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
+        return self.J @ delta_q if self.blocks is None else self.blocks.motion(delta_q)
+
+    def moved(
+        self,
+        name: Callable[[], tuple[str, ...]],
+        *,
+        blocks: Blocks | None = None,
+        **geometry: Array,
+    ) -> Contacts:
         """The same contacts elsewhere: phi, n, d1, d2 and J anew, and nothing is checked.
+
+        With blocks in place of J, J is formed from them when somebody asks for it.
 
         For steps in sequence: what does not depend on where they are is not made again, and
         their names are not made before somebody asks for them.
@@ -129,6 +153,10 @@ class Contacts(Lazy):
         other = object.__new__(Contacts)
         other.__dict__.update(self.__dict__, **geometry, later={"name": name})
         other.__dict__.pop("name", None)
+        other.__dict__.pop("blocks", None)
+        if blocks is not None:
+            other.__dict__.pop("J", None)
+            other.__dict__["blocks"], other.__dict__["later"]["J"] = blocks, blocks.dense
         return other
 
 
@@ -213,10 +241,11 @@ class StepData:
         freeze(self, "delta_q_bar_a", (n_a,))
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
-        for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
-            if wide.shape[-1] != self.n_v:
+        shape_of_J = (self.contacts.n_c, 4, self.contacts.n_v)
+        for key, shape in (("contacts.J", shape_of_J), ("extra.A", self.extra.A.shape)):
+            if shape[-1] != self.n_v:
                 raise StepDataError(
-                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=wide.shape
+                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=shape
                 )
 
     @property

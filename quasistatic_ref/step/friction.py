@@ -152,7 +152,12 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
         [m] per unit of delta_q. A contact uses those of :attr:`StepData.mask`: with the paper's
         cone six, or the first four.
     """
-    along = _frames(contacts) @ contacts.J  # n~, d1, d2 and spin
+    return rows_along(contacts, contacts.J, name)
+
+
+def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
+    """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
+    along: Array = _frames(contacts) @ J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
         return np.asarray(along)
     # n~ + d~_i is a combination of these that does not change with where the contact is.
