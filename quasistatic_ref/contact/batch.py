@@ -43,6 +43,16 @@ class Nearest(NamedTuple):
     point: NDArray[np.int64]
     proved: NDArray[np.bool_]
 
+    def chosen(self, order: NDArray[np.int64]) -> Nearest:
+        """The same contacts in another order."""
+        return Nearest(
+            self.phi.take(order),
+            self.normal.take(order, axis=1),
+            self.local.take(order, axis=1),
+            self.point.take(order),
+            self.proved,
+        )
+
 
 class Batch:
     """Lists that are measured at once: rows as long as the longest, filled up with NaN.
@@ -75,22 +85,22 @@ class Batch:
         n_c: Sequence[int],
     ) -> None:
         self.r, W = len(rows), max(len(some) for some in points)
-        self.n_c, self.first = np.array(n_c), self.r * CORNERS
+        self.n_c = np.array(n_c)
         filled, self.index = np.full((self.r, W, 3), np.nan), np.full((self.r, W), -1)
         for i, (some, made) in enumerate(zip(points, lists, strict=True)):
             filled[i, : len(some)], self.index[i, : len(some)] = some, made.index
         self.local = np.ascontiguousarray(filled.reshape(-1, 3).T)
-        self.columns = np.ones((4, 3, self.first + self.r * W))
-        self.columns[:3] = np.concatenate([np.concatenate(boxes).T, self.local], axis=1)[:, None]
-        self.of = np.concatenate([np.repeat(rows, CORNERS), np.repeat(rows, W)])
+        self.columns = np.ones((4, 3, self.r * W))
+        self.columns[:3] = self.local[:, None]
+        self.rows, self.of = np.array(rows), np.repeat(rows, W)
         self.measured = SolidRows(shapes, W)
         # Where in the sorted rows the contacts are: in each from its start, by rank.
         self.start = np.repeat(np.arange(self.r) * W, n_c)
         self.ranked = self.start + np.concatenate([np.arange(n) for n in n_c])
         self.furthest = np.cumsum(n_c) - 1
-        self.corners = np.concatenate([made.corners for made in lists]).T.copy()
-        self.n = np.repeat([made.n for made in lists], CORNERS, axis=0).T.copy()
-        self.bounds = np.array([[m.by_height for m in lists], [m.by_distance for m in lists]])
+        bounds = [_bounds(made, box) for made, box in zip(lists, boxes, strict=True)]
+        self.slope = np.array([slope for slope, _ in bounds])
+        self.offset = np.array([offset for _, offset in bounds])
 
     def nearest(self, poses: PairPoses) -> Nearest:
         """The closest points at the poses of all pairs."""
@@ -98,14 +108,14 @@ class Batch:
         # The sums of `rotated`, without broadcasting, which takes longer than the sums.
         term = pose.T.take(self.of, axis=2) * self.columns
         x = term[0] + term[1] + term[2] + term[3]
-        phi, normal = self.measured(x[:, self.first :].T)
-        if self.r == 1:
+        phi, normal = self.measured(x.T)
+        if self.r == 1:  # its own order is the order
             found = closest(phi, int(self.n_c[0]))
         else:
             order = phi.reshape(self.r, -1).argsort(axis=1, kind="stable")
             found = order.ravel().take(self.ranked) + self.start
         distance = phi.take(found)
-        proved = distance.take(self.furthest) < self.limit(x[:, : self.first])
+        proved = distance.take(self.furthest) < self.limit(pose)
         return Nearest(
             distance,
             normal.T.take(found, axis=1),
@@ -114,23 +124,37 @@ class Batch:
             proved,
         )
 
-    def limit(self, corners: Array) -> Array:
+    def reorder(self, order: NDArray[np.int64]) -> None:
+        """Give the contacts in another order from now on: entry i of it was number order[i]."""
+        self.ranked, self.start = self.ranked[order], self.start[order]
+        self.furthest = np.argsort(order)[self.furthest]
+
+    def limit(self, pose: Array) -> Array:
         """Below which signed distances (r,) [m] no point outside the lists can have come.
 
         Parameters
         ----------
-        corners : ndarray, shape (3, 8 r)
-            Where the corners are now, in the frames of the solids [m].
+        pose : ndarray, shape (P, 3, 4)
+            [R, t] of all pairs, from the cloud's frame to the solid's.
         """
-        u = corners - self.corners
-        along, moved = u * self.n, np.abs(u)
-        least = np.concatenate(
-            [
-                along[0] + along[1] + along[2],
-                -_SQRT_3 * np.maximum(np.maximum(moved[0], moved[1]), moved[2]),
-            ]
-        )
-        change = np.minimum.reduce(least.reshape(2, -1, CORNERS), axis=2)
-        bounds = self.bounds + change
-        # Rounding grows with the distance moved as it does with the sizes.
-        return np.asarray(np.minimum(bounds[0], bounds[1]) + UNSEEN * change[1])
+        own = pose.take(self.rows, axis=0).reshape(self.r, 12, 1)
+        return np.minimum.reduce((self.slope @ own)[..., 0] + self.offset, axis=1)
+
+
+def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
+    """Functions of the pose, slope . [R, t] + offset, of which the least is the limit of a list.
+
+    A point that moves by u has its height changed by n . u, its distance by |u| at most, and what
+    is rounded by UNSEEN |u|. All these are concave in u, and u is affine in the point: over the
+    box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
+    """
+    ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
+    slopes, offsets = [], []
+    for directions, bound in (
+        (made.n + UNSEEN * ways, made.by_height),
+        ((1 + UNSEEN) * ways, made.by_distance),
+    ):
+        here = np.column_stack([box, np.ones(CORNERS)])
+        slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
+        offsets.append(bound - (directions @ made.corners.T).ravel())
+    return np.concatenate(slopes), np.concatenate(offsets)

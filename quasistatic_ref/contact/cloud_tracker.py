@@ -88,13 +88,12 @@ class CloudTracker:
             if nearest.proved.all():
                 return self._contacts(poses, nearest)
             check_finite(R, t)
-            last = np.cumsum([self.n_c[row] for row in self.rows]) - 1
             for i in np.flatnonzero(~nearest.proved).tolist():
                 row = int(self.rows[i])
                 if self.steps - self.made_at[row] < SHORT:
                     self.width[row] = min(2 * self.width[row], WIDE)
-                first = last[i] - self.n_c[row] + 1
-                n, phi_k = nearest.normal[:, first].copy(), float(nearest.phi[last[i]])
+                n = nearest.normal[:, self.best[i]].copy()
+                phi_k = float(nearest.phi[self.last[i]])
                 self.lists[row] = self._list(row, poses, n, phi_k)
             self._arrange()
 
@@ -134,6 +133,13 @@ class CloudTracker:
         row = owner[self.order]
         self.side, self.sign = np.concatenate([row, len(self.solids) + row]), self.signs[row, None]
         self.swaps = bool((self.sign < 0).any())
+        n_c = np.array([self.n_c[row] for row in self.rows])
+        self.last = np.cumsum(n_c) - 1
+        self.best = self.last - n_c + 1
+        if len(self.batches) == 1:  # then it can give them in that order itself
+            at = np.argsort(self.order)
+            self.batches[0].reorder(self.order)
+            self.last, self.best = at[self.last], at[self.best]
 
     def _batch(self, rows: list[int]) -> Batch:
         lists = [self.lists[row] for row in rows]
@@ -147,18 +153,18 @@ class CloudTracker:
         )
 
     def _contacts(self, poses: PairPoses, nearest: Nearest) -> ClosestPoints:
-        vectors = np.concatenate(
-            [nearest.normal.take(self.order, axis=1), nearest.local.take(self.order, axis=1)], 1
-        )
+        if len(self.batches) > 1:
+            nearest = nearest.chosen(self.order)
+        vectors = np.concatenate([nearest.normal, nearest.local], axis=1)
         term = poses.R.T.take(self.side, axis=2) * vectors[:, None]
         turned = term[0] + term[1] + term[2]
         count = len(self.order)
         n, centre = turned[:, :count], turned[:, count:]
         centre += poses.t.T.take(self.side[count:], axis=1)
-        phi = nearest.phi.take(self.order)
+        phi = nearest.phi
         foot = centre - phi * n
-        n, foot, centre = (np.ascontiguousarray(vector.T) for vector in (n, foot, centre))
-        point = nearest.point.take(self.order)
+        n, foot, centre = np.ascontiguousarray(n.T), foot.T, centre.T
+        point = nearest.point
         if self.swaps:
             n, swapped = self.sign * n, self.sign < 0
             foot, centre = np.where(swapped, centre, foot), np.where(swapped, foot, centre)

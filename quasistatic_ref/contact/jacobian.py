@@ -7,48 +7,82 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion import cross_matrix
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
 
 AXES = np.eye(3)
 
 
-def contact_jacobian(
-    kinematics: Kinematics,
-    link_alpha: NDArray[np.int64],
-    link_beta: NDArray[np.int64],
-    alpha: Array,
-    beta: Array,
-    n: Array,
-) -> Array:
-    """J of Eq. (3): relative velocity and spin, Eq. (2), per unit of delta_q.
+class ContactGeometry:
+    """Contacts of the same links at every step, in arrays that are kept.
 
     Parameters
     ----------
-    kinematics : Kinematics
-        Poses and Jacobians of the links.
-    link_alpha, link_beta : ndarray of int, shape (n_c,)
+    layout : ContactLayout
         Which links the points belong to; 0 is the world.
-    alpha, beta : ndarray, shape (n_c, 3)
-        Material points of the two bodies [m], world frame.
-    n : ndarray, shape (n_c, 3)
-        Unit normals, world frame.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 4, n_v)
-        Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha) [rad].
+    motion : Motion
+        How the links move.
     """
-    n_c, motion = len(n), kinematics.motion
-    r = np.concatenate([alpha, beta])
-    wrenches = np.zeros((2 * n_c, 4, 6))
-    wrenches[:, :3, :3] = AXES
-    wrenches[:, :3, 3:] = cross_matrix(r).transpose(0, 2, 1)  # nu_origin + omega x r
-    wrenches[:n_c, 3, 3:] = wrenches[n_c:, 3, 3:] = n
-    moved = (wrenches.reshape(-1, 6) @ kinematics.columns).reshape(2 * n_c, 4, -1)
-    moved *= motion.moves.take(np.concatenate([link_alpha, link_beta]), axis=0)
-    return motion.of_coordinates(moved[n_c:] - moved[:n_c])  # Eqs. (2)-(3)
+
+    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+        self.layout, self.motion, self.n_c = layout, motion, len(layout.names)
+        self.moves = motion.moves[np.concatenate([layout.link_alpha, layout.link_beta])]
+        # Of alpha's points, then beta's: velocity (rows 0-2) and spin (row 3) of a twist.
+        self.of_twist = np.zeros((2 * self.n_c, 4, 6))
+        self.of_twist[:, :3, :3] = AXES
+
+    def contacts(
+        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
+    ) -> Contacts:
+        """The contacts of one step, from the closest points of all pairs.
+
+        Parameters
+        ----------
+        points : ClosestPoints
+        kinematics : Kinematics
+            At the same configuration.
+        like : Contacts, optional
+            Those of an earlier step: these are then not checked again.
+        """
+        phi, n, layout = points.phi, points.n, self.layout
+        d1, d2 = tangents(n)
+        J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
+
+        def name() -> tuple[str, ...]:
+            numbered = zip(layout.names, points.point.tolist(), strict=True)
+            return tuple([f"{pair}/{i}" for pair, i in numbered])
+
+        if like is not None:
+            return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
+        return Contacts(name(), phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
+
+    def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
+        """J of Eq. (3): relative velocity and spin, Eq. (2), per unit of delta_q.
+
+        Parameters
+        ----------
+        columns : ndarray, shape (6, n_x)
+            As in :class:`~quasistatic_ref.model.system.Kinematics`.
+        alpha, beta : ndarray, shape (n_c, 3)
+            Material points of the two bodies [m], world frame.
+        n : ndarray, shape (n_c, 3)
+            Unit normals, world frame.
+
+        Returns
+        -------
+        ndarray, shape (n_c, 4, n_v)
+            Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
+            [rad].
+        """
+        n_c, of_twist = self.n_c, self.of_twist
+        r = np.concatenate([alpha, beta])
+        of_twist[:, :3, 3:] = cross_matrix(r).transpose(0, 2, 1)  # nu_origin + omega x r
+        of_twist[:n_c, 3, 3:] = of_twist[n_c:, 3, 3:] = n
+        moved = (of_twist.reshape(-1, 6) @ columns).reshape(2 * n_c, 4, columns.shape[1])
+        moved *= self.moves
+        return self.motion.of_coordinates(moved[n_c:] - moved[:n_c])  # Eqs. (2)-(3)
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -66,46 +100,37 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    every, k = np.arange(len(n)), np.abs(n).argmin(axis=1)
-    n_k = n[every, k][:, None]
-    length = np.sqrt(1 - n_k * n_k)
-    d1 = (AXES.take(k, axis=0) - n_k * n) / length
-    return d1, cross_matrix(n)[every, :, k] / length  # n x d1 = n x axis / length
+    axis = np.abs(n).argmin(axis=1)
+    at = np.arange(0, n.size, 3) + axis
+    n_axis = n.take(at)[:, None]
+    both = np.empty((2, *n.shape))
+    np.subtract(AXES.take(axis, axis=0), n_axis * n, out=both[0])
+    both[1] = cross_matrix(-n).reshape(-1, 3).take(at, axis=0)  # n x axis
+    both /= np.sqrt(1 - n_axis * n_axis)  # the length of both
+    return both[0], both[1]
 
 
-def contacts(
-    layout: ContactLayout,
-    points: ClosestPoints,
+def contact_jacobian(
     kinematics: Kinematics,
-    like: Contacts | None = None,
-) -> Contacts:
-    """The contacts of one step, from the closest points of all pairs.
+    link_alpha: NDArray[np.int64],
+    link_beta: NDArray[np.int64],
+    alpha: Array,
+    beta: Array,
+    n: Array,
+) -> Array:
+    """J of Eq. (3) of contacts between any links, for once; the links' arrays have shape (n_c,)."""
+    nothing = np.zeros(len(n))
+    names = ("",) * len(n)
+    layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)
+    return _geometry(layout, kinematics).jacobian(kinematics.columns, alpha, beta, n)
 
-    Parameters
-    ----------
-    layout : ContactLayout
-        Of the pairs that the points belong to.
-    points : ClosestPoints
-    kinematics : Kinematics
-        At the same configuration.
-    like : Contacts, optional
-        Those of an earlier step: of the same layout, so that it is not checked again.
 
-    Returns
-    -------
-    Contacts
-    """
-    phi, n = points.phi, points.n
-    d1, d2 = tangents(n)
-    J = contact_jacobian(
-        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, n
-    )
+def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+    """The contacts of one step, for once."""
+    return _geometry(layout, kinematics).contacts(points, kinematics)
 
-    def name() -> tuple[str, ...]:
-        numbered = zip(layout.names, points.point.tolist(), strict=True)
-        return tuple([f"{pair}/{i}" for pair, i in numbered])
 
-    if like is not None:
-        return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
-    mu_v, mu_omega, rows = layout.mu_v, layout.mu_omega, layout.rows
-    return Contacts(name(), phi, n, d1, d2, J, mu_v, mu_omega, rows)
+def _geometry(layout: ContactLayout, kinematics: Kinematics) -> ContactGeometry:
+    if kinematics.motion is None:
+        raise ContactError("of links that do not move has no Jacobian", field="kinematics")
+    return ContactGeometry(layout, kinematics.motion)

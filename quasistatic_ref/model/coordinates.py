@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -116,21 +117,31 @@ class Order:
     q: Indices
     v: Indices
 
+    @cached_property
+    def q_back(self) -> Indices:
+        """Which entry of our q each entry of pinocchio's is, shape (n_q,)."""
+        return np.argsort(self.q)
+
+    @cached_property
+    def v_back(self) -> Indices:
+        """The same of delta_q."""
+        return np.argsort(self.v)
+
     def paper_q(self, q: Array) -> Array:
         """Configuration in the paper's order, from pinocchio's."""
-        return q[self.q]
+        return q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's."""
-        return _scattered(np.asarray(q, dtype=np.float64), self.q)
+        return _reordered(np.asarray(q, dtype=np.float64), self.q_back)
 
     def paper_v(self, v: Array) -> Array:
         """Last axis from pinocchio's order to the paper's: delta_q, forces, Jacobians."""
-        return v[..., self.v]
+        return v.take(self.v, axis=-1)
 
     def model_v(self, v: Array) -> Array:
         """Vector of delta_q in pinocchio's order, from the paper's."""
-        return _scattered(np.asarray(v, dtype=np.float64), self.v)
+        return _reordered(np.asarray(v, dtype=np.float64), self.v_back)
 
 
 def joint_key(joint: str) -> str:
@@ -158,9 +169,8 @@ def paper_order(joints: Sequence[ModelJoint]) -> Order:
     )
 
 
-def _scattered(values: Any, at: Indices) -> Array:
+def _reordered(values: Any, at: Indices) -> Array:
     if values.shape != at.shape:
         raise ValueError(f"expected shape {at.shape}, not {values.shape}")
-    out = np.empty(at.size)
-    out[at] = values
-    return out
+    taken: Array = values.take(at)
+    return taken

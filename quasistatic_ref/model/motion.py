@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 
 Array = NDArray[np.float64]
-_OF_VECTOR = np.zeros((3, 3, 3))
-_OF_VECTOR[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
-_OF_VECTOR[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
-_OF_VECTOR = _OF_VECTOR.reshape(3, 9)
+_LEVI_CIVITA = np.zeros((3, 3, 3))
+_LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
+_LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
+_OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
 
 
 def cross_matrix(r: Array) -> Array:
@@ -64,7 +64,10 @@ class Motion:
     def of_coordinates(self, columns: Array) -> Array:
         """Per unit of delta_q, shape (..., n_v), from per unit of each joint's column."""
         # Without mimics it is a permutation, which costs less for many coordinates.
-        return columns @ self.coordinates if self.mimics else self.order.paper_v(columns)
+        if not self.mimics:
+            return self.order.paper_v(columns)
+        flat = columns.reshape(-1, columns.shape[-1]) @ self.coordinates
+        return flat.reshape(*columns.shape[:-1], flat.shape[1])
 
 
 def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:

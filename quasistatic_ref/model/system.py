@@ -44,14 +44,14 @@ class Kinematics:
     columns : ndarray, shape (6, n_x)
         Of each joint's column, velocity of the point at the world's origin and angular velocity
         of what the joint moves, in the world frame, per unit of its coordinate.
-    motion : Motion
-        Which columns move a link.
+    motion : Motion, optional
+        Which columns move a link; without it nothing moves.
     """
 
     R: Array
     t: Array
     columns: Array
-    motion: Motion
+    motion: Motion | None = None
 
     @cached_property
     def J(self) -> Array:
@@ -60,6 +60,8 @@ class Kinematics:
         Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
         frame, per unit of delta_q.
         """
+        if self.motion is None:
+            return np.zeros((len(self.t), 6, 0))
         J = self.motion.of_coordinates(self.columns * self.motion.moves)
         J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
         return J
@@ -91,6 +93,8 @@ class System:
         Mass of each link as its file says [kg].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
+    motion : Motion
+        How links move with the coordinates.
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -130,19 +134,14 @@ class System:
         self.q_start.setflags(write=False)
         u = self._order.v[self.n_a :]
         self._un_actuated = np.ix_(u, u)
-        self._motion = Motion(world.model, world.frames, self._order)
+        self.motion = Motion(world.model, world.frames, self._order)
         self._M_u = self.M_u(self.q_start) if constant_mass(world.model, self.joints) else None
         self._check_inertia()
 
     @property
-    def motion(self) -> Motion:
-        """Which columns of a :class:`Kinematics` move a link."""
-        return self._motion
-
-    @property
     def rigid(self) -> bool:
         """Whether M_u is the same array at every q, and no coordinate moves with another."""
-        return self._M_u is not None and not self._motion.mimics
+        return self._M_u is not None and not self.motion.mimics
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``."""
@@ -180,6 +179,17 @@ class System:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         order = self._order
         return order.paper_v(pin.difference(self._model, order.model_q(q), order.model_q(q_next)))
+
+    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,); q_a has shape (n_q_a,)."""
+        order, n = self._order, self.n_q_a
+        if np.shape(q_a) != (n,):
+            raise ModelError(f"must have shape ({n},)", field="q_a", value=np.shape(q_a))
+        start = order.model_q(q)
+        target = start.copy()
+        target[order.q[:n]] = q_a
+        change: Array = pin.difference(self._model, start, target)[order.v[: self.n_a]]
+        return change
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with its actuated entries replaced by q_a, shape (n_q_a,)."""
@@ -257,7 +267,7 @@ class System:
         pin.updateFramePlacements(model, data)
         poses = np.array([WORLD_POSE, *[data.oMf[frame].homogeneous for frame in self._frames]])
         columns = data.J.reshape(6, -1).copy()  # a single column comes as a vector
-        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self._motion)
+        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self.motion)
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

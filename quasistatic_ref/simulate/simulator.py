@@ -11,7 +11,7 @@ import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import BlockLayout, contacts_in_blocks
 from quasistatic_ref.contact.tracker import ContactTracker
@@ -111,6 +111,7 @@ class Simulator:
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.tracker = ContactTracker(self.pairs)
+        self.geometry = ContactGeometry(self.layout, system.motion)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self._gravity = tuple(self.gravity.tolist())
         self.weighs = np.ones(system.n_v)
@@ -182,18 +183,16 @@ class Simulator:
         """The problem of one step: everything in Eq. (13) at q."""
         system, n_a = self.system, self.system.n_a
         tau = self.weighs * system.gravity_force(q, self._gravity) + force
-        target = system.with_actuated(q, q_bar_a)
-        delta_q_bar = system.difference(q, target)  # q_bar(t + h) (-) q
-        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar[:n_a]}
-        M_u, like = system.M_u(q), self._like
+        delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
+        tau_a, tau_u, M_u, like = tau[:n_a], tau[n_a:], system.M_u(q), self._like
         if like is None or tau.shape != self.weighs.shape:  # checked once, or to say what is wrong
             at = self._contacts(points, kinematics, None)
-            like = StepData(h=self.h, K_q=self.K_q, M_u=M_u, contacts=at, cone=self.cone, **loads)
+            step = StepData(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, at, self.cone)
         else:
             at = self._contacts(points, kinematics, like.contacts)
-            like = like.moved(at, M_u, **loads)
-        self._like = like
-        return like
+            step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
+        self._like = step
+        return step
 
     def _new_problem(self, step: StepData) -> Problem:
         if self.engine != NATIVE:
@@ -215,7 +214,7 @@ class Simulator:
         self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None
     ) -> Contacts:
         if self._blocks is None:
-            return contacts(self.layout, points, kinematics, like)
+            return self.geometry.contacts(points, kinematics, like)
         return contacts_in_blocks(self.layout, self._blocks, points, kinematics, like)
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:

@@ -7,7 +7,6 @@ the steps of a simulator it starts from the answer before, where it can.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -22,6 +21,7 @@ from quasistatic_ref.solve.answer import Answer
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.units import Metric, reach_of_rows
+from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
@@ -88,6 +88,7 @@ class NativeProblem:
         self.program = Program(
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )
+        self.rows = m
         self.attempts: dict[float, list[_Attempt]] = {}
         self.metric: Metric | None = None
 
@@ -112,13 +113,17 @@ class NativeProblem:
             If it says anything but a full solution, or the numbers are not finite.
         """
         idle = self._write(scaled)
+        if not self.rows:  # not every solver takes a program without rows
+            x = np.asarray(np.linalg.solve(self.program.H, -self.program.f), dtype=np.float64)
+            statistics = SolverStatistics(self.backend, "optimal", 0, None, accuracy)
+            return Answer(x, np.zeros(0), statistics)
         accuracy = max(accuracy, BACKENDS[self.backend].floor)
         if accuracy not in self.attempts:
             options = BACKENDS[self.backend].attempts(accuracy)
             self.attempts[accuracy] = [_Attempt(one) for one in options]
         for attempt in self.attempts[accuracy]:
             reply = self._reply(attempt, scaled, accuracy)
-            if reply.solved and math.isfinite(reply.x.sum() + reply.lam.sum()):
+            if reply.solved and finite(reply.x, reply.lam):
                 break
         else:
             status = "an answer that is not finite" if reply.solved else reply.status
@@ -144,7 +149,7 @@ class NativeProblem:
             return None
         reach = -reach_of_rows(scaled.step, units)
         np.maximum(program.b, reach, out=program.b)
-        return program.b == reach
+        return np.asarray(program.b == reach)
 
     def _reply(self, attempt: _Attempt, scaled: Scaled, accuracy: float) -> Reply:
         """One attempt: from the answer before, where there is one, and else or then cold."""

@@ -33,8 +33,8 @@ class Scaled:
     def __init__(self, step: StepData, like: Metric | None = None) -> None:
         self.step, self.form = step, standard_form(step)
         try:
-            kept = like is not None and like.H is self.form.H
-            self.metric = like if kept else metric(self.form.H)
+            kept = like if like is not None and like.H is self.form.H else None
+            self.metric = metric(self.form.H) if kept is None else kept
             self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None

@@ -30,6 +30,7 @@ from quasistatic_ref.solve.native import NativeProblem, check_native
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
 from quasistatic_ref.solve.sparse import SparseProblem
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
+from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -128,10 +129,11 @@ def solve_step(
             solution = _believed(question, certify)
         else:
             solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
-    total = solution.delta_q.sum() + solution.lam.sum() + solution.lam_extra.sum()
+    numbers = [solution.delta_q, solution.lam, solution.lam_extra]
     if certify != "off":
-        total += solution.wrench.sum() + sum(solution.certificate.residuals.values())
-    if not math.isfinite(total):
+        residuals = np.array(list(solution.certificate.residuals.values()))
+        numbers += [solution.wrench.ravel(), residuals]
+    if not finite(*numbers):
         raise out_of_range(step)
     return solution
 
@@ -162,7 +164,8 @@ class _Question:
         if isinstance(self.problem, NativeProblem):
             return self.problem.answer(self.scaled, self.accuracy)
         natural = self.scaled.natural
-        answer = backend_answer(within_reach(natural), self.backend, self.accuracy, self.problem)
+        kept = self.problem if isinstance(self.problem, StepProblem) else None
+        answer = backend_answer(within_reach(natural), self.backend, self.accuracy, kept)
         idle = np.repeat(out_of_reach(natural), natural.counts)
         answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
         return answer

@@ -103,10 +103,10 @@ class SparseProblem:
         """The program in natural units, and the units."""
         form, S = sparse_form(step, self.pattern), self.coordinate
         rows = form.A.data * S[self.pattern.column]
-        norms = np.sqrt(np.bincount(form.A.indices, rows * rows, minlength=len(form.b)))
+        squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
         energy = math.sqrt(max(float(y @ self.factor.solve(y)), 0.0))  # ||H^-1 g||_H
-        units = units_from(S, np.sort(norms), energy, form.b)
+        units = units_from(S, np.sort(squares), energy, form.b)
         if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range(step)
         A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
@@ -155,4 +155,5 @@ class SparseProblem:
 
 def _row_squares(form: SparseForm) -> Array:
     """Squared lengths of the rows."""
-    return np.bincount(form.A.indices, form.A.data**2, minlength=len(form.b))
+    squares = np.bincount(form.A.indices, form.A.data**2, minlength=len(form.b))
+    return squares.astype(np.float64)

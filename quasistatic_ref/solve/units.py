@@ -56,6 +56,7 @@ class Metric:
         Diagonal of S [m, rad].
     inverse : ndarray, shape (n_v, n_v)
         Of H.
+    ones : ndarray, shape (n_v,)
     usable : bool
         Whether all units are finite and positive.
     """
@@ -63,6 +64,7 @@ class Metric:
     H: Array
     coordinate: Array
     inverse: Array
+    ones: Array
     usable: bool
 
 
@@ -70,7 +72,8 @@ def metric(H: Array) -> Metric:
     """Units in which the diagonal of H is about one, and how long a step is."""
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
-    return Metric(H, coordinate, np.linalg.inv(H), usable)
+    inverse: Array = np.linalg.inv(H).astype(np.float64)
+    return Metric(H, coordinate, inverse, np.ones(len(H)), usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -97,20 +100,22 @@ def natural_units(step: StepData) -> Units:
 
 def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not."""
-    rows = form.A * of_H.coordinate
-    row_norms = np.sort(np.sqrt(np.einsum("ij,ij->i", rows, rows)))  # NaN comes last
+    squares = np.square(form.A * of_H.coordinate) @ of_H.ones
+    squares.sort()  # NaN comes last
     energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
-    return units_from(of_H.coordinate, row_norms, energy, form.b)
+    return units_from(of_H.coordinate, squares, energy, form.b)
 
 
-def units_from(coordinate: Array, row_norms: Array, energy: float, b: Array) -> Units:
-    """Natural units from the lengths of the rows, ascending, and of the unconstrained step."""
-    length = _power_of_two(_typical(row_norms))
-    push_out = float(b.max(initial=0.0)) / length  # from penetration
-    gap = max(push_out, -float(b.min(initial=0.0)) / length)
+def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
+    """Natural units from the rows' squared lengths, ascending, and the unconstrained step's."""
+    length = _power_of_two(_typical(squares))
+    push_out, gap = 0.0, 0.0
+    if squares.size:
+        push_out = max(float(b[b.argmax()]), 0.0) / length  # from penetration
+        gap = max(push_out, -float(b[b.argmin()]) / length)
     # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
     size = max(energy, push_out) or gap or STANDSTILL
-    if not math.isfinite(energy + gap + (row_norms[-1] if row_norms.size else 0.0)):
+    if not math.isfinite(energy + gap + (squares[-1] if squares.size else 0.0)):
         size = math.nan
     return Units(coordinate, length, _power_of_two(size))
 
@@ -174,13 +179,14 @@ def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array
     return delta_q * (rho * S), lam * (rho / ell)
 
 
-def _typical(ordered: Array) -> float:
-    """Return the median of what is positive, from norms in ascending order."""
-    first, n = int(np.searchsorted(ordered, 0.0, side="right")), len(ordered)
-    middle = (n + first) / 2 - 0.5
+def _typical(squares: Array) -> float:
+    """Return the median of lengths that are not zero, from their squares in ascending order."""
+    n = len(squares)
+    first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))
     if first == n:
         return 1.0
-    return float(ordered[math.floor(middle)] + ordered[math.ceil(middle)]) / 2
+    lower, upper = (first + n - 1) // 2, (first + n) // 2
+    return (math.sqrt(squares[lower]) + math.sqrt(squares[upper])) / 2
 
 
 def _powers_of_two(x: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,11 @@ def numbers(value: Any, name: str) -> Array:
     except (TypeError, ValueError, OverflowError):
         pass
     raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def finite(*arrays: Array) -> bool:
+    """Whether all numbers of some vectors are finite; one product each, where they are."""
+    return all(math.isfinite(x.dot(x)) or bool(np.isfinite(x).all()) for x in arrays)
 
 
 def columns(value: Any, name: str, ndim: int) -> int:

@@ -300,17 +300,24 @@ class StepData:
         """Return a copy with some fields changed, validated anew."""
         return replace(self, **changes)
 
-    def moved(self, contacts: Contacts, M_u: Array, **loads: Array) -> StepData:
-        """The same kind of step elsewhere: tau_a, tau_u, delta_q_bar_a anew, nothing is checked.
+    def moved(
+        self, M_u: Array, tau_a: Array, tau_u: Array, delta_q_bar_a: Array, contacts: Contacts
+    ) -> StepData:
+        """The same kind of step elsewhere: the rest is kept, and nothing is checked.
 
         For steps in sequence, whose numbers are as good as those of the step before. M_u must be
         read-only; while it is the same array, H is not formed again.
         """
         other = object.__new__(StepData)
+        loads = {"tau_a": tau_a, "tau_u": tau_u, "delta_q_bar_a": delta_q_bar_a}
         other.__dict__.update(self.__dict__, contacts=contacts, M_u=M_u, **loads)
         if M_u is not self.M_u:
             other.__dict__.pop("H", None)
         return other
+
+    def same_as(self, other: StepData) -> bool:
+        """Tell whether two steps hold the same numbers, bit for bit."""
+        return _same(self, other)
 
 
 def _same(one: Any, two: Any) -> bool:

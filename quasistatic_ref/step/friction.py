@@ -157,11 +157,11 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
-    along = _frames(contacts) @ J  # n~, d1, d2 and spin
+    along: Array = _frames(contacts) @ J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return along
+        return np.asarray(along)
     # n~ + d~_i is a combination of these that does not change with where the contact is.
-    return contacts.combinations(name) @ along  # Eq. (4)
+    return np.asarray(contacts.combinations(name) @ along)  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:

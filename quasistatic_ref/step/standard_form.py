@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
 
@@ -50,7 +51,10 @@ def standard_form(step: StepData) -> StandardForm:
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
     A = friction_rows(contacts, step.cone).reshape(-1, step.n_v).take(rows, axis=0)  # Eq. (8)
-    b = -row_gaps(contacts, step.cone).take(rows)  # Eq. (8)
+    if step.cone == ELLIPSOID:
+        b = -row_gaps(contacts, step.cone).take(rows)
+    else:
+        b = -contacts.phi.take(step.row_contact)  # Eq. (8)
     if step.extra.names:
         A, b = np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b])
     return StandardForm(step.H, g, A, b)

@@ -12,8 +12,8 @@ from quasistatic_ref.validate.claim import FAILS, HOLDS, finding
 from quasistatic_ref.validate.registry import BY_NAME
 
 TRUE = {
-    "cross": jacobian._cross_matrix,
-    "jacobian": jacobian.contact_jacobian,
+    "cross": jacobian.cross_matrix,
+    "jacobian": jacobian.ContactGeometry.jacobian,
     "distance": cloud.signed_distance,
     "gravity": System.gravity_force,
     "M_u": System.M_u,
@@ -37,21 +37,21 @@ def straight_instead_of_a_screw(self, q, delta_q):
     return turned
 
 
-def half_the_spin(kinematics, *arguments):
+def half_the_spin(self, *arguments):
     """The other sign, rather than half, would change no answer: both spin rows are there."""
-    J = TRUE["jacobian"](kinematics, *arguments)
+    J = TRUE["jacobian"](self, *arguments)
     J[:, 3] *= 0.5
     return J
 
 
 FAULTS = {
     "r x omega instead of omega x r": (
-        jacobian, "_cross_matrix", lambda r: -TRUE["cross"](r), "rolling_sphere",
+        jacobian, "cross_matrix", lambda r: -TRUE["cross"](r), "rolling_sphere",
     ),
     "the same, against MuJoCo": (
-        jacobian, "_cross_matrix", lambda r: -TRUE["cross"](r), "mujoco_rows",
+        jacobian, "cross_matrix", lambda r: -TRUE["cross"](r), "mujoco_rows",
     ),
-    "half the spin": (jacobian, "contact_jacobian", half_the_spin, "by_hand"),
+    "half the spin": (jacobian.ContactGeometry, "jacobian", half_the_spin, "by_hand"),
     "phi of a half-space is twice as large": (
         distance, "signed_distance", half_space_twice_as_deep, "incline_sliding",
     ),

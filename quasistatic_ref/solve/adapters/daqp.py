@@ -22,11 +22,11 @@ class Daqp:
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         self.program = program
-        self.unbounded = np.full(len(program.b), np.inf)
         self.cold = np.zeros(len(program.b), dtype=np.int32)
+        unbounded = np.full(len(program.b), np.inf)
         self.model = daqp.Model()
         self.model.settings = options
-        self.model.setup(program.H, program.f, program.A, self.unbounded, program.b, self.cold)
+        self.model.setup(program.H, program.f, program.A, unbounded, program.b, self.cold)
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
@@ -35,7 +35,6 @@ class Daqp:
             H=None if same_H else p.H,
             f=p.f,
             A=p.A,
-            bupper=self.unbounded,
             blower=p.b,
             sense=None if warm else self.cold,
         )
