@@ -258,14 +258,16 @@ class System:
             self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
         force = pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
-        return np.asarray(0.0 - self._order.paper_v(force))
+        tau: Array = 0.0 - self._order.paper_v(force)
+        return tau
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
         model, data = self._model, self._data
         pin.computeJointJacobians(model, data, self._order.model_q(q))
         pin.updateFramePlacements(model, data)
-        poses = np.array([WORLD_POSE, *[data.oMf[frame].homogeneous for frame in self._frames]])
+        placements = data.oMf
+        poses = np.array([WORLD_POSE, *[placements[f].homogeneous for f in self._frames]])
         columns = data.J.reshape(6, -1).copy()  # a single column comes as a vector
         return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self.motion)
 
