@@ -1,4 +1,4 @@
-"""What the number of points costs: the bunny's surface sampled anew, and grasped in the same way."""
+"""What the number of points costs: the bunny's surface sampled anew, and grasped as before."""
 
 from __future__ import annotations
 

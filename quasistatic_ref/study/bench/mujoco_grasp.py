@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,7 @@ def mujoco_grasp(steps: int, repeat: int) -> dict[str, Any]:
     contacts are soft. It finds its contacts on the bunny's convex hull.
     """
     try:
-        import mujoco
+        mujoco: Any = import_module("mujoco")
     except ImportError:
         return {"not run": "MuJoCo is not installed; pip install quasistatic-ref[engines]"}
     mesh = models_folder() / "bunny_grasp" / "bunny.obj"
