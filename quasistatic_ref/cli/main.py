@@ -26,6 +26,7 @@ COMMANDS = {
     "extract": "write one step of a trajectory as a step file",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "figures": "make the figures, as PNG and PDF",
+    "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
 }
 

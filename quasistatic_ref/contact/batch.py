@@ -138,7 +138,8 @@ class Batch:
             [R, t] of all pairs, from the cloud's frame to the solid's.
         """
         own = pose.take(self.rows, axis=0).reshape(self.r, 12, 1)
-        return np.minimum.reduce((self.slope @ own)[..., 0] + self.offset, axis=1)
+        limit: Array = np.minimum.reduce((self.slope @ own)[..., 0] + self.offset, axis=1)
+        return limit
 
 
 def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:

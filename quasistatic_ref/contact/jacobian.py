@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.motion import OF_VECTOR, Motion
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
 
 AXES = np.eye(3)
+MINUS_CROSS = -OF_VECTOR
+"""r @ MINUS_CROSS are the entries of -[r x], row by row; row i is r x (axis i)."""
 
 
 class ContactGeometry:
@@ -28,10 +32,10 @@ class ContactGeometry:
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout, self.motion, self.n_c = layout, motion, len(layout.names)
-        self.moves = motion.moves[np.concatenate([layout.link_alpha, layout.link_beta])]
+        self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
         # Of alpha's points, then beta's: velocity (rows 0-2) and spin (row 3) of a twist.
-        self.of_twist = np.zeros((2 * self.n_c, 4, 6))
-        self.of_twist[:, :3, :3] = AXES
+        self.of_twist = np.zeros((2, self.n_c, 4, 6))
+        self.of_twist[:, :, :3, :3] = AXES
 
     def contacts(
         self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
@@ -78,11 +82,11 @@ class ContactGeometry:
         """
         n_c, of_twist = self.n_c, self.of_twist
         r = np.concatenate([alpha, beta])
-        of_twist[:, :3, 3:] = cross_matrix(r).transpose(0, 2, 1)  # nu_origin + omega x r
-        of_twist[:n_c, 3, 3:] = of_twist[n_c:, 3, 3:] = n
-        moved = (of_twist.reshape(-1, 6) @ columns).reshape(2 * n_c, 4, columns.shape[1])
+        of_twist[:, :, :3, 3:] = (r @ MINUS_CROSS).reshape(2, n_c, 3, 3)  # nu_origin + omega x r
+        of_twist[:, :, 3, 3:] = n
+        moved = (of_twist.reshape(-1, 6) @ columns).reshape(2, n_c, 4, columns.shape[1])
         moved *= self.moves
-        return self.motion.of_coordinates(moved[n_c:] - moved[:n_c])  # Eqs. (2)-(3)
+        return self.motion.of_coordinates(moved[1] - moved[0])  # Eqs. (2)-(3)
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -101,13 +105,18 @@ def tangents(n: Array) -> tuple[Array, Array]:
     d1, d2 : ndarray, shape (n_c, 3)
     """
     axis = np.abs(n).argmin(axis=1)
-    at = np.arange(0, n.size, 3) + axis
+    at = _starts(len(n)) + axis
     n_axis = n.take(at)[:, None]
     both = np.empty((2, *n.shape))
     np.subtract(AXES.take(axis, axis=0), n_axis * n, out=both[0])
-    both[1] = cross_matrix(-n).reshape(-1, 3).take(at, axis=0)  # n x axis
+    (n @ MINUS_CROSS).reshape(-1, 3).take(at, axis=0, out=both[1])  # n x axis
     both /= np.sqrt(1 - n_axis * n_axis)  # the length of both
     return both[0], both[1]
+
+
+@cache
+def _starts(n: int) -> NDArray[np.int64]:
+    return np.arange(0, 3 * n, 3)
 
 
 def contact_jacobian(

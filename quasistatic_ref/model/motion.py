@@ -14,7 +14,8 @@ Array = NDArray[np.float64]
 _LEVI_CIVITA = np.zeros((3, 3, 3))
 _LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
 _LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
-_OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
+OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
+"""r @ OF_VECTOR are the entries of [r x], row by row: each is a sum with two zeros, and exact."""
 
 
 def cross_matrix(r: Array) -> Array:
@@ -29,7 +30,7 @@ def cross_matrix(r: Array) -> Array:
     ndarray, shape (N, 3, 3)
         Its entries are those of r, exactly: each is a sum with two zeros.
     """
-    return (r @ _OF_VECTOR).reshape(-1, 3, 3)
+    return (r @ OF_VECTOR).reshape(-1, 3, 3)
 
 
 class Motion:

@@ -140,8 +140,8 @@ class System:
 
     @property
     def rigid(self) -> bool:
-        """Whether M_u is the same array at every q, and no coordinate moves with another."""
-        return self._M_u is not None and not self.motion.mimics
+        """Whether M_u is the same array at every q."""
+        return self._M_u is not None
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``."""
@@ -257,7 +257,8 @@ class System:
             self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
         force = self._workspace.gravity_torque(self._order.model_q(q))
-        return np.asarray(0.0 - self._order.paper_v(force))
+        tau: Array = 0.0 - self._order.paper_v(force)
+        return tau
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""

@@ -64,7 +64,8 @@ class Workspace:
             model, data = part.model, part.data
             pin.computeJointJacobians(model, data, q[part.q])
             pin.updateFramePlacements(model, data)
-            poses += [data.oMf[frame].homogeneous for frame in part.frames]
+            placements = data.oMf
+            poses += [placements[frame].homogeneous for frame in part.frames]
             columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
         return poses, np.concatenate([np.zeros((6, 0)), *columns], axis=1)
 

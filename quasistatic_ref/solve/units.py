@@ -56,7 +56,8 @@ class Metric:
         Diagonal of S [m, rad].
     inverse : ndarray, shape (n_v, n_v)
         Of H.
-    ones : ndarray, shape (n_v,)
+    squared : ndarray, shape (n_v,)
+        Squares of `coordinate`.
     usable : bool
         Whether all units are finite and positive.
     """
@@ -64,7 +65,7 @@ class Metric:
     H: Array
     coordinate: Array
     inverse: Array
-    ones: Array
+    squared: Array
     usable: bool
 
 
@@ -73,7 +74,7 @@ def metric(H: Array) -> Metric:
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     inverse: Array = np.linalg.inv(H).astype(np.float64)
-    return Metric(H, coordinate, inverse, np.ones(len(H)), usable)
+    return Metric(H, coordinate, inverse, coordinate * coordinate, usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -100,7 +101,7 @@ def natural_units(step: StepData) -> Units:
 
 def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not."""
-    squares = np.square(form.A * of_H.coordinate) @ of_H.ones
+    squares = np.square(form.A) @ of_H.squared  # exact: powers of two
     squares.sort()  # NaN comes last
     energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
     return units_from(of_H.coordinate, squares, energy, form.b)
@@ -109,13 +110,12 @@ def units_of(form: StandardForm, of_H: Metric) -> Units:
 def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
     """Natural units from the rows' squared lengths, ascending, and the unconstrained step's."""
     length = _power_of_two(_typical(squares))
-    push_out, gap = 0.0, 0.0
-    if squares.size:
-        push_out = max(float(b[b.argmax()]), 0.0) / length  # from penetration
-        gap = max(push_out, -float(b[b.argmin()]) / length)
+    push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
+    size = max(energy, push_out)
     # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
-    size = max(energy, push_out) or gap or STANDSTILL
-    if not math.isfinite(energy + gap + (squares[-1] if squares.size else 0.0)):
+    if size == 0:
+        size = -float(b.min(initial=0.0)) / length or STANDSTILL
+    if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
     return Units(coordinate, length, _power_of_two(size))
 

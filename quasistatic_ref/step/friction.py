@@ -173,8 +173,8 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     """
     rows = len(cone(name).row_names)
     if name == ELLIPSOID:
-        return contacts.phi[:, None] * np.eye(rows)[0]
-    return contacts.phi.repeat(rows).reshape(-1, rows)
+        return np.asarray(contacts.phi[:, None] * np.eye(rows)[0])
+    return np.asarray(contacts.phi.repeat(rows).reshape(-1, rows))
 
 
 def friction_coefficients(contacts: Contacts) -> Array:

@@ -1,0 +1,1 @@
+"""Comparing solvers on contact problems whose exact answers are known."""
