@@ -15,7 +15,7 @@ LARGE = 20
 
 
 def sizes(
-    shapes: Sequence[tuple[int, int, int]], steps: int, k: int = 4, backend: str = "piqp"
+    shapes: Sequence[tuple[int, int, int]], steps: int, k: int = 4, backend: str = "clarabel"
 ) -> list[dict[str, Any]]:
     """Time of a step for each grid of boxes (nx, ny, nz), nothing certified, after the first."""
     return [_row(shape, steps, k, backend) for shape in shapes]

@@ -36,7 +36,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     """
     if "daqp" not in native_backends():
         raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
-    steps, repeat = (6, 1) if quick else (250, 3)
+    steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
     at = places(steps)
     tell("roads")
