@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
@@ -12,6 +13,8 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.data import Contacts
 
+Indices = NDArray[np.int64]
+
 
 class BlockLayout:
     """Which columns move the bodies of each contact: a constant of a run.
@@ -20,34 +23,52 @@ class BlockLayout:
     ----------
     layout : ContactLayout
     motion : Motion
-        Without mimic joints, whose columns move with another coordinate.
     """
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
-        moves = motion.order.paper_v(motion.moves[:, 0]) > 0
+        # Joints' columns in the order of their coordinates; a mimic's is that of another.
+        owner = motion.coordinates.argmax(axis=1)
+        by_coordinate = np.argsort(owner, kind="stable")
+        owner, moves = owner[by_coordinate], motion.moves[:, 0, by_coordinate] > 0
         a, b = moves[layout.link_alpha], moves[layout.link_beta]
-        either, n_v = a | b, moves.shape[1]
-        contact, column = np.nonzero(either)  # contact by contact, ascending
-        count = either.sum(axis=1)
-        rank = np.arange(len(contact)) - np.repeat(np.cumsum(count) - count, count)
-        shape = (len(a), int(count.max(initial=0)))
-        self.column = np.full(shape, n_v)
-        self.column[contact, rank] = column
-        self.alpha, self.beta = np.zeros((2, *shape))
-        self.alpha[contact, rank], self.beta[contact, rank] = a[contact, column], b[contact, column]
-        self.model_column = np.append(motion.order.v, 0)[self.column]
-        self.n_v = n_v
+        contact, rank, joint_column = _ragged(a | b)
+        shape = (len(a), 1 + int(rank.max(initial=-1)))
+        self.joint_column, (self.alpha, self.beta) = (
+            np.zeros(shape, np.int64),
+            np.zeros((2, *shape)),
+        )
+        self.joint_column[contact, rank] = by_coordinate[joint_column]
+        self.alpha[contact, rank] = a[contact, joint_column]
+        self.beta[contact, rank] = b[contact, joint_column]
+        self.n_v = motion.coordinates.shape[1]
+        coordinate = np.zeros((len(a), self.n_v), dtype=bool)
+        coordinate[contact, owner[joint_column]] = True
+        at, place, column = _ragged(coordinate)
+        self.column = np.full((len(a), 1 + int(place.max(initial=-1))), self.n_v)
+        self.column[at, place] = column
+        self.sums = None
+        if motion.mimics:  # the columns of one coordinate add up
+            self.sums = np.zeros((*shape, self.column.shape[1]))
+            position = coordinate.cumsum(axis=1) - 1
+            self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0
 
     def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
         """J of Eq. (3), those columns."""
-        twist = kinematics.columns.T[self.model_column].transpose(0, 2, 1)  # (n_c, 6, w)
+        twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
         nu, omega = twist[:, :3], twist[:, 3:]
         a, b = self.alpha[:, None], self.beta[:, None]
         at_alpha = nu - cross_matrix(points.alpha) @ omega  # nu_origin + omega x r
         at_beta = nu - cross_matrix(points.beta) @ omega
         spin = points.n[:, None] @ (omega * (b - a))
         J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
-        return Blocks(self.column, J, self.n_v)
+        return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
+
+
+def _ragged(marked: NDArray[np.bool_]) -> tuple[Indices, Indices, Indices]:
+    """Row, rank in the row and column of each mark."""
+    row, column = np.nonzero(marked)
+    count = marked.sum(axis=1)
+    return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), column
 
 
 def contacts_in_blocks(

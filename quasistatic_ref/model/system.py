@@ -112,7 +112,7 @@ class System:
     def __init__(self, bodies: Sequence[Body]) -> None:
         self.bodies = tuple(bodies)
         world = world_of(self.bodies)
-        self._model, self._data = world.model, world.model.createData()
+        self._model, self._workspace = world.model, world.workspace
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
         self._gravity: ArrayLike | None = None
@@ -237,8 +237,7 @@ class System:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
         if self._M_u is not None:
             return self._M_u
-        # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
-        M = pin.crba(self._model, self._data, self._order.model_q(q))
+        M = self._workspace.mass(self._order.model_q(q))
         M_u: Array = M[self._un_actuated] + 0.0  # never -0.0
         M_u.setflags(write=False)
         return M_u
@@ -253,22 +252,18 @@ class System:
             Acceleration of free fall in the world frame [m/s^2].
         """
         if gravity is not self._gravity:
-            self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+            self._workspace.set_gravity(np.array(gravity, dtype=np.float64))
             # Kept only if it cannot change unseen.
             self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
+        force = self._workspace.gravity_torque(self._order.model_q(q))
         tau: Array = 0.0 - self._order.paper_v(force)
         return tau
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
-        model, data = self._model, self._data
-        pin.computeJointJacobians(model, data, self._order.model_q(q))
-        pin.updateFramePlacements(model, data)
-        placements = data.oMf
-        poses = np.array([WORLD_POSE, *[placements[f].homogeneous for f in self._frames]])
-        columns = data.J.reshape(6, -1).copy()  # a single column comes as a vector
+        found, columns = self._workspace.poses(self._order.model_q(q))
+        poses = np.array([WORLD_POSE, *found])
         return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self.motion)
 
     def body_jacobians(self, q: Array) -> Array:

@@ -23,6 +23,9 @@ GAP = 1e-4
 H, MU_V, MU_OMEGA = 0.01, 0.5, 0.01
 """Time step [s]; friction [-], [m]."""
 
+PULL = 3.0
+"""Force on each body along x [N]; friction holds 2.45 N."""
+
 BOX = f"""<?xml version="1.0"?>
 <robot name="box"><link name="box">
   <inertial><mass value="0.5"/>
@@ -42,7 +45,7 @@ class Pile:
     q : ndarray, shape (n_q,)
         Where it starts.
     force : ndarray, shape (n_v,)
-        A push on the first body [N, N m].
+        A pull on each body along x, a little more than friction holds [N, N m].
     bodies, contacts : int
     """
 
@@ -106,7 +109,7 @@ def pile(
         system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
     )
     force = np.zeros(system.n_v)
-    force[0] = 3.0 * index.size  # along x, more than friction holds
+    force[::6] = PULL  # along x, in each body's own frame
     contacts = sum(pair.n_c for pair in pairs)
     return Pile(simulator, system.q_start, force, index.size, contacts)
 
