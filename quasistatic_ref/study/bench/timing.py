@@ -61,8 +61,3 @@ def microseconds(times: Array) -> float:
 def ratio(one: Array, other: Array) -> float:
     """The median of the ratios, pair by pair."""
     return float(np.median(one / other))
-
-
-def exponent(sizes: Sequence[float], times: Sequence[float]) -> float:
-    """Slope of log(time) over log(size): time grows as size to this power."""
-    return float(np.polyfit(np.log(sizes), np.log(times), 1)[0])
