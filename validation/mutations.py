@@ -90,7 +90,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/norm.py": ("unit/test_digits.py", "unit/test_farkas.py"),
     "certify/digits.py": ("unit/test_digits.py",),
     "model/coordinates.py": ("unit/test_system.py",),
-    "model/rotation.py": ("unit/test_system.py", "unit/test_target.py", "unit/test_urdf.py"),
+    "model/rotation.py": ("unit/test_rotation.py",),
     "model/system.py": SYSTEM,
     "contact/jacobian.py": ("unit/test_jacobian.py", *CONTACT),
     "contact/cloud.py": ("unit/test_cloud.py",),

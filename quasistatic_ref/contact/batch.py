@@ -137,7 +137,9 @@ class Batch:
         pose : ndarray, shape (P, 3, 4)
             [R, t] of all pairs, from the cloud's frame to the solid's.
         """
-        own = pose.take(self.rows, axis=0).reshape(self.r, 12, 1)
+        own = pose.reshape(-1, 12, 1)
+        if len(own) != self.r:
+            own = own[self.rows]
         limit: Array = np.minimum.reduce((self.slope @ own)[..., 0] + self.offset, axis=1)
         return limit
 

@@ -120,7 +120,7 @@ def distance_to_rounded_box(
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
     outside = _norm(beyond)
-    inside = np.maximum(np.maximum(excess[..., 0], excess[..., 1]), excess[..., 2])
+    inside = np.maximum.reduce(excess, axis=-1)
     is_outside = outside > 0
     nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
     away = np.where(is_outside[..., None], beyond, nearest_face)

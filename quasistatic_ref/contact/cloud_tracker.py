@@ -85,7 +85,7 @@ class CloudTracker:
             self._arrange()
         while True:
             nearest = _joined([batch.nearest(poses) for batch in self.batches])
-            if nearest.proved.all():
+            if np.count_nonzero(nearest.proved) == len(nearest.proved):
                 return self._contacts(poses, nearest)
             check_finite(R, t)
             for i in np.flatnonzero(~nearest.proved).tolist():

@@ -72,7 +72,7 @@ class SolidRows:
         phi, normal = np.empty(len(x)), self.normal
         if self.boxes.stop:
             phi[self.boxes], normal[self.boxes] = distance_to_rounded_box(
-                np.ascontiguousarray(x[self.boxes].T).T, self.half_extents, self.ball
+                x[self.boxes], self.half_extents, self.ball
             )
         if len(self.n):
             level = x[self.planes] * self.n

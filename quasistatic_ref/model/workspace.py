@@ -55,7 +55,7 @@ class Workspace:
             entries = slice(q, q + model.nq), slice(v, v + model.nv)
             self.parts.append(Part(model, pin.Data(model), links, *entries))
             q, v = q + model.nq, v + model.nv
-        self.n_v = v
+        self.n_v, self._none = v, np.zeros((6, 0))
 
     def poses(self, q: Array) -> tuple[list[Array], Array]:
         """Pose of each link, shape (4, 4) each, and the columns of all joints, shape (6, n_x)."""
@@ -67,7 +67,7 @@ class Workspace:
             placements = data.oMf
             poses += [placements[frame].homogeneous for frame in part.frames]
             columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
-        return poses, np.concatenate([np.zeros((6, 0)), *columns], axis=1)
+        return poses, columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
 
     def mass(self, q: Array) -> Array:
         """Mass matrix, shape (n_v, n_v)."""
@@ -84,7 +84,7 @@ class Workspace:
 
     def gravity_torque(self, q: Array) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m]."""
-        torques = [
+        torques: list[Array] = [
             pin.computeGeneralizedGravity(part.model, part.data, q[part.q]) for part in self.parts
         ]
-        return np.concatenate([np.zeros(0), *torques])
+        return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])

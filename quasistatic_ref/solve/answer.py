@@ -8,7 +8,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import SolverStatistics
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Answer:
     """What a solver returned.
 

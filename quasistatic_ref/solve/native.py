@@ -123,7 +123,7 @@ class NativeProblem:
             self.attempts[accuracy] = [_Attempt(one) for one in options]
         for attempt in self.attempts[accuracy]:
             reply = self._reply(attempt, scaled, accuracy)
-            if reply.solved and finite(reply.x, reply.lam):
+            if reply.solved and finite(reply.x) and finite(reply.lam):
                 break
         else:
             status = "an answer that is not finite" if reply.solved else reply.status

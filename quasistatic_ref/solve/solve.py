@@ -129,11 +129,12 @@ def solve_step(
             solution = _believed(question, certify)
         else:
             solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
-    numbers = [solution.delta_q, solution.lam, solution.lam_extra]
-    if certify != "off":
+    good = finite(solution.delta_q) and finite(solution.lam)
+    if certify != "off" or solution.lam_extra.size:
         residuals = np.array(list(solution.certificate.residuals.values()))
-        numbers += [solution.wrench.ravel(), residuals]
-    if not finite(*numbers):
+        others = (solution.lam_extra, solution.wrench.ravel(), residuals)
+        good = good and all(map(finite, others))
+    if not good:
         raise out_of_range(step)
     return solution
 
@@ -146,7 +147,7 @@ def _native(step: StepData, backend: str, problem: Problem | None) -> NativeProb
     return None if backend == NONE else NativeProblem(step, backend)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Question:
     """A step, and who is asked for its answer, at which accuracy in natural units."""
 

@@ -31,9 +31,9 @@ def numbers(value: Any, name: str) -> Array:
     raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
 
 
-def finite(*arrays: Array) -> bool:
-    """Whether all numbers of some vectors are finite; one product each, where they are."""
-    return all(math.isfinite(x.dot(x)) or bool(np.isfinite(x).all()) for x in arrays)
+def finite(x: Array) -> bool:
+    """Whether all numbers of a vector are finite; one product, where they are."""
+    return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
 def columns(value: Any, name: str, ndim: int) -> int:

@@ -45,7 +45,7 @@ def test_a_path_in_a_scenario_stays_in_its_folder(outside, refused, tmp_path, fi
     (outside / "link.urdf").symlink_to("../outside.urdf")
     sentence = refused("inspect", path)
     assert sentence.startswith(f"{path}: bodies.ball.{field}: {LEAVES}")
-    assert f"--set bodies.ball.{field}=PATH (got {value!r})" in sentence
+    assert f"--set bodies.ball.{field}=PATH (got '{value[:60]}" in sentence  # long ones are cut
 
 
 @pytest.mark.parametrize("value", ["ball.urdf", "./ball.urdf", "sub/../ball.urdf", "{}/ball.urdf"])

@@ -14,9 +14,9 @@ from quasistatic_ref.study.bench.by_hand import hand_step
 from quasistatic_ref.study.bench.clouds import sampled, with_cloud
 from quasistatic_ref.study.bench.grasp import places
 from quasistatic_ref.study.bench.report import page, promise_rows
-from quasistatic_ref.study.bench.timing import exponent, in_turn, ratio
+from quasistatic_ref.study.bench.timing import in_turn, ratio
 from tests.helpers import error
-from tests.tolerances import ACTIVE_SET, OPTIMUM, ROUNDING
+from tests.tolerances import ACTIVE_SET, OPTIMUM
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= asked
     assert found["mujoco"].get("finite", True)
     assert [row["points"] for row in found["clouds"]] == [992, 2000]
-    assert all("failed" not in row for row in found["chains"] + found["heaps"])
+    assert [row["bodies"] for row in found["chains"] + found["heaps"]] == [2, 4, 4]
     text = (tmp_path / "bench.md").read_text()
     for title in ("by every road", "By part", "certificate", "Points", "Rows of boxes", "Heaps"):
         assert title in text
@@ -72,12 +72,9 @@ def test_times_are_taken_in_turn_and_the_least_is_kept():
     assert (times["a"] > 0).all()
 
 
-def test_ratios_are_of_pairs_and_exponents_of_powers():
-    # Medians: 2/1, 9/3, 8/2 -> 3; time = 5 n^1.25.
+def test_ratios_are_of_pairs():
+    # 2/1, 9/3, 8/2: the median is 3.
     np.testing.assert_allclose(ratio(np.array([2.0, 9, 8]), np.array([1.0, 3, 2])), 3.0)
-    sizes = [1.0, 10.0, 100.0]
-    fitted = exponent(sizes, [5 * n**1.25 for n in sizes])
-    np.testing.assert_allclose(fitted, 1.25, rtol=ROUNDING)
 
 
 ROADS = {

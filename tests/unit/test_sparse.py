@@ -17,7 +17,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.study.bench.sizes import sizes
+from quasistatic_ref.study.large import exponent, large_step, table
 from quasistatic_ref.study.piles import pile
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
@@ -174,10 +174,19 @@ def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
         np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
 
 
-def test_what_a_large_step_costs_is_told_with_its_memory(always_sparse):
-    (row,) = sizes([(3, 1, 1)], 1)
-    # 3 on the floor and 2 between neighbours, 4 contacts each
-    assert (row["bodies"], row["contacts"], row["coordinates"]) == (3, 20, 18)
-    assert row["problem"] == "SparseProblem"
+def test_the_exponent_is_that_of_a_power_law():
+    sizes = [10, 20, 40]
+    np.testing.assert_allclose(
+        exponent(sizes, [3e-4 * n**1.15 for n in sizes]), 1.15, rtol=ROUNDING
+    )
+
+
+def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
+    cost = large_step((3, 1, 1), steps=1)
+    # 3 on the floor and 2 between neighbours, 4 contacts of 6 rows each
+    assert (cost.bodies, cost.contacts, cost.coordinates, cost.rows) == (3, 20, 18, 120)
+    assert cost.sparse
+    assert 0 < sum(cost.parts.values()) <= cost.seconds * (1 + ROUNDING)
     # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
-    assert 12e-6 * (12 * 6 * 6 + 8 * 6 * 12) < row["megabytes"] < 1
+    assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
+    assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])

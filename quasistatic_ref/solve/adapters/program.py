@@ -28,7 +28,7 @@ class Program:
     b: Array
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Reply:
     """What a solver said.
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.study.bench.acceptance import PAPER, STRETCH
+from quasistatic_ref.study.large import LargeStep, table
 
 Rows = list[tuple[str, ...]]
 
@@ -47,9 +48,9 @@ def page(tables: Mapping[str, Any]) -> str:
         *_section("By part, engine and backend [us]", _parts(tables["parts"])),
         *_section("With a certificate, DAQP, native [us]", _pairs(tables["certification"])),
         *_section("Points of the cloud", _clouds(tables["clouds"])),
-        *_section("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
-        *_section("Rows of 50 boxes, other numbers of contacts", _sizes(tables["contacts"])),
-        *_section("Heaps", _sizes(tables["heaps"])),
+        *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
+        *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),
+        *_titled("Heaps", _sizes(tables["heaps"])),
     ]
     return "\n".join(lines) + "\n"
 
@@ -91,20 +92,16 @@ def _clouds(clouds: Sequence[Mapping[str, Any]]) -> Rows:
     return rows
 
 
-def _sizes(sizes: Sequence[Mapping[str, Any]]) -> Rows:
-    rows: Rows = [("boxes", "bodies", "contacts", "coordinates", "backend", "step [us]", "by",
-                   "memory [MB]")]  # fmt: skip
-    for row in sizes:
-        time = f"{row['microseconds']:.0f}" if "microseconds" in row else "not solved"
-        counts = [str(row[name]) for name in ("bodies", "contacts", "coordinates")]
-        grid = " x ".join(map(str, row["boxes"]))
-        memory = f"{row['megabytes']:.2f}" if "megabytes" in row else "-"
-        rows.append((grid, *counts, row["backend"], time, row.get("problem", "-"), memory))
-    return rows
+def _sizes(sizes: Sequence[Mapping[str, Any]]) -> list[str]:
+    return table("bodies", [LargeStep(**row) for row in sizes]).split("\n") if sizes else []
 
 
 def _section(title: str, rows: Rows) -> list[str]:
-    return ["", f"## {title}", "", *_table(rows)] if len(rows) > 1 else []
+    return _titled(title, _table(rows)) if len(rows) > 1 else []
+
+
+def _titled(title: str, lines: list[str]) -> list[str]:
+    return ["", f"## {title}", "", *lines] if lines else []
 
 
 def _table(rows: Rows) -> list[str]:

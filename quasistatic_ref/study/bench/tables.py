@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,14 @@ from quasistatic_ref.study.bench.acceptance import from_paper, promises
 from quasistatic_ref.study.bench.clouds import clouds
 from quasistatic_ref.study.bench.grasp import certification, parts, places, roads
 from quasistatic_ref.study.bench.mujoco_grasp import mujoco_grasp
-from quasistatic_ref.study.bench.sizes import fitted, sizes
+from quasistatic_ref.study.large import (
+    CHAINS,
+    LargeStep,
+    chains,
+    contact_counts,
+    exponent,
+    piles,
+)
 
 Tell = Callable[[str], None]
 
@@ -36,7 +44,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     """
     if "daqp" not in native_backends():
         raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
-    steps, repeat = (6, 1) if quick else (250, 3)
+    steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
     at = places(steps)
     tell("roads")
@@ -51,15 +59,13 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     tell("clouds")
     found["clouds"] = clouds(at, (2_000,) if quick else (1_000, 10_000, 100_000, 1_000_000))
     tell("sizes")
-    grids = [(2, 1, 1), (4, 1, 1)] if quick else [(n, 1, 1) for n in (1, 2, 5, 10, 20, 50, 100)]
-    found["chains"] = sizes(grids, 3 if quick else 15)
-    per_pair = [] if quick else [1, 2, 5, 8]
-    found["contacts"] = [row for k in per_pair for row in sizes([(50, 1, 1)], 10, k)]
-    heaps = [(2, 1, 2)] if quick else [(3, 2, 2), (4, 3, 3), (5, 5, 4)]
-    found["heaps"] = sizes(heaps, 2 if quick else 10)
+    rows = chains((2, 4) if quick else (1, 5, *CHAINS))
+    counts = [] if quick else contact_counts()
+    heaps = piles(((2, 1, 2),)) if quick else piles()
+    found["chains"], found["contacts"], found["heaps"] = map(_records, (rows, counts, heaps))
     found["exponents"] = {
-        "bodies": fitted(found["chains"], "bodies"),
-        "contacts": fitted(found["contacts"], "contacts"),
+        "bodies": _fitted([row for row in rows if row.bodies >= CHAINS[0]], "bodies"),
+        "contacts": _fitted(counts, "contacts"),
     }
     found["promises"], found["times_paper"] = promises(found), from_paper(found)
     return found
@@ -73,3 +79,14 @@ def machine() -> dict[str, str]:
         "numpy": np.__version__,
         "system": f"{platform.system()} {platform.machine()}",
     }
+
+
+def _records(steps: Sequence[LargeStep]) -> list[dict[str, Any]]:
+    return [asdict(step) for step in steps]
+
+
+def _fitted(steps: Sequence[LargeStep], over: str) -> float | None:
+    """Exponent of time over bodies or contacts; None with fewer than two sizes."""
+    if len(steps) < 2:
+        return None
+    return exponent([getattr(step, over) for step in steps], [step.seconds for step in steps])

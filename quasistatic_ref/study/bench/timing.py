@@ -13,15 +13,20 @@ from quasistatic_ref.step.data import Array
 Job = Callable[[], Any]
 
 
-def seconds(job: Job) -> float:
-    """Wall time of one call [s]."""
-    start = time.perf_counter()
+Clock = Callable[[], float]
+
+
+def seconds(job: Job, clock: Clock = time.perf_counter) -> float:
+    """Time of one call [s]."""
+    start = clock()
     job()
-    return time.perf_counter() - start
+    return clock() - start
 
 
-def in_turn(rounds: Sequence[Mapping[str, Job]], repeat: int = 1) -> dict[str, Array]:
-    """Wall times of several jobs that take turns, each round in the order given.
+def in_turn(
+    rounds: Sequence[Mapping[str, Job]], repeat: int = 1, clock: Clock = time.perf_counter
+) -> dict[str, Array]:
+    """Times of several jobs that take turns, each round in the order given.
 
     Parameters
     ----------
@@ -30,6 +35,9 @@ def in_turn(rounds: Sequence[Mapping[str, Job]], repeat: int = 1) -> dict[str, A
     repeat : int
         How often all rounds are gone through; of each job and round the least time is kept, which
         other processes have disturbed least.
+    clock : callable
+        Wall time, or the processor time of this thread, which means over many calls need on a
+        machine that has other things to do.
 
     Returns
     -------
@@ -38,7 +46,7 @@ def in_turn(rounds: Sequence[Mapping[str, Job]], repeat: int = 1) -> dict[str, A
     """
     best: dict[str, Array] = {}
     for _ in range(repeat):
-        taken = [{name: seconds(job) for name, job in jobs.items()} for jobs in rounds]
+        taken = [{name: seconds(job, clock) for name, job in jobs.items()} for jobs in rounds]
         for name in rounds[0]:
             times = np.array([row[name] for row in taken])
             best[name] = np.minimum(best.get(name, times), times)
@@ -53,8 +61,3 @@ def microseconds(times: Array) -> float:
 def ratio(one: Array, other: Array) -> float:
     """The median of the ratios, pair by pair."""
     return float(np.median(one / other))
-
-
-def exponent(sizes: Sequence[float], times: Sequence[float]) -> float:
-    """Slope of log(time) over log(size): time grows as size to this power."""
-    return float(np.polyfit(np.log(sizes), np.log(times), 1)[0])
