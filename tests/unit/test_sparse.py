@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import contacts
-from quasistatic_ref.contact.sparse_jacobian import BlockLayout, contacts_in_blocks
+from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepNotSolved
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
@@ -51,7 +51,7 @@ def test_blocks_are_the_columns_of_the_dense_jacobian_and_the_others_are_zero(sc
     kinematics = system.kinematics(q)
     points = closest_points(pairs, kinematics)
     dense = contacts(layout, points, kinematics)
-    sparse = contacts_in_blocks(layout, BlockLayout(layout, system.motion), points, kinematics)
+    sparse = BlockGeometry(layout, system.motion).contacts(points, kinematics)
     assert sparse.n_v == system.n_v
     np.testing.assert_allclose(sparse.J, dense.J, rtol=EXACT, atol=ROUNDING)
     delta_q = np.sin(np.arange(system.n_v))
