@@ -55,8 +55,8 @@ class Placements:
     def poses(self, R: Array, t: Array) -> PairPoses:
         """Poses from those of the links, shapes (L, 3, 3) and (L, 3).
 
-        Each product is one of 3 x 3 and 3 x 4 matrices, whatever the number of pairs, so that a pair's pose
-        does not depend on the others.
+        Each product is one of 3 x 3 and 3 x 4 matrices, whatever the number of pairs, so that a
+        pair's pose does not depend on the others.
         """
         world = R.take(self.link, axis=0) @ self.on_link
         world[..., 3] += t.take(self.link, axis=0)
