@@ -104,7 +104,7 @@ class Batch:
 
     def nearest(self, poses: PairPoses) -> Nearest:
         """The closest points at the poses of all pairs."""
-        pose = np.concatenate([poses.R_rel, poses.t_rel[..., None]], axis=2)
+        pose = poses.relative
         # The sums of `rotated`, without broadcasting, which takes longer than the sums.
         term = pose.T.take(self.of, axis=2) * self.columns
         x = term[0] + term[1] + term[2] + term[3]

@@ -141,8 +141,9 @@ def _points_on_solid(
     solid: Placed, other: Placed, points: Array, radius: float, k: int | None = None, first: int = 0
 ) -> ClosestPoints:
     """Points of another body, each with a ball about it, on a solid: all, or the k closest."""
-    R = solid.R.T @ other.R
-    in_solid = rotated(R, points) + solid.R.T @ (other.t - solid.t)
+    # One product, as a tracker has it for all pairs at once: the bits are then the same.
+    relative = solid.R.T @ np.column_stack([other.R, other.t - solid.t])
+    in_solid = rotated(relative[:, :3], points) + relative[:, 3]
     phi, normal = signed_distance(solid.shape, in_solid)
     index = np.arange(len(points)) if k is None else closest(phi, k)
     n = rotated(solid.R, normal[index])
@@ -159,4 +160,5 @@ def _points_on_solid(
 
 def _placed(placed: PlacedShape, R: Array, t: Array) -> Placed:
     R_link, t_link = R[placed.link], t[placed.link]
-    return Placed(placed.shape, R_link @ placed.R, R_link @ placed.t + t_link)
+    world = R_link @ np.column_stack([placed.R, placed.t])
+    return Placed(placed.shape, world[:, :3], world[:, 3] + t_link)

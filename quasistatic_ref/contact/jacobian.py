@@ -16,7 +16,10 @@ from quasistatic_ref.step.data import Array, Contacts
 
 AXES = np.eye(3)
 MINUS_CROSS = -OF_VECTOR
-"""r @ MINUS_CROSS are the entries of -[r x], row by row; row i is r x (axis i)."""
+"""r @ MINUS_CROSS are the entries of -[r x], row by row."""
+
+CROSS_AXES = -OF_VECTOR
+"""n @ CROSS_AXES are n x (axis i), one after the other: the rows of -[n x]."""
 
 
 class ContactGeometry:
@@ -109,7 +112,7 @@ def tangents(n: Array) -> tuple[Array, Array]:
     n_axis = n.take(at)[:, None]
     both = np.empty((2, *n.shape))
     np.subtract(AXES.take(axis, axis=0), n_axis * n, out=both[0])
-    (n @ MINUS_CROSS).reshape(-1, 3).take(at, axis=0, out=both[1])  # n x axis
+    both[1] = (n @ CROSS_AXES).reshape(-1, 3).take(at, axis=0)  # n x axis
     both /= np.sqrt(1 - n_axis * n_axis)  # the length of both
     return both[0], both[1]
 

@@ -18,14 +18,23 @@ class PairPoses(NamedTuple):
     ----------
     R, t : ndarray, shapes (2 P, 3, 3) and (2 P, 3)
         From the shapes' frames to the world [-], [m]: those of the solids, then of the points.
-    R_rel, t_rel : ndarray, shapes (P, 3, 3) and (P, 3)
-        From the points' frame to the solid's.
+    relative : ndarray, shape (P, 3, 4)
+        [R, t] from the points' frame to the solid's.
     """
 
     R: Array
     t: Array
-    R_rel: Array
-    t_rel: Array
+    relative: Array
+
+    @property
+    def R_rel(self) -> Array:
+        """Rotations from the points' frame to the solid's, shape (P, 3, 3)."""
+        return self.relative[..., :3]
+
+    @property
+    def t_rel(self) -> Array:
+        """Origins of the points' frame in the solid's, shape (P, 3) [m]."""
+        return self.relative[..., 3]
 
 
 class Placements:
@@ -40,23 +49,21 @@ class Placements:
         sides = (*solids, *clouds)
         self.P = len(solids)
         self.link = np.array([side.link for side in sides], dtype=np.int64)
-        self.R = np.array([side.R for side in sides]).reshape(-1, 3, 3)
-        self.t = np.array([side.t for side in sides]).reshape(-1, 3, 1)
+        on_link = [np.column_stack([side.R, side.t]) for side in sides]
+        self.on_link = np.array(on_link).reshape(-1, 3, 4)
 
     def poses(self, R: Array, t: Array) -> PairPoses:
         """Poses from those of the links, shapes (L, 3, 3) and (L, 3).
 
-        Each product is one of 3 x 3 matrices, whatever the number of pairs, so that a pair's pose
-        does not depend on the others.
+        Each product is one of 3 x 3 and 3 x 4 matrices, whatever the number of pairs, so that a
+        pair's pose does not depend on the others.
         """
-        R_link = R.take(self.link, axis=0)
-        R_all = R_link @ self.R
-        t_all = (R_link @ self.t)[..., 0] + t.take(self.link, axis=0)
-        inverse = R_all[: self.P].transpose(0, 2, 1)
-        apart = t_all[self.P :] - t_all[: self.P]
-        return PairPoses(
-            R_all, t_all, inverse @ R_all[self.P :], (inverse @ apart[..., None])[..., 0]
-        )
+        world = R.take(self.link, axis=0) @ self.on_link
+        world[..., 3] += t.take(self.link, axis=0)
+        solids, points = world[: self.P], world[self.P :].copy()
+        points[..., 3] -= solids[..., 3]
+        relative = solids[..., :3].transpose(0, 2, 1) @ points
+        return PairPoses(world[..., :3], world[..., 3], relative)
 
 
 def rotated(R: Array, points: Array) -> Array:

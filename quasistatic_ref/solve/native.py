@@ -91,16 +91,21 @@ class NativeProblem:
         self.rows = m
         self.attempts: dict[float, list[_Attempt]] = {}
         self.metric: Metric | None = None
+        self.fitting: StepData | None = None
 
     def fits(self, step: StepData) -> bool:
         """Tell whether a step can be written into the same arrays."""
+        if step is self.fitting:  # asked by a simulator, and again when it is solved
+            return True
         like = self.like
-        return (
+        fits = (
             (step.n_a, step.n_u) == (like.n_a, like.n_u)
             and step.cone == like.cone
             and (step.counts is like.counts or np.array_equal(step.counts, like.counts))
             and len(step.extra.names) == len(like.extra.names)
         )
+        self.fitting = step if fits else None
+        return fits
 
     def answer(self, scaled: Scaled, accuracy: float) -> Answer:
         """What the backend says to a step, in natural units.
