@@ -119,9 +119,9 @@ class Simulator:
         check_engine(self.engine)
         self._curved = CVXPY if engine is None else engine  # extensions that are more than rows
         self.problem: Problem | None = None
+        large = 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
         able = may_be_sparse(self.engine, backend, certify) and extension is None and system.rigid
-        large = able and 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
-        geometry = BlockGeometry if large else ContactGeometry
+        geometry = BlockGeometry if large and able else ContactGeometry
         self.geometry = geometry(self.layout, system.motion)
         self._like: StepData | None = None
         self._here: tuple[bytes, Kinematics] | None = None
@@ -195,13 +195,12 @@ class Simulator:
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a problem that is built once."""
-        engine = self.engine if own is None else self._curved
         if self.backend != NONE and (self.problem is None or not self.problem.fits(step)):
             self.problem = problem_for(step, self.engine, self.backend)
         return solve_step(
             step,
             self.backend,
-            engine=engine,
+            engine=self.engine if own is None else self._curved,
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,

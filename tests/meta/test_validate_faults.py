@@ -4,8 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from quasistatic_ref.contact import cloud, distance, jacobian
-from quasistatic_ref.model.shapes import HalfSpace
+from quasistatic_ref.contact import jacobian, solid_rows
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.validate.claim import FAILS, HOLDS, finding
@@ -13,7 +12,7 @@ from quasistatic_ref.validate.registry import BY_NAME
 
 TRUE = {
     "jacobian": jacobian.ContactGeometry.jacobian,
-    "distance": cloud.signed_distance,
+    "distance": solid_rows.SolidRows.__call__,
     "gravity": System.gravity_force,
     "M_u": System.M_u,
     "integrate": System.integrate,
@@ -21,9 +20,10 @@ TRUE = {
 }
 
 
-def half_space_twice_as_deep(shape, points):
-    phi, normal = TRUE["distance"](shape, points)
-    return (2 * phi if isinstance(shape, HalfSpace) else phi), normal
+def half_space_twice_as_deep(self, x):
+    phi, normal = TRUE["distance"](self, x)
+    phi[self.planes] *= 2
+    return phi, normal
 
 
 def straight_instead_of_a_screw(self, q, delta_q):
@@ -52,7 +52,7 @@ FAULTS = {
     ),
     "half the spin": (jacobian.ContactGeometry, "jacobian", half_the_spin, "by_hand"),
     "phi of a half-space is twice as large": (
-        distance, "signed_distance", half_space_twice_as_deep, "incline_sliding",
+        solid_rows.SolidRows, "__call__", half_space_twice_as_deep, "incline_sliding",
     ),
     "gravity is half": (
         System, "gravity_force", lambda s, q, g: 0.5 * TRUE["gravity"](s, q, g), "free_fall",
