@@ -31,9 +31,7 @@ def normal_direction(n: Array) -> Array:
     -------
     ndarray, shape (n_c, 4)
     """
-    n_tilde = np.zeros((len(n), 4))
-    n_tilde[:, :3] = n
-    return n_tilde
+    return np.concatenate([n, np.zeros((len(n), 1))], axis=1)
 
 
 def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
@@ -51,11 +49,9 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
     ndarray, shape (n_c, 4, 4)
         Contact, direction i, component of (2).
     """
-    d_tilde, mu_v = np.zeros((len(mu_v), 4, 4)), mu_v[:, None]
-    np.multiply(mu_v, d1, out=d_tilde[:, 0, :3])  # Eq. (5)
-    np.multiply(mu_v, d2, out=d_tilde[:, 1, :3])  # Eq. (5)
-    np.negative(d_tilde[:, :2], out=d_tilde[:, 2:])  # Eq. (6)
-    return d_tilde
+    d_tilde_1 = normal_direction(mu_v[:, None] * d1)  # Eq. (5)
+    d_tilde_2 = normal_direction(mu_v[:, None] * d2)  # Eq. (5)
+    return np.stack([d_tilde_1, d_tilde_2, -d_tilde_1, -d_tilde_2], axis=1)  # Eq. (6)
 
 
 def torsional_directions(mu_omega: Array) -> Array:
@@ -70,10 +66,8 @@ def torsional_directions(mu_omega: Array) -> Array:
     -------
     ndarray, shape (n_c, 2, 4)
     """
-    d_tilde = np.zeros((len(mu_omega), 2, 4))
-    d_tilde[:, 0, 3] = mu_omega  # Eq. (7)
-    np.negative(d_tilde[:, 0], out=d_tilde[:, 1])
-    return d_tilde
+    d_tilde_5 = np.concatenate([np.zeros((len(mu_omega), 3)), mu_omega[:, None]], axis=1)
+    return np.stack([d_tilde_5, -d_tilde_5], axis=1)  # Eq. (7)
 
 
 def pyramid(contacts: Contacts) -> Array:
@@ -211,11 +205,8 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     counts = cone(name).counts(contacts.rows)
     impulses = np.zeros((contacts.n_c, len(cone(name).table)))
     impulses[np.arange(impulses.shape[1]) < counts[:, None]] = lam
-    wrench = np.empty((contacts.n_c, 4))
-    wrench[:, [0, 1, 3]] = friction_coefficients(contacts) * (impulses @ cone(name).table)
-    wrench[:, 2] = impulses.sum(axis=1)
-    wrench /= h
-    return wrench
+    f_d1, f_d2, tau_n = (friction_coefficients(contacts) * (impulses @ cone(name).table)).T
+    return np.stack([f_d1, f_d2, impulses.sum(axis=1), tau_n], axis=1) / h
 
 
 def _frames(contacts: Contacts) -> Array:

@@ -64,8 +64,8 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     native.step(at.q[0], at.goals[0])  # builds the program that both solve
     assert isinstance(native.problem, NativeProblem)
     alone_call = BareDaqp(native.problem.program)
-    # Each beside the native step, in turn with it alone: a step then finds the caches as a step of
-    # a run does, and not as CVXPY left them.
+    # Each in turn with the native step alone, and that after another one: it then finds the caches
+    # as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(compiled.step, q, goal),
@@ -78,7 +78,11 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     for name, other in others.items():
         few = slice(None, None, FEWER.get(name, 1))
         rounds: list[dict[str, Job]] = [
-            {"native": partial(native.step, q, goal), name: other(q, goal)}
+            {
+                "before": partial(native.step, q, goal),
+                "native": partial(native.step, q, goal),
+                name: other(q, goal),
+            }
             for q, goal in zip(at.q[few], at.goals[few], strict=True)
         ]
         # The slow ones wait for their turn on a busy machine, and that is not their time.
