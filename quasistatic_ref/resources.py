@@ -1,4 +1,4 @@
-"""Where the models that come with the package are: in the wheel, or beside it in a checkout."""
+"""Where the data that come with the package are: in the wheel, or beside it in a checkout."""
 
 from __future__ import annotations
 
@@ -10,10 +10,20 @@ from quasistatic_ref.errors import ScenarioError, suggestion
 
 def models_folder() -> Path:
     """The folder of the models that come with the package."""
+    return _folder("models", "models")
+
+
+def vectors_folder() -> Path:
+    """The folder of the reference vectors that come with the package."""
+    return _folder("validation/vectors", "vectors/data")
+
+
+def _folder(beside: str, inside: str) -> Path:
+    """Return a folder by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parent
-    beside = package.parent / "models"
-    in_checkout = (package.parent / "pyproject.toml").is_file() and beside.is_dir()
-    return beside if in_checkout else package / "models"
+    root = package.parent
+    in_checkout = (root / "pyproject.toml").is_file() and (root / beside).is_dir()
+    return root / beside if in_checkout else package / inside
 
 
 def scenario_names() -> list[str]:

@@ -20,7 +20,7 @@ before they are branched on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from flint import ctx, fmpq
@@ -63,7 +63,37 @@ class Optimum:
     walks: int
 
 
-def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Optimum | Farkas:
+def most_violated(point: Point) -> tuple[int | None, list[int]]:
+    """Return a violated row, if there is one, and all signs once there is none.
+
+    Any choice of the row is right. The most violated one, the least index of a tie, takes a
+    fifth of the walks that the least index takes from a cold start on a grasp.
+    """
+    shown = [i for i, sign in enumerate(point.slack_signs) if sign == -1]
+    if shown and point.balls is not None:
+        slack = point.balls.slack
+        return min(shown, key=lambda i: slack[i].mid()), []
+    return least_index(point)
+
+
+def least_index(point: Point) -> tuple[int | None, list[int]]:
+    """Return the first violated row, likewise.
+
+    It depends on exact signs alone, not on the midpoints of balls: whoever implements the method
+    walks the same way.
+    """
+    signs = point.decided_slack_signs
+    violated = [i for i, sign in enumerate(signs) if sign == -1]
+    return (violated[0], []) if violated else (None, signs)
+
+
+Choice = Callable[[Point], tuple[int | None, list[int]]]
+"""Which violated row is added next."""
+
+
+def dual_active_set(
+    form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
+) -> Optimum | Farkas:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
@@ -73,6 +103,8 @@ def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Optimum | Fark
     warm : sequence of int
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
+    violated : callable
+        Chooses the row to add: :func:`most_violated` or :func:`least_index`.
 
     Returns
     -------
@@ -87,7 +119,7 @@ def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Optimum | Fark
     point = _start(form, balls, warm)
     walks = 0
     while True:
-        p, signs = _violated(point)
+        p, signs = violated(point)
         if p is None:
             return Optimum(_without_zeros(point), signs, walks)
         after = _walk(point, p)
@@ -105,21 +137,6 @@ def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Point:
         if kept == working:
             return point
         working = kept
-
-
-def _violated(point: Point) -> tuple[int | None, list[int]]:
-    """Return a violated row, if there is one, and all signs once there is none.
-
-    Any choice of the row is right. The most violated one, the least index of a tie, takes a
-    fifth of the walks that the least index takes from a cold start on a grasp.
-    """
-    shown = [i for i, sign in enumerate(point.slack_signs) if sign == -1]
-    if shown and point.balls is not None:
-        slack = point.balls.slack
-        return min(shown, key=lambda i: slack[i].mid()), []
-    signs = point.decided_slack_signs
-    hidden = [i for i, sign in enumerate(signs) if sign == -1]
-    return (hidden[0], []) if hidden else (None, signs)
 
 
 def _walk(point: Point, p: int) -> Point | Farkas:

@@ -142,13 +142,22 @@ def enclosure(step: StepData) -> Enclosure | None:
         return Enclosure(delta_q, lam, _net(form, found), None, error) if error < ENCLOSED else None
 
 
-def checked_pair(step: StepData) -> Checked | None:
-    """A pair strictly inside of all cones, checked in balls; None if none is found."""
+def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | None:
+    """A pair strictly inside of all cones, checked in balls; None if none is found.
+
+    Parameters
+    ----------
+    step : StepData
+    gap : arb
+        Duality gap asked for, where the unconstrained step has length one.
+    bits : int
+        Precision, five times as many as the gap has.
+    """
     form = exact_form(step)
     balls = ball_form(form)
-    with ctx.workprec(BITS):
+    with ctx.workprec(bits):
         mu = _coefficients(step)
-        guess = _interior(step, form, balls, mu)
+        guess = _interior(step, form, balls, mu, gap)
         return None if guess is None else _checked(step, form, balls, mu, guess.pair)
 
 
@@ -172,7 +181,9 @@ def _blocks(step: StepData) -> list[range]:
     return contacts + [range(4 * n_c + i, 4 * n_c + i + 1) for i in range(own)]
 
 
-def _interior(step: StepData, form: ExactForm, balls: BallForm, mu: list[arb]) -> Guess | None:
+def _interior(
+    step: StepData, form: ExactForm, balls: BallForm, mu: list[arb], gap: arb = GAP
+) -> Guess | None:
     """Return a pair in the units of the form, found in units of about one."""
     n = form.n
     root = [(1 / arb(form.H[v, v]).sqrt()).mid() for v in range(n)]
@@ -199,7 +210,7 @@ def _interior(step: StepData, form: ExactForm, balls: BallForm, mu: list[arb]) -
             for block, ell in zip(blocks, length, strict=True)
         ],
     )
-    pair = interior_point(problem, GAP)
+    pair = interior_point(problem, gap)
     if pair is None:
         return None
     x = arb_mat(n, 1, [size * root[v] * pair.x[v, 0] for v in range(n)]).mid()

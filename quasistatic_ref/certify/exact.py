@@ -16,7 +16,13 @@ import numpy as np
 from flint import arb, ctx, fmpq
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
+from quasistatic_ref.certify.active_set import (
+    Choice,
+    Farkas,
+    Optimum,
+    dual_active_set,
+    most_violated,
+)
 from quasistatic_ref.certify.balls import PRECISION, Balls
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.kkt import Rational, rational_solution
@@ -66,7 +72,9 @@ class ExactOptimum:
     walks: int
 
 
-def exact_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Farkas:
+def exact_optimum(
+    form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
+) -> ExactOptimum | Farkas:
     """The exact optimum, or an exact proof that there is none.
 
     Parameters
@@ -74,6 +82,8 @@ def exact_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | F
     form : ExactForm
     warm : sequence of int
         Rows that a solver found active, in order of preference; any rows will do.
+    violated : callable
+        Which violated row is added next; it may change lam and the working set, nothing else.
 
     Returns
     -------
@@ -84,7 +94,7 @@ def exact_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | F
     StepDataError
         If H is not positive definite without rounding.
     """
-    end = dual_active_set(form, warm)
+    end = dual_active_set(form, warm, violated)
     return end if isinstance(end, Farkas) else _rounded(form, end)
 
 

@@ -24,6 +24,7 @@ COMMANDS = {
     "verify": "re-check an answer and its certificate without any solver",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "extract": "write one step of a trajectory as a step file",
+    "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",

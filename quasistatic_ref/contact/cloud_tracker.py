@@ -20,6 +20,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
 from quasistatic_ref.contact.shortlist import Shortlist, shortlist
 from quasistatic_ref.contact.solid_rows import kind_order
+from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
@@ -28,6 +29,9 @@ WIDTH = 32
 
 WIDE = 256
 """Length above which a list, of points that are equally close, is measured by itself."""
+
+ATTEMPTS = 3
+"""With the lists as they are, with new ones, and with lists of all points."""
 
 SHORT = 8
 """Steps; a list that suffices for fewer is made twice as long, up to WIDE."""
@@ -62,7 +66,7 @@ class CloudTracker:
         self.trees = [_tree(cloud) for cloud in self.clouds]
         self.placements = Placements(solids, clouds)
         self.signs = np.array([sides[p][2] for p in self.pair])
-        self.n_c = [pairs[p].n_c for p in self.pair]
+        self.n_c, self.names = [pairs[p].n_c for p in self.pair], [pairs[p].name for p in self.pair]
         self.width = [max(WIDTH, 4 * n_c) for n_c in self.n_c]
         self.lists: list[Shortlist] = []
         self.batches: list[Batch] = []
@@ -75,7 +79,7 @@ class CloudTracker:
         Raises
         ------
         ContactError
-            If a pose is not finite.
+            If a pose is not finite, or a distance is no number.
         """
         poses = self.placements.poses(R, t)
         self.steps += 1
@@ -83,7 +87,7 @@ class CloudTracker:
             check_finite(R, t)
             self.lists = [self._first_list(row, poses) for row in range(len(self.solids))]
             self._arrange()
-        while True:
+        for attempt in range(ATTEMPTS):
             nearest = _joined([batch.nearest(poses) for batch in self.batches])
             if np.count_nonzero(nearest.proved) == len(nearest.proved):
                 return self._contacts(poses, nearest)
@@ -94,8 +98,12 @@ class CloudTracker:
                     self.width[row] = min(2 * self.width[row], WIDE)
                 n = nearest.normal[:, self.best[i]].copy()
                 phi_k = float(nearest.phi[self.last[i]])
-                self.lists[row] = self._list(row, poses, n, phi_k)
+                # A new list is proved where it was made; if not, for some error, all points are.
+                width = len(self.clouds[row].points) if attempt else self.width[row]
+                self.lists[row] = self._list(row, poses, n, phi_k, width)
             self._arrange()
+        unknown = ", ".join(self.names[row] for row in self.rows[~nearest.proved])
+        raise ContactError("has distances that are not numbers", field=unknown)
 
     def _first_list(self, row: int, poses: PairPoses) -> Shortlist:
         """A list that starts from some points of the cloud, and one that starts from its best."""
@@ -103,9 +111,9 @@ class CloudTracker:
         R, t = poses.R_rel[row], poses.t_rel[row]
         some = points[:: max(1, len(points) // SOME)]
         phi, normal = signed_distance(solid, rotated(R, some) + t)
-        return self._list(row, poses, normal[phi.argmin()], np.inf)
+        return self._list(row, poses, normal[phi.argmin()], np.inf, self.width[row])
 
-    def _list(self, row: int, poses: PairPoses, n: Array, phi_k: float) -> Shortlist:
+    def _list(self, row: int, poses: PairPoses, n: Array, phi_k: float, width: int) -> Shortlist:
         """A list of one pair at these poses; n and phi_k as :func:`shortlist` wants them."""
         self.lists_made += 1
         self.made_at[row] = self.steps
@@ -117,7 +125,7 @@ class CloudTracker:
             n,
             phi_k,
             self.n_c[row],
-            self.width[row],
+            width,
         )
 
     def _arrange(self) -> None:

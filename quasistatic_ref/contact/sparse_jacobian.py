@@ -16,8 +16,8 @@ from quasistatic_ref.step.data import Contacts
 Indices = NDArray[np.int64]
 
 
-class BlockLayout:
-    """Which columns move the bodies of each contact: a constant of a run.
+class BlockGeometry:
+    """As :class:`~quasistatic_ref.contact.jacobian.ContactGeometry`, J in blocks.
 
     Parameters
     ----------
@@ -26,6 +26,7 @@ class BlockLayout:
     """
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+        self.layout = layout
         # Joints' columns in the order of their coordinates; a mimic's is that of another.
         owner = motion.coordinates.argmax(axis=1)
         by_coordinate = np.argsort(owner, kind="stable")
@@ -52,6 +53,23 @@ class BlockLayout:
             position = coordinate.cumsum(axis=1) - 1
             self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0
 
+    def contacts(
+        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
+    ) -> Contacts:
+        """The contacts of one step, from the closest points of all pairs."""
+        layout, (d1, d2) = self.layout, tangents(points.n)
+
+        def name() -> tuple[str, ...]:
+            numbered = zip(layout.names, points.point.tolist(), strict=True)
+            return tuple([f"{pair}/{i}" for pair, i in numbered])
+
+        if like is None:
+            without = np.zeros((len(points.phi), 4, 0))
+            mu = layout.mu_v, layout.mu_omega, layout.rows
+            like = Contacts(name(), points.phi, points.n, d1, d2, without, *mu)
+        J = self.jacobian(kinematics, points)
+        return like.moved(name, blocks=J, phi=points.phi, n=points.n, d1=d1, d2=d2)
+
     def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
         """J of Eq. (3), those columns."""
         twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
@@ -69,25 +87,3 @@ def _ragged(marked: NDArray[np.bool_]) -> tuple[Indices, Indices, Indices]:
     row, column = np.nonzero(marked)
     count = marked.sum(axis=1)
     return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), column
-
-
-def contacts_in_blocks(
-    layout: ContactLayout,
-    blocks: BlockLayout,
-    points: ClosestPoints,
-    kinematics: Kinematics,
-    like: Contacts | None = None,
-) -> Contacts:
-    """As :func:`~quasistatic_ref.contact.jacobian.contacts`, J in blocks."""
-    d1, d2 = tangents(points.n)
-
-    def name() -> tuple[str, ...]:
-        numbered = zip(layout.names, points.point.tolist(), strict=True)
-        return tuple([f"{pair}/{i}" for pair, i in numbered])
-
-    if like is None:
-        without = np.zeros((len(points.phi), 4, 0))
-        mu = layout.mu_v, layout.mu_omega, layout.rows
-        like = Contacts(name(), points.phi, points.n, d1, d2, without, *mu)
-    J = blocks.jacobian(kinematics, points)
-    return like.moved(name, blocks=J, phi=points.phi, n=points.n, d1=d1, d2=d2)

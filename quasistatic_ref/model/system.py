@@ -9,17 +9,17 @@ base has x, y and the angle of the same twist, in the plane.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
-from quasistatic_ref.model.motion import Motion, constant_mass, cross_matrix
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.world import world_of
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
@@ -29,42 +29,6 @@ Array = NDArray[np.float64]
 WORLD_POSE = np.eye(4)
 _UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
-
-
-@dataclass(frozen=True, eq=False)
-class Kinematics:
-    """Where every link is, and how it moves with delta_q; link 0 is the world.
-
-    Parameters
-    ----------
-    R : ndarray, shape (L, 3, 3)
-        Rotation from each link's frame to the world's [-].
-    t : ndarray, shape (L, 3)
-        Origin of each link's frame in the world [m].
-    columns : ndarray, shape (6, n_x)
-        Of each joint's column, velocity of the point at the world's origin and angular velocity
-        of what the joint moves, in the world frame, per unit of its coordinate.
-    motion : Motion, optional
-        Which columns move a link; without it nothing moves.
-    """
-
-    R: Array
-    t: Array
-    columns: Array
-    motion: Motion | None = None
-
-    @cached_property
-    def J(self) -> Array:
-        """Jacobian of each link, shape (L, 6, n_v).
-
-        Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
-        frame, per unit of delta_q.
-        """
-        if self.motion is None:
-            return np.zeros((len(self.t), 6, 0))
-        J = self.motion.of_coordinates(self.columns * self.motion.moves)
-        J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
-        return J
 
 
 class System:
@@ -140,8 +104,8 @@ class System:
 
     @property
     def rigid(self) -> bool:
-        """Whether M_u is the same array at every q, and no coordinate moves with another."""
-        return self._M_u is not None and not self.motion.mimics
+        """Whether M_u is the same array at every q."""
+        return self._M_u is not None
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``."""
@@ -173,12 +137,22 @@ class System:
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         order = self._order
-        return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
+        after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
+        q_next = order.paper_q(after)
+        for joint in self.joints:
+            if joint.kind in ("floating", "planar"):
+                q_next[screw.place(joint)] = screw.position(joint, q, delta_q)
+        return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         order = self._order
-        return order.paper_v(pin.difference(self._model, order.model_q(q), order.model_q(q_next)))
+        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
+        delta_q = order.paper_v(change)
+        for joint in self.joints:
+            if joint.kind in ("floating", "planar", "continuous"):
+                delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
+        return delta_q
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); q_a has shape (n_q_a,)."""

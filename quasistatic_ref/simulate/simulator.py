@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -13,7 +12,7 @@ from tqdm import tqdm
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.sparse_jacobian import BlockLayout, contacts_in_blocks
+from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import Kinematics, System
@@ -21,18 +20,16 @@ from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.engines import CVXPY, NATIVE, check_engine, default_engine
+from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.solve.native import NativeProblem
-from quasistatic_ref.solve.solve import Problem, solve_step
-from quasistatic_ref.solve.sparse import ADAPTERS as SPARSE
-from quasistatic_ref.solve.sparse import SparseProblem
+from quasistatic_ref.solve.problems import Problem, may_be_sparse, problem_for
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY, SPARSE_FROM
 
@@ -111,7 +108,6 @@ class Simulator:
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
         self.tracker = ContactTracker(self.pairs)
-        self.geometry = ContactGeometry(self.layout, system.motion)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
         self._gravity = tuple(self.gravity.tolist())
         self.weighs = np.ones(system.n_v)
@@ -123,7 +119,10 @@ class Simulator:
         check_engine(self.engine)
         self._curved = CVXPY if engine is None else engine  # extensions that are more than rows
         self.problem: Problem | None = None
-        self._blocks = self._block_layout()
+        large = 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
+        able = may_be_sparse(self.engine, backend, certify) and extension is None and system.rigid
+        geometry = BlockGeometry if large and able else ContactGeometry
+        self.geometry = geometry(self.layout, system.motion)
         self._like: StepData | None = None
         self._here: tuple[bytes, Kinematics] | None = None
 
@@ -186,46 +185,22 @@ class Simulator:
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
         tau_a, tau_u, M_u, like = tau[:n_a], tau[n_a:], system.M_u(q), self._like
         if like is None or tau.shape != self.weighs.shape:  # checked once, or to say what is wrong
-            at = self._contacts(points, kinematics, None)
+            at = self.geometry.contacts(points, kinematics)
             step = StepData(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, at, self.cone)
         else:
-            at = self._contacts(points, kinematics, like.contacts)
+            at = self.geometry.contacts(points, kinematics, like.contacts)
             step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
         self._like = step
         return step
 
-    def _new_problem(self, step: StepData) -> Problem:
-        if self.engine != NATIVE:
-            return StepProblem(step)
-        if step.contacts.blocks is not None:
-            return SparseProblem(step, self.backend)
-        return NativeProblem(step, self.backend)
-
-    def _block_layout(self) -> BlockLayout | None:
-        """Columns of the contacts' blocks, where the steps are large enough to be sparse."""
-        system = self.system
-        entries = 4 * len(self.layout.rows) * system.n_v
-        able = self.engine == NATIVE and self.backend in SPARSE and self.extension is None
-        if not (able and self.certify != "full" and system.rigid and entries >= SPARSE_FROM):
-            return None
-        return BlockLayout(self.layout, system.motion)
-
-    def _contacts(
-        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None
-    ) -> Contacts:
-        if self._blocks is None:
-            return self.geometry.contacts(points, kinematics, like)
-        return contacts_in_blocks(self.layout, self._blocks, points, kinematics, like)
-
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a problem that is built once."""
-        engine = self.engine if own is None else self._curved
         if self.backend != NONE and (self.problem is None or not self.problem.fits(step)):
-            self.problem = self._new_problem(step)
+            self.problem = problem_for(step, self.engine, self.backend)
         return solve_step(
             step,
             self.backend,
-            engine=engine,
+            engine=self.engine if own is None else self._curved,
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,
@@ -323,16 +298,3 @@ def _target_function(simulator: Simulator, target: Target | Array, steps: int) -
         return lambda t: constant
     table = [checked(row) for row in values]
     return lambda t: table[round(t / simulator.h) - 1]
-
-
-class Stopwatch:
-    """Wall time between laps, by name."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._last = time.perf_counter()
-
-    def __call__(self, name: str) -> None:
-        """End the lap of that name."""
-        now = time.perf_counter()
-        self.seconds[name], self._last = now - self._last, now

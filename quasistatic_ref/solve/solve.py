@@ -27,6 +27,7 @@ from quasistatic_ref.solve.backends import DEFAULT, NONE, cone_backend
 from quasistatic_ref.solve.engines import CVXPY, NATIVE, check_engine
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeProblem, check_native
+from quasistatic_ref.solve.problems import Problem
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
 from quasistatic_ref.solve.sparse import SparseProblem
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
@@ -41,8 +42,6 @@ from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
-Problem = StepProblem | NativeProblem | SparseProblem
-"""What may be kept between steps."""
 NOTHING_CLAIMED = Certificate("none")
 
 

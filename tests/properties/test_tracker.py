@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact import ball_tree, cloud_tracker
+from quasistatic_ref.contact import ball_tree, cloud_tracker, solid_rows
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.tracker import ContactTracker
@@ -227,6 +227,16 @@ def test_a_pose_that_is_not_finite_is_refused(first, rng):
         tracker.closest_points(*poses((0, 0, 0), (0, 0, 1)))
     with pytest.raises(ContactError, match="poses: must be finite"):
         tracker.closest_points(*poses((0, 0, 0), (0, 0, np.nan)))
+
+
+def test_distances_that_are_no_numbers_are_an_error_and_no_endless_search(monkeypatch, rng):
+    def unknown(self, x):
+        return np.full(len(x), np.nan), np.zeros_like(x)
+
+    pairs = one_pair(SHAPES["box"], cloud("random", 99, rng), 5)
+    monkeypatch.setattr(solid_rows.SolidRows, "__call__", unknown)
+    with pytest.raises(ContactError, match="p: has distances that are not numbers"):
+        ContactTracker(pairs).closest_points(*poses((0, 0, 0), (0, 0, 1)))
 
 
 def test_every_point_is_in_one_leaf_and_in_every_ball_and_box_above_it(rng):

@@ -1,0 +1,1 @@
+"""Inputs written by rule: closed forms, seeded random numbers and degenerate corners."""

@@ -1,0 +1,142 @@
+"""Mechanisms that the families share: named ones for each corner, and random trees.
+
+Numbers come from a seeded generator, rounded to few digits, so that the cases can be read.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+Table = dict[str, Any]
+Rng = np.random.Generator
+
+KINDS = ("revolute", "prismatic", "continuous", "fixed")
+AT_ORIGIN: Table = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+
+
+def few_digits(values: Any, digits: int = 3) -> list[float]:
+    """Numbers rounded to some decimal places."""
+    return [round(float(x), digits) + 0.0 for x in np.asarray(values).ravel()]
+
+
+def random_quaternion(rng: Rng) -> list[float]:
+    """Four numbers of three decimal places: mostly of another length than one."""
+    return few_digits(rng.uniform(-1, 1, 4) + 0.05)
+
+
+def random_pose(rng: Rng, size: float = 1.0) -> Table:
+    """A pose within a cube."""
+    return {"xyz": few_digits(rng.uniform(-size, size, 3)), "quaternion": random_quaternion(rng)}
+
+
+def link(name: str, parent: str | None, joint: str, **more: Any) -> Table:
+    """One body of a mechanism, massless and at the parent's origin unless told."""
+    table: Table = {"name": name, "parent": parent, "placement": AT_ORIGIN, "joint": joint}
+    table |= {"axis": [0.0, 0.0, 1.0], "actuated": False}
+    return table | more
+
+
+def mass(rng: Rng) -> Table:
+    """Mass, centre and inertia that a body can have: that of two masses and a ball."""
+    a, b = few_digits(rng.uniform(0.01, 0.05, 2)), few_digits(rng.uniform(-0.1, 0.1, 3), 2)
+    (x, y, z), ball = b, a[0]
+    inertia = [
+        [ball + y * y + z * z, -x * y, -x * z],
+        [-x * y, ball + x * x + z * z, -y * z],
+        [-x * z, -y * z, ball + x * x + y * y],
+    ]
+    return {
+        "mass": few_digits(rng.uniform(0.1, 3, 1))[0],
+        "com": few_digits(rng.uniform(-0.1, 0.1, 3)),
+        "inertia": [few_digits(row, 6) for row in inertia],
+    }
+
+
+def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False) -> Table:
+    """A tree of bodies: each hangs on one of the two before it."""
+    bodies = []
+    for k in range(count):
+        joint = base if k == 0 else str(rng.choice(KINDS, p=[0.45, 0.2, 0.2, 0.15]))
+        body = link(
+            f"body{k}",
+            None if k == 0 else f"body{max(0, k - 1 - int(rng.integers(2)))}",
+            joint,
+            axis=few_digits(rng.uniform(-1, 1, 3) + 0.01),
+            actuated=bool(joint != "fixed" and rng.integers(2)),
+        )
+        if joint == "planar":
+            body["placement"] = AT_ORIGIN | {"xyz": [0.0, 0.0, *few_digits(rng.uniform(0, 1, 1))]}
+        elif joint != "floating":
+            body["placement"] = random_pose(rng, 0.5)
+        bodies.append(body | (mass(rng) if masses else {}))
+    return {"bodies": bodies}
+
+
+def random_q(rng: Rng, mechanism: Table) -> list[float]:
+    """A configuration in the paper's order; quaternions and (cos, sin) not normalised."""
+    q: list[float] = []
+    for actuated in (True, False):
+        for body in mechanism["bodies"]:
+            if body["joint"] != "fixed" and body["actuated"] == actuated:
+                q += _random_position(rng, body["joint"])
+    return q
+
+
+def _random_position(rng: Rng, kind: str) -> list[float]:
+    match kind:
+        case "floating":
+            return [*few_digits(rng.uniform(-1, 1, 3)), *random_quaternion(rng)]
+        case "planar":
+            return [*few_digits(rng.uniform(-1, 1, 2)), *few_digits(rng.uniform(0.1, 1, 2))]
+        case "continuous":
+            return few_digits(rng.uniform(0.1, 1, 2) * np.array([-1, 1]))
+        case _:
+            return few_digits(rng.uniform(-2, 2, 1))
+
+
+def random_step(rng: Rng, mechanism: Table, size: float = 0.5) -> list[float]:
+    """Some delta_q of few significant digits."""
+    counts = {"floating": 6, "planar": 3, "fixed": 0}
+    n_v = sum(counts.get(body["joint"], 1) for body in mechanism["bodies"])
+    return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
+
+
+def gripper(base: str = "floating", actuated: bool = True) -> Table:
+    """A base with two fingers that slide against each other."""
+    names = ("left", "right")
+    fingers = [
+        link(
+            name,
+            "base",
+            "prismatic",
+            axis=[side, 0.0, 0.0],
+            placement={"xyz": [0.02 * side, 0.0, -0.05], "quaternion": [0.0, 0.0, 0.0, 1.0]},
+            actuated=True,
+            mass=0.1,
+            com=[0.0, 0.0, -0.02],
+            inertia=[[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 5e-5]],
+        )
+        for name, side in zip(names, (1.0, -1.0), strict=True)
+    ]
+    return {
+        "bodies": [
+            link(
+                "base",
+                None,
+                base,
+                actuated=actuated,
+                mass=0.5,
+                com=[0.0, 0.0, 0.01],
+                inertia=[[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]],
+            ),
+            *fingers,
+        ]
+    }
+
+
+def free_body(name: str = "object", **more: Any) -> Table:
+    """One floating body."""
+    inertia = [[0.002, 0.0, 0.0], [0.0, 0.003, 0.0], [0.0, 0.0, 0.004]]
+    return link(name, None, "floating", mass=1.0, com=[0.0] * 3, inertia=inertia, **more)

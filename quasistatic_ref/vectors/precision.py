@@ -1,0 +1,174 @@
+"""Numbers of the vectors: rational while they can be, balls beyond, float64 at the end.
+
+Every float64 is entered exactly. Sums, products and quotients of rational numbers stay rational,
+and so do roots of perfect squares: zeros, ties and midpoints between two float64 numbers are then
+decided exactly. Other roots, sines and cosines are balls; where a ball leaves a sign or a rounding
+open, everything is done again at twice the precision. A ball of radius < 2^-200 that contains 0
+is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpoint: both come from
+rational answers on the way to which a root or a sine cancelled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from math import inf, isqrt, nextafter
+from typing import Any, Final, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
+
+Real: TypeAlias = Any
+"""An fmpq or an arb. They mix freely, which their type hints cannot say."""
+
+PRECISION: Final = 320
+"""Bits of a ball's midpoint at first."""
+
+HIGHEST: Final = 16 * PRECISION
+"""Bits at which raising ends; no case of the families needs it."""
+
+DIGITS: Final = 30
+"""Significant decimal digits of the strings beside the float64 numbers."""
+
+
+class Undecided(ArithmeticError):
+    """A ball was too wide for a sign or a rounding: more precision is needed."""
+
+
+def number(x: float | Real) -> Real:
+    """A float64, exactly; what is exact or a ball already, as it is."""
+    return x if isinstance(x, (fmpq, arb)) else fmpq(*x.as_integer_ratio())
+
+
+def numbers(values: Sequence[float | Real]) -> list[Real]:
+    """Several float64 numbers, exactly."""
+    return [number(x) for x in values]
+
+
+def ball(x: Real) -> arb:
+    """A number as a ball, at the present precision."""
+    return x if isinstance(x, arb) else arb(x)
+
+
+def root(x: Real) -> Real:
+    """Square root; rational where it is, and 0 for a ball that counts as 0."""
+    if isinstance(x, fmpq):
+        p, q = int(x.p), int(x.q)
+        if p >= 0 and isqrt(p) ** 2 == p and isqrt(q) ** 2 == q:
+            return fmpq(isqrt(p), isqrt(q))
+        return arb(x).sqrt()
+    return x.sqrt() if sign(x) else fmpq(0)
+
+
+def sign(x: Real) -> int:
+    """-1, 0 or 1.
+
+    Raises
+    ------
+    Undecided
+        If the ball is too wide to tell.
+    """
+    if x > 0:
+        return 1
+    if x < 0:
+        return -1
+    if isinstance(x, fmpq) or x.rad() < _threshold():
+        return 0
+    raise Undecided
+
+
+def least(values: Sequence[Real]) -> int:
+    """Index of the smallest number, the first of equal ones."""
+    best = 0
+    for k in range(1, len(values)):
+        if sign(values[k] - values[best]) < 0:
+            best = k
+    return best
+
+
+def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
+    """What a function returns, in float64 and in 30 digits, each rounded correctly.
+
+    Parameters
+    ----------
+    function : callable
+        Returns dicts and lists of numbers; called again at higher precision where needed. It
+        must make all its balls itself: one made before has the precision of that time.
+        Booleans, integers, strings and None are passed on.
+
+    Returns
+    -------
+    tuple
+        The same nesting of float64 numbers, half to even and never -0.0, and of strings.
+    """
+    precision = PRECISION
+    while precision <= HIGHEST:
+        with ctx.workprec(precision):
+            try:
+                tree = function()
+                return _mapped(tree, _nearest), _mapped(tree, _decimal)
+            except Undecided:
+                precision *= 2
+    raise Undecided(f"{HIGHEST} bits do not decide a sign or a rounding: the case is ill-posed")
+
+
+def _mapped(tree: Any, leaf: Callable[[Real], Any]) -> Any:
+    if isinstance(tree, dict):
+        return {key: _mapped(value, leaf) for key, value in tree.items()}
+    if isinstance(tree, (list, tuple)):
+        return [_mapped(value, leaf) for value in tree]
+    return leaf(tree) if isinstance(tree, (fmpq, arb)) else tree
+
+
+def _nearest(x: Real) -> float:
+    if isinstance(x, fmpq):
+        return nearest_fraction(x)
+    if is_zero(x):
+        return 0.0
+    value = nearest_in(x)
+    if value is not None:
+        return value
+    middle = float(x)
+    for other in (nextafter(middle, inf), nextafter(middle, -inf)):
+        halfway = (number(middle) + number(other)) / 2
+        if _is(x, halfway):
+            return nearest_fraction(halfway)
+    raise Undecided
+
+
+def _decimal(x: Real) -> str:
+    if isinstance(x, fmpq):
+        return decimal_string(Fraction(int(x.p), int(x.q)), DIGITS)
+    if is_zero(x):
+        return decimal_string(Fraction(0), DIGITS)
+    low, high = (decimal_string(_fraction(end), DIGITS) for end in (x.lower(), x.upper()))
+    if low == high:
+        return low
+    halfway = Fraction(decimal_string(_fraction(x.mid()), DIGITS + 1))
+    if _is(x, fmpq(halfway.numerator, halfway.denominator)):
+        return decimal_string(halfway, DIGITS)
+    raise Undecided
+
+
+def _is(x: arb, halfway: fmpq) -> bool:
+    """Whether a ball is narrow enough to be taken for the midpoint in it."""
+    return bool(x.contains(halfway) and x.rad() < _threshold() * abs(arb(halfway)))
+
+
+def is_zero(x: Real) -> bool:
+    """Whether a number counts as 0: exactly, or a ball of radius < 2^-200 around it."""
+    if isinstance(x, fmpq):
+        return x == 0
+    return bool(x.contains(0)) and bool(x.rad() < _threshold())
+
+
+@lru_cache(maxsize=1)
+def _threshold() -> arb:
+    return arb(fmpq(1, 1 << 200))
+
+
+def _fraction(point: arb) -> Fraction:
+    m, e = (int(part) for part in point.man_exp())
+    return Fraction(m) * Fraction(2) ** e

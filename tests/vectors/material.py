@@ -1,0 +1,66 @@
+"""The committed vectors and the NumPy runner, for the tests of the checker."""
+
+import functools
+import importlib
+import sys
+from pathlib import Path
+
+from quasistatic_ref.vectors.answers import Answers
+from quasistatic_ref.vectors.check import layer_report
+from quasistatic_ref.vectors.files import expected_read, inputs_read
+from quasistatic_ref.vectors.layers import LAYERS
+
+ROOT = Path(__file__).parents[2]
+VECTORS = ROOT / "validation" / "vectors"
+RUNNERS = ROOT / "validation" / "runners"
+JAVASCRIPT = LAYERS[1:7]
+
+
+@functools.cache
+def cases(layer):
+    """The inputs of a layer; not to be changed."""
+    return tuple(inputs_read(VECTORS, layer))
+
+
+@functools.cache
+def expected(layer):
+    """What is expected of a layer, by id; not to be changed."""
+    return expected_read(VECTORS, layer)
+
+
+def right_answers(layer):
+    """The expected outputs of a layer as answers, by id."""
+    return {
+        name: {field: v for field, v in record["output"].items() if field != "certificate"}
+        for name, record in expected(layer).items()
+    }
+
+
+@functools.cache
+def small_cases(layer):
+    """Every third case of a layer, and of the steps the 24 with the least input."""
+    if layer == "step":
+        return tuple(sorted(cases(layer), key=lambda case: len(str(case.input)))[:24])
+    return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
+
+
+def report_on(layer, outputs, **declared):
+    """The report on answers that are given by id, of these cases alone."""
+    asked = [case for case in cases(layer) if case.id in outputs]
+    known = {case.id: expected(layer)[case.id] for case in asked}
+    return layer_report(layer, asked, known, Answers(outputs, "test", **declared))
+
+
+@functools.cache
+def runner(name="numpy_runner"):
+    """A module of the NumPy runner."""
+    if str(RUNNERS) not in sys.path:
+        sys.path.insert(0, str(RUNNERS))
+    return importlib.import_module(name)
+
+
+def runner_answers(layer, change=lambda case: case):
+    """What the NumPy runner answers to some cases of a layer, their inputs changed."""
+    module = runner()
+    solve = getattr(module, layer)
+    return {case.id: module.plain(solve(change(case.input))) for case in small_cases(layer)}

@@ -1,0 +1,295 @@
+"""Bugs planted in a simulator that works: the checker names the layer and the mistake.
+
+The simulator is the NumPy runner, which shares no code with the package; the bugs are in its
+inputs, its functions or its outputs, written without a look at how mistakes are recognised.
+"""
+
+import copy
+import functools
+
+import numpy as np
+import pytest
+
+from tests.vectors.material import report_on, right_answers, runner, runner_answers
+
+
+def each_contact(case, **changes):
+    """A case with numbers of every contact, or of every pair of a step, changed."""
+    case = copy.deepcopy(case)
+    for contact in case["contacts"] if "contacts" in case else case["pairs"]:
+        for name, change in changes.items():
+            contact[name] = change(contact)
+    return case
+
+
+@functools.cache
+def right_answers_of_runner(layer):
+    return runner_answers(layer)
+
+
+def outputs_changed(change):
+    def answers(layer, monkeypatch):
+        return {
+            name: change(copy.deepcopy(v)) for name, v in right_answers_of_runner(layer).items()
+        }
+
+    return answers
+
+
+def inputs_changed(change):
+    return lambda layer, monkeypatch: runner_answers(layer, change)
+
+
+def patched(module, name, replacement):
+    """A function of the runner replaced; `replacement` receives the one that was right."""
+
+    def answers(layer, monkeypatch):
+        right = getattr(runner(module), name)
+        for place in ("numpy_runner", "runner_mechanism", "runner_distance", "runner_qp"):
+            if hasattr(runner(place), name):
+                monkeypatch.setattr(runner(place), name, replacement(right))
+        return runner_answers(layer)
+
+    return answers
+
+
+def negative(*names):
+    def change(output):
+        return {
+            name: (-np.array(v)).tolist() if name in names and not isinstance(v, dict) else v
+            for name, v in output.items()
+        }
+
+    return outputs_changed(change)
+
+
+def multiplied(factor, *names):
+    def change(output):
+        return {
+            name: (factor * np.array(v)).tolist() if name in names else v
+            for name, v in output.items()
+        }
+
+    return outputs_changed(change)
+
+
+def world_twists(right):
+    """Kinematics whose floating bases move along the world's axes."""
+
+    def kinematics(mechanism, q):
+        found = right(mechanism, q)
+        at, _, _ = runner("runner_mechanism").slices(mechanism)
+        for body in mechanism["bodies"]:
+            if body["joint"] == "floating":
+                columns, R = at[body["name"]][1], found[body["name"]][0]
+                for _, _, J in found.values():
+                    J[:, columns] = J[:, columns] @ np.kron(np.eye(2), R.T)
+        return found
+
+    return kinematics
+
+
+def world_moves(right):
+    """(+) that takes a floating base's delta_q along the world's axes."""
+
+    def moved(body, q, d):
+        if body["joint"] == "floating":
+            R = runner("runner_mechanism").rotation(q[3:])
+            d = np.concatenate([R.T @ d[:3], R.T @ d[3:]])
+        return right(body, q, d)
+
+    return moved
+
+
+def straight_moves(right):
+    """(+) that moves a floating base by R v instead of along a screw."""
+
+    def moved(body, q, d):
+        found = right(body, q, d)
+        if body["joint"] == "floating":
+            found[:3] = q[:3] + runner("runner_mechanism").rotation(q[3:]) @ d[:3]
+        return found
+
+    return moved
+
+
+def interleaved(right):
+    """Rows in the order +d1 -d1 +d2 -d2 +spin -spin."""
+
+    def cone_table(cone, rows):
+        table = right(cone, rows)
+        return table[[0, 2, 1, 3, 4, 5][: len(table)]] if cone == "pyramid" else table
+
+    return cone_table
+
+
+def wrong_order(right):
+    """A rotation that takes its quaternion for [w, x, y, z]."""
+    return lambda quaternion: right([*quaternion[1:], quaternion[0]])
+
+
+def torsion_forgotten(output):
+    return {"wrench": [[*w[:3], 0.0] for w in output["wrench"]], "net": output["net"]}
+
+
+def unsigned_contacts(output):
+    contacts = [{**c, "phi": abs(c["phi"])} for c in output["contacts"]]
+    return {**output, "contacts": contacts}
+
+
+FAULTS = {
+    "distance: n from beta to alpha": ("distance", negative("n"), "normals reversed"),
+    "distance: |phi|": (
+        "distance",
+        outputs_changed(lambda o: {**o, "phi": np.abs(o["phi"]).tolist()}),
+        "unsigned phi",
+    ),
+    "distance: points of the other body": (
+        "distance",
+        outputs_changed(lambda o: {**o, "alpha": o["beta"], "beta": o["alpha"]}),
+        "alpha and beta swapped",
+    ),
+    "distance: wxyz read": (
+        "distance",
+        patched("numpy_runner", "rotation", wrong_order),
+        "quaternion order",
+    ),
+    "selection: nearest by |phi|": (
+        "selection",
+        inputs_changed(lambda c: {**c, "phi": [np.abs(phi).tolist() for phi in c["phi"]]}),
+        "unsigned phi",
+    ),
+    "jacobian: twists in the world": (
+        "jacobian",
+        patched("numpy_runner", "kinematics", world_twists),
+        "world and body frames swapped",
+    ),
+    "jacobian: columns first": (
+        "jacobian",
+        outputs_changed(lambda o: {"J": [np.transpose(J).tolist() for J in o["J"]]}),
+        "J transposed",
+    ),
+    "jacobian: alpha relative to beta": ("jacobian", negative("J"), "alpha and beta swapped"),
+    "jacobian: spin about -n": (
+        "jacobian",
+        inputs_changed(lambda c: each_contact(c, n=lambda k: [-x for x in k["n"]])),
+        "normals reversed",
+    ),
+    "jacobian: no spin": (
+        "jacobian",
+        outputs_changed(lambda o: {"J": [J[:3] for J in o["J"]]}),
+        "torsion rows missing",
+    ),
+    "jacobian: wxyz read": (
+        "jacobian",
+        patched("runner_mechanism", "rotation", wrong_order),
+        "quaternion order",
+    ),
+    "rows: mu_omega without a length": (
+        "rows",
+        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: 1.0)),
+        "mu_omega taken as dimensionless",
+    ),
+    "rows: mu_omega mu_v": (
+        "rows",
+        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        "mu_omega multiplied by mu_v",
+    ),
+    "rows: n reversed": (
+        "rows",
+        inputs_changed(lambda c: each_contact(c, n=lambda k: [-x for x in k["n"]])),
+        "normals reversed",
+    ),
+    "rows: |phi|": (
+        "rows",
+        inputs_changed(lambda c: each_contact(c, phi=lambda k: abs(k["phi"]))),
+        "unsigned phi",
+    ),
+    "rows: b = phi": ("rows", negative("b"), "sign of b"),
+    "rows: A and the contact term negative": ("rows", negative("A"), "sign of the contact term"),
+    "rows: four of them": (
+        "rows",
+        inputs_changed(lambda c: each_contact(c, rows=lambda k: 4)),
+        "torsion rows missing",
+    ),
+    "rows: MuJoCo's order": (
+        "rows",
+        patched("numpy_runner", "cone_table", interleaved),
+        "rows interleaved",
+    ),
+    "rows: J read by columns": (
+        "rows",
+        inputs_changed(
+            lambda c: each_contact(
+                c, J=lambda k: np.reshape(k["J"], np.shape(k["J"])[::-1]).T.tolist()
+            )
+        ),
+        "J transposed",
+    ),
+    "qp: lam <= 0": ("qp", negative("lam", "A_lam"), "sign of the contact term"),
+    "qp: forces": ("qp", multiplied(100.0, "lam", "A_lam"), "lam and force mixed up by h"),
+    "qp: velocities": ("qp", multiplied(100.0, "delta_q"), "v in the place of delta_q"),
+    "wrench: impulses": (
+        "wrench",
+        inputs_changed(lambda c: {**c, "h": 1.0}),
+        "lam and force mixed up by h",
+    ),
+    "wrench: mu_omega mu_v": (
+        "wrench",
+        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        "mu_omega multiplied by mu_v",
+    ),
+    "wrench: no torque": ("wrench", outputs_changed(torsion_forgotten), "torsion rows missing"),
+    "wrench: MuJoCo's order": (
+        "wrench",
+        patched("numpy_runner", "cone_table", interleaved),
+        "rows interleaved",
+    ),
+    "integrate: twists in the world": (
+        "integrate",
+        patched("numpy_runner", "moved", world_moves),
+        "world and body frames swapped",
+    ),
+    "integrate: straight": (
+        "integrate",
+        patched("numpy_runner", "moved", straight_moves),
+        "a straight line in the place of the screw",
+    ),
+    "integrate: times h again": (
+        "integrate",
+        inputs_changed(lambda c: {**c, "delta_q": [0.01 * x for x in c["delta_q"]]}),
+        "v in the place of delta_q",
+    ),
+    "step: mu_omega mu_v": (
+        "step",
+        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        "mu_omega multiplied by mu_v",
+    ),
+    "step: twists in the world": (
+        "step",
+        patched("numpy_runner", "kinematics", world_twists),
+        "world and body frames swapped",
+    ),
+    "step: MuJoCo's order": (
+        "step",
+        patched("numpy_runner", "cone_table", interleaved),
+        "rows interleaved",
+    ),
+    "step: |phi|": ("step", outputs_changed(unsigned_contacts), "unsigned phi"),
+}
+
+
+@pytest.mark.parametrize(("layer", "fault", "mistake"), FAULTS.values(), ids=FAULTS)
+def test_a_planted_bug_fails_in_its_layer_and_is_named(layer, fault, mistake, monkeypatch):
+    report = report_on(layer, fault(layer, monkeypatch))
+    assert not report.ok
+    assert report.count("failed") > 0
+    names = [named.name for named in report.mistakes]
+    assert mistake in names, (names, report.trouble)
+
+
+def test_answers_that_are_right_have_no_mistake():
+    for layer in ("rows", "jacobian", "selection"):
+        report = report_on(layer, right_answers(layer))
+        assert report.ok
+        assert report.mistakes == ()
