@@ -1,10 +1,13 @@
 """A formula planted wrong in model/ or contact/ makes `validate` fail."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from quasistatic_ref.contact import jacobian, solid_rows
+from quasistatic_ref.contact import jacobian
+from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.validate.claim import FAILS, HOLDS, finding
@@ -12,7 +15,7 @@ from quasistatic_ref.validate.registry import BY_NAME
 
 TRUE = {
     "jacobian": jacobian.ContactGeometry.jacobian,
-    "distance": solid_rows.SolidRows.__call__,
+    "closest": ContactTracker.closest_points,
     "gravity": System.gravity_force,
     "M_u": System.M_u,
     "integrate": System.integrate,
@@ -20,10 +23,9 @@ TRUE = {
 }
 
 
-def half_space_twice_as_deep(self, x):
-    phi, normal = TRUE["distance"](self, x)
-    phi[self.planes] *= 2
-    return phi, normal
+def phi_twice_as_large(self, R, t):
+    points = TRUE["closest"](self, R, t)
+    return replace(points, phi=2 * points.phi)
 
 
 def straight_instead_of_a_screw(self, q, delta_q):
@@ -51,8 +53,8 @@ FAULTS = {
         jacobian, "MINUS_CROSS", -jacobian.MINUS_CROSS, "mujoco_rows",
     ),
     "half the spin": (jacobian.ContactGeometry, "jacobian", half_the_spin, "by_hand"),
-    "phi of a half-space is twice as large": (
-        solid_rows.SolidRows, "__call__", half_space_twice_as_deep, "incline_sliding",
+    "phi is twice as large": (
+        ContactTracker, "closest_points", phi_twice_as_large, "incline_sliding",
     ),
     "gravity is half": (
         System, "gravity_force", lambda s, q, g: 0.5 * TRUE["gravity"](s, q, g), "free_fall",

@@ -73,7 +73,7 @@ def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPo
     alpha = PlacedShape("a", 0, np.eye(3), np.zeros(3), a)
     beta = PlacedShape("b", 1, np.eye(3), np.zeros(3), b)
     pair = ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
-    points = pair_closest_points(pair, still)
+    points = pair_closest_points(pair, still.R, still.t)
     assert len(points.phi) == pair.n_c
     return points
 
