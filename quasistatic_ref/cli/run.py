@@ -50,6 +50,7 @@ def run(options: argparse.Namespace) -> int:
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
+        "engine": scenario.engine,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -65,7 +66,8 @@ def run(options: argparse.Namespace) -> int:
         return 0
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     worst = _worst(summary["worst_residual"])
-    print(f"{summary['certified']}; backend {summary['backend']}, worst residual {worst}")
+    asked = f"{summary['backend']} ({summary['engine']})"
+    print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
     print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,11 @@ def numbers(value: Any, name: str) -> Array:
     except (TypeError, ValueError, OverflowError):
         pass
     raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def finite(x: Array) -> bool:
+    """Whether all numbers of a vector are finite; one product, where they are."""
+    return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
 def columns(value: Any, name: str, ndim: int) -> int:

@@ -148,10 +148,16 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
         [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
         cone six, or the first four.
     """
+    return rows_along(contacts, contacts.J, name)
+
+
+def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
+    """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
+    along: Array = _frames(contacts) @ J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return _frames(contacts) @ contacts.J
-    directions = normal_direction(contacts.n)[:, None, :] + cone_directions(contacts, name)
-    return directions @ contacts.J  # Eq. (4)
+        return np.asarray(along)
+    # n~ + d~_i is a combination of these that does not change with where the contact is.
+    return np.asarray(contacts.combinations(name) @ along)  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -162,8 +168,9 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     rows = len(cone(name).row_names)
-    share = np.eye(rows)[0] if name == ELLIPSOID else np.ones(rows)
-    return contacts.phi[:, None] * share
+    if name == ELLIPSOID:
+        return np.asarray(contacts.phi[:, None] * np.eye(rows)[0])
+    return np.asarray(contacts.phi.repeat(rows).reshape(-1, rows))
 
 
 def friction_coefficients(contacts: Contacts) -> Array:
@@ -174,8 +181,7 @@ def friction_coefficients(contacts: Contacts) -> Array:
     ndarray, shape (n_c, 3)
         [-], [-], [m].
     """
-    mu_omega = np.where(contacts.rows == 6, contacts.mu_omega, 0.0)
-    return np.stack([contacts.mu_v, contacts.mu_v, mu_omega], axis=1)
+    return contacts.mu
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -207,9 +213,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
 
 def _frames(contacts: Contacts) -> Array:
     """Return n~, d1, d2 and spin of each contact, shape (n_c, 4, 4)."""
-    axes = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
     frames = np.zeros((contacts.n_c, 4, 4))
-    frames[:, :3, :3], frames[:, 3, 3] = axes, 1.0
+    frames[:, 0, :3], frames[:, 1, :3], frames[:, 2, :3] = contacts.n, contacts.d1, contacts.d2
+    frames[:, 3, 3] = 1.0
     return frames
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.lazy import Lazy
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ class SolverStatistics:
 
 
 @dataclass(frozen=True, eq=False)
-class StepSolution:
+class StepSolution(Lazy):
     """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -102,6 +104,13 @@ class StepSolution:
     certificate: Certificate
     statistics: SolverStatistics
     cone: str = "pyramid"
+
+    @classmethod
+    def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:
+        """A solution whose wrenches are formed when somebody asks for them."""
+        solution = object.__new__(cls)
+        solution.__dict__.update(fields, later={"wrench": wrench})
+        return solution
 
     @property
     def status(self) -> str:

@@ -28,7 +28,8 @@ ROOMS = (
 WALLS = {
     "cvxpy": ("step/problem.py", "solve"),
     # A QP assembled by hand, to check ours: it must not go through our own way of asking.
-    "qpsolvers": ("solve", "validate/engines/by_hand.py"),
+    # And the loop that people write first, to compare its time.
+    "qpsolvers": ("solve", "validate/engines/by_hand.py", "study/bench/by_hand.py"),
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
     "matplotlib": ("figures",),

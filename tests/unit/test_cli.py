@@ -46,7 +46,7 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert main(["run", scene, "--out", str(out)]) == 0
     told = capsys.readouterr().out
     assert told.startswith(
-        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, "
+        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel (native), "
     )
     assert told.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
