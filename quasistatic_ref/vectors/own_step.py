@@ -41,7 +41,8 @@ def own_step(case_input: Json) -> Json:
     order = np.lexsort((points.point, np.repeat(np.arange(len(pairs)), [p.n_c for p in pairs])))
     points = points.chosen(order)
     at = contacts(simulator.layout, points, kinematics)
-    step = simulator.step_data(q, target[: system.n_q_a], _force(case_input, mine, q), at)
+    goal, force = target[: system.n_q_a], _force(case_input, mine, q)
+    step = simulator.step_data(q, goal, force, points, kinematics)
     output = _program(step, mine)
     output["contacts"] = [
         {
