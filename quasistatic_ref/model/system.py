@@ -87,6 +87,8 @@ class System:
         for array in (self.masses, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
+        turning = ("floating", "planar", "continuous")
+        self._screws = tuple(joint for joint in self.joints if joint.kind in turning)
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -149,9 +151,8 @@ class System:
         order = self._order
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
         delta_q = order.paper_v(change)
-        for joint in self.joints:
-            if joint.kind in ("floating", "planar", "continuous"):
-                delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
+        for joint in self._screws:
+            delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
         return delta_q
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
@@ -159,11 +160,14 @@ class System:
         order, n = self._order, self.n_q_a
         if np.shape(q_a) != (n,):
             raise ModelError(f"must have shape ({n},)", field="q_a", value=np.shape(q_a))
-        start = order.model_q(q)
-        target = start.copy()
-        target[order.q[:n]] = q_a
-        change: Array = pin.difference(self._model, start, target)[order.v[: self.n_a]]
-        return change
+        q_next = q.copy()
+        q_next[:n] = q_a
+        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
+        delta_q_a: Array = change.take(order.v[: self.n_a])
+        for joint in self._screws:
+            if joint.actuated:
+                delta_q_a[joint.v] = screw.change(joint, q, q_next, delta_q_a)
+        return delta_q_a
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
