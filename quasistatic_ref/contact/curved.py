@@ -37,9 +37,11 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
         terms = (r * z / (w[:, None] + (r - 1))) ** 2
         slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
         rise = (np.sum(terms, axis=1) - 1) / slope
-        if (rise <= np.spacing(w)).all():
+        # A point that is there stays there: its bits do not depend on the others of its batch.
+        moving = rise > np.spacing(w)
+        if not moving.any():
             break
-        w = np.maximum(w, w + rise)
+        w = np.where(moving, w + rise, w)
     on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
     on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
     normal = on / half_axes
