@@ -20,11 +20,18 @@ SIDE = 0.05
 GAP = 1e-4
 """Between neighbours at the start [m]."""
 
-H, MU_V, MU_OMEGA = 0.01, 0.5, 0.01
-"""Time step [s]; friction [-], [m]."""
+WITHIN = 0.9
+"""Which part of a face has points. Where boxes of one size stand aligned, a point on an edge lies
+on two side faces of its neighbour, and such points ask for opposite motions: no step satisfies
+them."""
 
-PULL = 3.0
-"""Force on each body along x [N]; friction holds 2.45 N."""
+H, MU_V, MU_OMEGA = 0.001, 0.5, 0.01
+"""Time step [s]; friction [-], [m]. A push F moves a lone body of mass m by h^2 F / m in a step:
+with 480 N and h = 0.01 s by twice its side, and a corner 7 mm inside of its neighbour asks for
+motions that contradict each other."""
+
+PUSH = 3.0
+"""Force on the first body for each there is [N]; friction with the floor holds 2.45 N of it."""
 
 BOX = f"""<?xml version="1.0"?>
 <robot name="box"><link name="box">
@@ -45,7 +52,7 @@ class Pile:
     q : ndarray, shape (n_q,)
         Where it starts.
     force : ndarray, shape (n_v,)
-        A pull on each body along x, a little more than friction holds [N, N m].
+        A push on the first body along x, more than the friction of all on the floor [N, N m].
     bodies, contacts : int
     """
 
@@ -109,7 +116,7 @@ def pile(
         system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
     )
     force = np.zeros(system.n_v)
-    force[::6] = PULL  # along x, in each body's own frame
+    force[0] = PUSH * index.size  # along x
     contacts = sum(pair.n_c for pair in pairs)
     return Pile(simulator, system.q_start, force, index.size, contacts)
 
@@ -119,9 +126,14 @@ def _pair(alpha: PlacedShape, beta: PlacedShape, k: int) -> ContactPair:
 
 
 def _surface(dense: int) -> Array:
-    """Points on the surface of a box, `dense` along each side, corners first."""
-    line = np.linspace(-SIDE / 2, SIDE / 2, dense)
-    grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-    at_side = np.isclose(np.abs(grid), SIDE / 2).sum(axis=1)
-    order = np.argsort(-at_side, kind="stable")
-    return np.asarray(grid[order][at_side[order] > 0])
+    """Points on the six faces of a box, dense x dense each, the outermost of each face first."""
+    line = WITHIN * np.linspace(-SIDE / 2, SIDE / 2, dense)
+    u, v = (some.ravel() for some in np.meshgrid(line, line, indexing="ij"))
+    faces = [
+        np.insert(np.stack([u, v], axis=1), axis, side, axis=1)
+        for axis in range(3)
+        for side in (-SIDE / 2, SIDE / 2)
+    ]
+    points = np.concatenate(faces)
+    out = np.isclose(np.abs(points), WITHIN * SIDE / 2).sum(axis=1)
+    return np.asarray(points[np.argsort(-out, kind="stable")])

@@ -237,8 +237,11 @@ def by_hand(accuracy):
 @pytest.mark.parametrize("name", [*REQUIRED, JUDGE])
 @pytest.mark.parametrize("accuracy", [1e-12, 1e-5])
 def test_the_accuracy_reaches_every_tolerance_that_stops_the_solver(name, accuracy):
-    for options in BACKENDS[name].attempts(accuracy):
-        assert options | by_hand(accuracy)[name] == options
+    for i, options in enumerate(BACKENDS[name].attempts(accuracy)):
+        asked = by_hand(accuracy)[name]
+        if name == "piqp" and i == 1:  # where rounding hides so small a gap
+            asked |= dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), accuracy)
+        assert options | asked == options
         if name == "osqp":  # its last attempt gives away one digit
             assert accuracy <= options["eps_abs"] <= 10 * accuracy
 
@@ -265,7 +268,7 @@ def test_an_accuracy_that_is_not_positive_is_refused(accuracy):
 def test_a_second_set_of_options_is_tried_where_the_first_does_not_solve(monkeypatch, rng):
     step, delta_q, _ = planted_step(rng)
     entry = BACKENDS["piqp"]
-    (good,) = entry.attempts(1e-12)
+    good = entry.attempts(1e-12)[0]
     for attempts in ((good | {"max_iter": 1}, good), (good, good | {"max_iter": 1})):
         tried = dataclasses.replace(entry, attempts=lambda _, attempts=attempts: attempts)
         monkeypatch.setitem(BACKENDS, "piqp", tried)

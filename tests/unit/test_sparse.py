@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
-from quasistatic_ref.errors import BackendError, StepDataError, StepNotSolved
+from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -17,6 +17,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.study import piles
 from quasistatic_ref.study.large import exponent, large_step, table
 from quasistatic_ref.study.piles import pile
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
@@ -157,6 +158,29 @@ def test_a_large_step_without_solution_is_no_answer(always_sparse):
     stuck = step.moved(step.M_u, step.tau_a, step.tau_u, step.delta_q_bar_a, torn)
     with pytest.raises(StepNotSolved, match="clarabel did not solve"):
         problem.solution(stuck, 1e-12, "off")
+
+
+@pytest.mark.parametrize(("within", "solvable"), [(1.0, False), (0.9, True)])
+def test_edges_of_aligned_boxes_ask_for_opposite_motions_and_inner_points_do_not(
+    monkeypatch, within, solvable
+):
+    monkeypatch.setattr(piles, "WITHIN", within)
+    some = pile((2, 1, 1), 16, certify="full")
+    q = some.q.copy()
+    q[7] -= piles.GAP + 1e-12  # x of the second box: it touches the first
+    if solvable:
+        result = some.simulator.step(q, NO_TARGET, some.force)
+        assert result.solution.certificate.kind == "exact"
+    else:
+        with pytest.raises(StepInfeasible, match="contradict each other"):
+            some.simulator.step(q, NO_TARGET, some.force)
+
+
+def test_piqp_solves_a_step_whose_duality_gap_is_lost_in_rounding():
+    # 512 contacts: a gap of 1e-14 is never reached, the answer is right all the same.
+    some = pile((16, 1, 1), 32, backend="piqp", certify="residual")
+    residuals = step_after(some, 1).solution.certificate.residuals
+    assert max(residuals.values()) <= OPTIMUM
 
 
 def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
