@@ -26,7 +26,6 @@ from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 __all__ = ["Body", "Kinematics", "System"]
 
 Array = NDArray[np.float64]
-WORLD_POSE = np.eye(4)
 _UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
@@ -240,9 +239,7 @@ class System:
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
-        found, columns = self._workspace.poses(self._order.model_q(q))
-        poses = np.array([WORLD_POSE, *found])
-        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self.motion)
+        return Kinematics(*self._workspace.poses(self._order.model_q(q)), self.motion)
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

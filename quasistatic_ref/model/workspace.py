@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 PART = 48
 """Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""
 
+WORLD = np.eye(3)
+ORIGIN = np.zeros(3)
+
 
 class Part(NamedTuple):
     """Some bodies: their own model and workspace, and where their entries are in the whole.
@@ -25,14 +28,15 @@ class Part(NamedTuple):
     Parameters
     ----------
     model, data : pinocchio.Model, pinocchio.Data
-    frames : list of int
-        Of the links of these bodies.
+    R, t : list of ndarray, shapes (3, 3) and (3,)
+        Poses of the links of these bodies: views of the workspace, which pinocchio writes anew.
     q, v : slice
     """
 
     model: Any
     data: Any
-    frames: list[int]
+    R: list[Array]
+    t: list[Array]
     q: slice
     v: slice
 
@@ -53,21 +57,27 @@ class Workspace:
         q = v = 0
         for model, links in zip(models, frames, strict=True):
             entries = slice(q, q + model.nq), slice(v, v + model.nv)
-            self.parts.append(Part(model, pin.Data(model), links, *entries))
+            data = pin.Data(model)
+            placements = [data.oMf[link] for link in links]
+            R, t = [p.rotation for p in placements], [p.translation for p in placements]
+            self.parts.append(Part(model, data, R, t, *entries))
             q, v = q + model.nq, v + model.nv
         self.n_v, self._none = v, np.zeros((6, 0))
 
-    def poses(self, q: Array) -> tuple[list[Array], Array]:
-        """Pose of each link, shape (4, 4) each, and the columns of all joints, shape (6, n_x)."""
-        poses, columns = [], []
+    def poses(self, q: Array) -> tuple[Array, Array, Array]:
+        """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
+
+        Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`.
+        """
+        R, t, columns = [WORLD], [ORIGIN], []
         for part in self.parts:
-            model, data = part.model, part.data
-            pin.computeJointJacobians(model, data, q[part.q])
-            pin.updateFramePlacements(model, data)
-            placements = data.oMf
-            poses += [placements[frame].homogeneous for frame in part.frames]
-            columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
-        return poses, columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
+            pin.computeJointJacobians(part.model, part.data, q[part.q])
+            pin.updateFramePlacements(part.model, part.data)
+            R += part.R
+            t += part.t
+            columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector
+        all_columns = columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
+        return np.array(R), np.array(t), all_columns
 
     def mass(self, q: Array) -> Array:
         """Mass matrix, shape (n_v, n_v)."""
