@@ -11,22 +11,24 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.data import Array
 
+Vector = list[float]
+"""Two or three numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
 
-def position(joint: Joint, q: Array, delta_q: Array) -> Array:
-    """Translation part of a floating or planar base's q (+) delta_q, shape (3,) or (2,) [m]."""
-    R, own = _rotation(joint, q), delta_q[joint.v]
+
+def position(joint: Joint, q: Array, delta_q: Array) -> Vector:
+    """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
+    R, own, at = _rotation(joint, q), delta_q[joint.v].tolist(), q[place(joint)].tolist()
     if joint.kind == "planar":
-        own = np.array([own[0], own[1], 0.0, 0.0, 0.0, own[2]])
-    return np.asarray(q[place(joint)] + R @ translation(own[:3], own[3:])[: len(R)])
+        own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
+    x, y, z = translation(own[:3], own[3:])
+    return [x_i + (a * x + b * y + c * z) for x_i, (a, b, c) in zip(at, R, strict=False)]
 
 
-def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Array:
-    """A joint's entries (k,) of q_next (-) q, of which delta_q holds a rotation vector already.
+def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Vector:
+    """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
 
     Parameters
     ----------
@@ -37,15 +39,15 @@ def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Array:
         Its entries for the rotation of a floating base are taken as they are.
     """
     if joint.kind == "continuous":
-        return np.array([_turn(q[joint.q], q_next[joint.q])])
-    R = _rotation(joint, q)
-    moved, angular = np.zeros(3), np.zeros(3)
-    moved[: len(R)] = (q_next[place(joint)] - q[place(joint)]) @ R
+        return [_turn(q[joint.q].tolist(), q_next[joint.q].tolist())]
+    R, where = _rotation(joint, q), place(joint)
+    x, y, z = [*(q_next[where] - q[where]).tolist(), 0.0][:3]
+    moved = [a * x + b * y + c * z for a, b, c in zip(*R, strict=True)]
     if joint.kind == "planar":
-        angular[2] = _turn(q[joint.q][2:], q_next[joint.q][2:])
-        return np.array([*linear_part(moved, angular)[:2], angular[2]])
-    angular = delta_q[joint.v][3:]
-    return np.concatenate([linear_part(moved, angular), angular])
+        angle = _turn(q[joint.q][2:].tolist(), q_next[joint.q][2:].tolist())
+        return [*linear_part([*moved[:2], 0.0], [0.0, 0.0, angle])[:2], angle]
+    angular: Vector = delta_q[joint.v][3:].tolist()
+    return linear_part(moved, angular) + angular
 
 
 def place(joint: Joint) -> slice:
@@ -53,68 +55,63 @@ def place(joint: Joint) -> slice:
     return slice(joint.q.start, joint.q.start + (3 if joint.kind == "floating" else 2))
 
 
-def translation(linear: Array, angular: Array) -> Array:
-    """Translation of exp6 of a twist, in the frame that it starts from, shape (3,) [m].
+def translation(linear: Vector, angular: Vector) -> Vector:
+    """Translation of exp6 of a twist, in the frame that it starts from [m].
 
     V v = v + (1 - cos a) / a^2 w x v + (1 - sin a / a) e x (e x v), with a = |w| and e = w / a.
 
     Parameters
     ----------
-    linear, angular : ndarray, shape (3,)
+    linear, angular : list of 3 floats
         v [m] and w [rad].
     """
     angle, axis = _angle_axis(angular)
-    v = linear.tolist()
-    once = _cross(angular.tolist(), v)
+    v, once = linear, _cross(angular, linear)
     across = _cross(axis, _cross(axis, v))
     half = _sinc(angle / 2)
     first, second = half * half / 2, 1 - _sinc(angle)
-    return np.array([v[i] + first * once[i] + second * across[i] for i in range(3)])
+    return [v[i] + first * once[i] + second * across[i] for i in range(3)]
 
 
-def linear_part(translation: Array, angular: Array) -> Array:
-    """The v whose twist (v, w) carries a base by a translation, shape (3,) [m].
+def linear_part(translation: Vector, angular: Vector) -> Vector:
+    """The v whose twist (v, w) carries a base by a translation, 3 numbers [m].
 
-    The rotation vector w is `angular`, shape (3,) [rad].
+    The rotation vector w is `angular` [rad].
 
     V^-1 t = t - w x t / 2 + (1 - (a / 2) cot(a / 2)) e x (e x t), for a < 2 pi.
     """
     angle, axis = _angle_axis(angular)
-    t = translation.tolist()
-    once, across = _cross(angular.tolist(), t), _cross(axis, _cross(axis, t))
+    t = translation
+    once, across = _cross(angular, t), _cross(axis, _cross(axis, t))
     ratio = angle / 2 / math.tan(angle / 2) if angle else 1.0
-    return np.array([t[i] - once[i] / 2 + (1 - ratio) * across[i] for i in range(3)])
+    return [t[i] - once[i] / 2 + (1 - ratio) * across[i] for i in range(3)]
 
 
-def _rotation(joint: Joint, q: Array) -> Array:
-    """Rotation matrix of a base, shape (3, 3), or (2, 2) of a planar one."""
+def _rotation(joint: Joint, q: Array) -> list[Vector]:
+    """Rows of the rotation matrix of a base."""
     if joint.kind == "planar":
-        c, s = q[joint.q][2:]
-        return np.array([[c, -s], [s, c]])
+        c, s = q[joint.q][2:].tolist()
+        return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
     x, y, z, w = q[joint.q][3:].tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
 
 
-def _turn(before: Array, after: Array) -> float:
+def _turn(before: Vector, after: Vector) -> float:
     """Angle from one (cos, sin) to another."""
     (c, s), (c_next, s_next) = before, after
-    return float(np.arctan2(c * s_next - s * c_next, c * c_next + s * s_next))
+    return math.atan2(c * s_next - s * c_next, c * c_next + s * s_next)
 
 
-def _angle_axis(angular: Array) -> tuple[float, list[float]]:
-    w = angular.tolist()
-    angle = math.hypot(*w)
-    return angle, [w_i / angle for w_i in w] if angle else [0.0, 0.0, 0.0]
+def _angle_axis(angular: Vector) -> tuple[float, Vector]:
+    angle = math.hypot(*angular)
+    return angle, [w_i / angle for w_i in angular] if angle else [0.0, 0.0, 0.0]
 
 
-def _cross(a: list[float], b: list[float]) -> list[float]:
-    # Of three numbers: NumPy's takes twenty times as long.
+def _cross(a: Vector, b: Vector) -> Vector:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
