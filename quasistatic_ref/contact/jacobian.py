@@ -85,9 +85,9 @@ class ContactGeometry:
         """
         n_c, of_twist = self.n_c, self.of_twist
         r = np.concatenate([alpha, beta])
-        of_twist[:, :, :3, 3:] = (r @ MINUS_CROSS).reshape(2, n_c, 3, 3)  # nu_origin + omega x r
+        of_twist[:, :, :3, 3:] = r.dot(MINUS_CROSS).reshape(2, n_c, 3, 3)  # nu_origin + omega x r
         of_twist[:, :, 3, 3:] = n
-        moved = (of_twist.reshape(-1, 6) @ columns).reshape(2, n_c, 4, columns.shape[1])
+        moved = of_twist.reshape(-1, 6).dot(columns).reshape(2, n_c, 4, columns.shape[1])
         moved *= self.moves
         return self.motion.of_coordinates(moved[1] - moved[0])  # Eqs. (2)-(3)
 
@@ -112,7 +112,7 @@ def tangents(n: Array) -> tuple[Array, Array]:
     n_axis = n.take(at)[:, None]
     both = np.empty((2, *n.shape))
     np.subtract(AXES.take(axis, axis=0), n_axis * n, out=both[0])
-    both[1] = (n @ CROSS_AXES).reshape(-1, 3).take(at, axis=0)  # n x axis
+    both[1] = n.dot(CROSS_AXES).reshape(-1, 3).take(at, axis=0)  # n x axis
     both /= np.sqrt(1 - n_axis * n_axis)  # the length of both
     return both[0], both[1]
 

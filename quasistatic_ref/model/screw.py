@@ -12,41 +12,40 @@ from __future__ import annotations
 import math
 
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.step.data import Array
 
 Vector = list[float]
-"""Two or three numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
+"""Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
 
 
-def position(joint: Joint, q: Array, delta_q: Array) -> Vector:
+def position(joint: Joint, q: Vector, delta_q: Vector) -> Vector:
     """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
-    R, own, at = _rotation(joint, q), delta_q[joint.v].tolist(), q[place(joint)].tolist()
+    R, own, at = _rotation(joint, q), delta_q[joint.v], q[place(joint)]
     if joint.kind == "planar":
         own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
     x, y, z = translation(own[:3], own[3:])
     return [x_i + (a * x + b * y + c * z) for x_i, (a, b, c) in zip(at, R, strict=False)]
 
 
-def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Vector:
+def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:
     """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
 
     Parameters
     ----------
     joint : Joint
         Floating, planar or continuous.
-    q, q_next : ndarray, shape (n_q,)
-    delta_q : ndarray, shape (n_v,)
+    q, q_next : list of n_q floats
+    delta_q : list of n_v floats, or those of the actuated coordinates
         Its entries for the rotation of a floating base are taken as they are.
     """
     if joint.kind == "continuous":
-        return [_turn(q[joint.q].tolist(), q_next[joint.q].tolist())]
+        return [_turn(q[joint.q], q_next[joint.q])]
     R, where = _rotation(joint, q), place(joint)
-    x, y, z = [*(q_next[where] - q[where]).tolist(), 0.0][:3]
+    x, y, z = [*(b - a for a, b in zip(q[where], q_next[where], strict=True)), 0.0][:3]
     moved = [a * x + b * y + c * z for a, b, c in zip(*R, strict=True)]
     if joint.kind == "planar":
-        angle = _turn(q[joint.q][2:].tolist(), q_next[joint.q][2:].tolist())
+        angle = _turn(q[joint.q][2:], q_next[joint.q][2:])
         return [*linear_part([*moved[:2], 0.0], [0.0, 0.0, angle])[:2], angle]
-    angular: Vector = delta_q[joint.v][3:].tolist()
+    angular = delta_q[joint.v][3:]
     return linear_part(moved, angular) + angular
 
 
@@ -65,12 +64,9 @@ def translation(linear: Vector, angular: Vector) -> Vector:
     linear, angular : list of 3 floats
         v [m] and w [rad].
     """
-    angle, axis = _angle_axis(angular)
-    v, once = linear, _cross(angular, linear)
-    across = _cross(axis, _cross(axis, v))
-    half = _sinc(angle / 2)
-    first, second = half * half / 2, 1 - _sinc(angle)
-    return [v[i] + first * once[i] + second * across[i] for i in range(3)]
+    a = math.hypot(*angular)
+    half = _sinc(a / 2)
+    return _combined(linear, angular, a, half * half / 2, 1 - _sinc(a))
 
 
 def linear_part(translation: Vector, angular: Vector) -> Vector:
@@ -80,19 +76,16 @@ def linear_part(translation: Vector, angular: Vector) -> Vector:
 
     V^-1 t = t - w x t / 2 + (1 - (a / 2) cot(a / 2)) e x (e x t), for a < 2 pi.
     """
-    angle, axis = _angle_axis(angular)
-    t = translation
-    once, across = _cross(angular, t), _cross(axis, _cross(axis, t))
-    ratio = angle / 2 / math.tan(angle / 2) if angle else 1.0
-    return [t[i] - once[i] / 2 + (1 - ratio) * across[i] for i in range(3)]
+    a = math.hypot(*angular)
+    return _combined(translation, angular, a, -0.5, 1 - a / 2 / math.tan(a / 2) if a else 0.0)
 
 
-def _rotation(joint: Joint, q: Array) -> list[Vector]:
+def _rotation(joint: Joint, q: Vector) -> list[Vector]:
     """Rows of the rotation matrix of a base."""
     if joint.kind == "planar":
-        c, s = q[joint.q][2:].tolist()
+        c, s = q[joint.q][2:]
         return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-    x, y, z, w = q[joint.q][3:].tolist()
+    x, y, z, w = q[joint.q][3:]
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
@@ -106,13 +99,16 @@ def _turn(before: Vector, after: Vector) -> float:
     return math.atan2(c * s_next - s * c_next, c * c_next + s * s_next)
 
 
-def _angle_axis(angular: Vector) -> tuple[float, Vector]:
-    angle = math.hypot(*angular)
-    return angle, [w_i / angle for w_i in angular] if angle else [0.0, 0.0, 0.0]
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> Vector:
+    """v + once w x v + twice e x (e x v), where w = a e."""
+    (x, y, z), (p, q, r) = v, w
+    across = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0  # e x (e x v) = (e.v) e - v
+    rest = 1 - twice
+    return [
+        rest * x + once * (q * z - r * y) + across * p,
+        rest * y + once * (r * x - p * z) + across * q,
+        rest * z + once * (p * y - q * x) + across * r,
+    ]
 
 
 def _sinc(x: float) -> float:

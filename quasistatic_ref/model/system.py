@@ -88,6 +88,7 @@ class System:
         self.joints: tuple[Joint, ...] = self._order.joints
         turning = ("floating", "planar", "continuous")
         self._screws = tuple(joint for joint in self.joints if joint.kind in turning)
+        self._bases = tuple(joint for joint in self._screws if joint.kind != "continuous")
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -140,19 +141,17 @@ class System:
         order = self._order
         after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
         q_next = order.paper_q(after)
-        for joint in self.joints:
-            if joint.kind in ("floating", "planar"):
-                q_next[screw.place(joint)] = screw.position(joint, q, delta_q)
+        if self._bases:
+            here, moved = q.tolist(), delta_q.tolist()
+            for joint in self._bases:
+                q_next[screw.place(joint)] = screw.position(joint, here, moved)
         return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         order = self._order
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
-        delta_q = order.paper_v(change)
-        for joint in self._screws:
-            delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
-        return delta_q
+        return self._exact(q, q_next, order.paper_v(change))
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); q_a has shape (n_q_a,)."""
@@ -162,11 +161,15 @@ class System:
         q_next = q.copy()
         q_next[:n] = q_a
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
-        delta_q_a: Array = change.take(order.v[: self.n_a])
+        return self._exact(q, q_next, change.take(order.v[: self.n_a]))
+
+    def _exact(self, q: Array, q_next: Array, delta_q: Array) -> Array:
+        """delta_q of all or of the actuated coordinates, with the screws of its joints anew."""
+        rounded, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
         for joint in self._screws:
-            if joint.actuated:
-                delta_q_a[joint.v] = screw.change(joint, q, q_next, delta_q_a)
-        return delta_q_a
+            if joint.v.stop <= len(rounded):
+                rounded[joint.v] = screw.change(joint, here, there, rounded)
+        return np.array(rounded)
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""

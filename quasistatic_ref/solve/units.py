@@ -102,9 +102,9 @@ def natural_units(step: StepData) -> Units:
 
 def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not."""
-    squares = np.square(form.A) @ of_H.squared  # exact: powers of two
+    squares = np.square(form.A).dot(of_H.squared)  # exact: powers of two
     squares.sort()  # NaN comes last
-    energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
+    energy = math.sqrt(max(float(form.g.dot(of_H.inverse).dot(form.g)), 0.0))  # ||H^-1 g||_H
     return units_from(of_H.coordinate, squares, energy, form.b)
 
 

@@ -48,7 +48,7 @@ def standard_form(step: StepData) -> StandardForm:
     StandardForm
     """
     contacts, rows = step.contacts, step.row_index
-    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    tau_k = step.K_q.dot(step.delta_q_bar_a)  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
     A = friction_rows(contacts, step.cone).reshape(-1, step.n_v).take(rows, axis=0)  # Eq. (8)
     if step.cone == ELLIPSOID:
