@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,21 +127,31 @@ class Order:
         """The same of delta_q."""
         return np.argsort(self.v)
 
+    @cached_property
+    def same(self) -> bool:
+        """Whether both orders are one, as with all actuated bodies before the others."""
+        return bool((np.diff(self.q) > 0).all())
+
     def paper_q(self, q: Array) -> Array:
         """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
-        return q.take(self.q)
+        return q if self.same else q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's; both of shape (n_q,)."""
-        return _reordered(np.asarray(q, dtype=np.float64), self.q_back)
+        return self._back(np.asarray(q, dtype=np.float64), self.q_back)
 
     def paper_v(self, v: Array) -> Array:
         """Last axis, shape (..., n_v), from pinocchio's order to the paper's; of delta_q, J."""
-        return v.take(self.v, axis=-1)
+        return v if self.same else v.take(self.v, axis=-1)
 
     def model_v(self, v: Array) -> Array:
         """Vector of delta_q in pinocchio's order, from the paper's; both of shape (n_v,)."""
-        return _reordered(np.asarray(v, dtype=np.float64), self.v_back)
+        return self._back(np.asarray(v, dtype=np.float64), self.v_back)
+
+    def _back(self, values: Array, at: Indices) -> Array:
+        if values.shape != at.shape:
+            raise ValueError(f"expected shape {at.shape}, not {values.shape}")
+        return values if self.same else values.take(at)
 
 
 def joint_key(joint: str) -> str:
@@ -168,10 +177,3 @@ def paper_order(joints: Sequence[ModelJoint]) -> Order:
     return Order(
         tuple(ordered), np.array(entries_q, dtype=np.int64), np.array(entries_v, dtype=np.int64)
     )
-
-
-def _reordered(values: Any, at: Indices) -> Array:
-    if values.shape != at.shape:
-        raise ValueError(f"expected shape {at.shape}, not {values.shape}")
-    taken: Array = values.take(at)
-    return taken
