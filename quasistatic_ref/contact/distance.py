@@ -9,7 +9,7 @@ closest pair, so k = 1 asks for that one alone.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED
 
 
-@dataclass(frozen=True, eq=False)
-class ClosestPoints:
+class ClosestPoints(NamedTuple):
     """Candidate contacts, in the world frame.
 
     Parameters

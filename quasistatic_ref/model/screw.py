@@ -100,9 +100,9 @@ def _turn(before: Vector, after: Vector) -> float:
 
 
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> Vector:
-    """v + once w x v + twice e x (e x v), where w = a e."""
+    """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
     (x, y, z), (p, q, r) = v, w
-    across = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0  # e x (e x v) = (e.v) e - v
+    across = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0
     rest = 1 - twice
     return [
         rest * x + once * (q * z - r * y) + across * p,

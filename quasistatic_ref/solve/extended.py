@@ -8,7 +8,7 @@ curved constraints, further variables) is solved as a conic program whose residu
 from __future__ import annotations
 
 import warnings
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import cvxpy as cp
 import numpy as np
@@ -113,7 +113,7 @@ def extended_solution(
     cone_backend(name, "an extension that is more than rows")
     units = natural_units(step)
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
-        units = replace(units, size=1.0)
+        units = units._replace(size=1.0)
     natural = to_natural(step, units)
     scale = Scale(units.size * units.coordinate, units.size * units.length, units.size**2)
     problem = StepProblem(natural, extension, scale)

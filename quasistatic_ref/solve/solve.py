@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextvars import copy_context
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
@@ -43,6 +44,12 @@ from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
 NOTHING_CLAIMED = Certificate("none")
+
+QUIET = copy_context()
+"""Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
+NumPy warns of, get lost between BLAS's threads. (np.errstate sets a variable that every call of
+NumPy then looks up anew: 9 us a step.)"""
+QUIET.run(np.seterr, all="ignore")
 
 
 def solve_step(
@@ -119,25 +126,30 @@ def solve_step(
         return problem.solution(step, accuracy, certify)
     if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
-    # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost
-    # between BLAS's threads.
-    with np.errstate(all="ignore"):
-        if engine == NATIVE:
-            problem = _native(step, backend, problem)
-        kept = problem.metric if isinstance(problem, NativeProblem) else None
-        question = _Question(Scaled(step, kept), backend, accuracy, problem)
-        if certify != "full":
-            solution = _believed(question, certify)
-        else:
-            solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
+    if engine == NATIVE:
+        problem = _native(step, backend, problem)
+    solution = QUIET.copy().run(_solved, step, backend, accuracy, certify, problem)
+    if solution is None:
+        raise out_of_range(step)
+    return solution
+
+
+def _solved(
+    step: StepData, backend: str, accuracy: float, certify: str, problem: Problem | None
+) -> StepSolution | None:
+    """The solution, or None if it is not finite."""
+    kept = problem.metric if isinstance(problem, NativeProblem) else None
+    question = _Question(Scaled(step, kept), backend, accuracy, problem)
+    if certify != "full":
+        solution = _believed(question, certify)
+    else:
+        solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
     good = finite(solution.delta_q) and finite(solution.lam)
     if certify != "off" or solution.lam_extra.size:
         residuals = np.array(list(solution.certificate.residuals.values()))
         others = (solution.lam_extra, solution.wrench.ravel(), residuals)
         good = good and all(map(finite, others))
-    if not good:
-        raise out_of_range(step)
-    return solution
+    return solution if good else None
 
 
 def _native(step: StepData, backend: str, problem: Problem | None) -> NativeProblem | None:

@@ -6,7 +6,7 @@ r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,7 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
 
 
-@dataclass(frozen=True, eq=False)
-class StandardForm:
+class StandardForm(NamedTuple):
     """The quadratic program of one step, in float64.
 
     Parameters
