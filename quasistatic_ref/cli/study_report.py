@@ -14,7 +14,7 @@ def add_report(actions: Any) -> None:
     report = actions.add_parser(
         "report",
         help="write what a study says: one HTML page, Markdown, figures",
-        description="Write what a study says: a self-contained HTML page, and Markdown with figures.",
+        description="Write what a study says: a self-contained HTML page, Markdown, figures.",
     )
     report.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
     shared.add_out(report, "report")
@@ -30,7 +30,7 @@ def add_report(actions: Any) -> None:
 def run_report(options: argparse.Namespace) -> int:
     """Write ``report.html``, ``report.md`` and ``figures``."""
     from quasistatic_ref.figures.study_images import images
-    from quasistatic_ref.files import text_written, writable_folder, written_whole
+    from quasistatic_ref.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.study.page_html import html_page
     from quasistatic_ref.study.page_markdown import markdown_page
     from quasistatic_ref.study.report import study_report
@@ -41,9 +41,7 @@ def run_report(options: argparse.Namespace) -> int:
     for picture in report.pictures:
         found = images(picture)
         inside[picture.name] = found["svg"]
-        png = found["png"]
-        path = written_whole(folder / f"{picture.name}.png", lambda f, png=png: f.write(png))
-        print(f"wrote {path}")
+        print(f"wrote {bytes_written(folder / f'{picture.name}.png', found['png'])}")
     pages = {"report.md": markdown_page(report), "report.html": html_page(report, inside)}
     for name, text in pages.items():
         print(f"wrote {text_written(options.out / name, text)}")

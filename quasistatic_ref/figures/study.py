@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from quasistatic_ref.figures.study_pens import pens
+from quasistatic_ref.figures.study_pens import pens, short
 from quasistatic_ref.study.statistics import profile
 
 WIDTH: Final = 6.3
@@ -19,6 +20,7 @@ FURTHEST: Final = 1e4
 """Largest ratio of times that a profile shows."""
 DARK: Final = 0.6
 """Share of the scale beyond which a cell's number is white."""
+POINT: Final = {"linestyle": "", "label": "_"}
 LEVEL_MARKS: Final = ("o", "s", "^")
 
 
@@ -40,7 +42,7 @@ def profiles(data: Mapping[str, Any]) -> Figure:
         axes.set_title(panel["title"])
     grid[0].set_ylim(-3, 103)
     grid[0].set_ylabel("problems right within that [%]")
-    _legend(figure, grid, names)
+    _legend(figure, names)
     return figure
 
 
@@ -58,13 +60,13 @@ def success(data: Mapping[str, Any]) -> Figure:
             face = str(0.9 - 0.4 * k)
             axes.plot(
                 panel["shares"][:, k], at, linestyle="", marker=mark, markersize=8 - 1.5 * k,
-                markerfacecolor=face, markeredgecolor="black", label=f">= {least:g} digits",
+                markerfacecolor=face, markeredgecolor="black", label=rf"$\geq$ {least:g} digits",
                 clip_on=False, zorder=3,
             )  # fmt: skip
         axes.set_xlim(0, 100)
         axes.set_xlabel("problems [%]")
         axes.set_title(f"setting {panel['title']}")
-    grid[0].set_yticks(range(len(names)), names)
+    grid[0].set_yticks(range(len(names)), short(names).values())
     handles, labels = grid[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(levels))
     return figure
@@ -81,18 +83,20 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
     )  # fmt: skip
     for axes, panel in zip(grid, panels, strict=True):
         for label, points in panel["lines"].items():
-            ms = [1e3 * seconds for _, seconds, _ in points]
-            right = [digits for _, _, digits in points]
-            axes.plot(ms, right, **pen[label] | {"markerfacecolor": "white"}, clip_on=False)
-            own = pen[label] | {"linestyle": "", "label": "_last"}
-            axes.plot(ms[-1:], right[-1:], **own, clip_on=False)
+            set_ = [(1e3 * t, right) for own, t, right in points if not own]
+            own = [(1e3 * t, right) for own, t, right in points if own]
+            kinds = (set_, "none", {}), (set_[-1:], "full", POINT), (own, "left", POINT)
+            # An empty line that is not clipped has no extent, which upsets the layout.
+            for part, fill, more in (kind for kind in kinds if kind[0]):
+                dress = pen[label] | more | {"fillstyle": fill, "clip_on": False}
+                axes.plot(*np.transpose(part), **dress)
         axes.set_xscale("log")
         axes.set_xlabel("median time of a call [ms]")
         axes.set_title(panel["title"])
     grid[0].set_ylim(0, 16.5)
     grid[0].set_yticks(range(0, 17, 4))
     grid[0].set_ylabel(r"median correct digits of $\delta q$ [-]")
-    _legend(figure, grid, names)
+    _legend(figure, names)
     return figure
 
 
@@ -107,7 +111,7 @@ def families(data: Mapping[str, Any]) -> Figure:
     for axes, panel in zip(grid[:, 0], panels, strict=True):
         image = axes.imshow(panel["digits"], cmap="Greys", vmin=0, vmax=16, aspect="auto")
         _numbers(axes, panel["digits"])
-        axes.set_yticks(range(len(panel["labels"])), panel["labels"])
+        axes.set_yticks(range(len(panel["labels"])), short(panel["labels"]).values())
         axes.set_xticks(range(len(panel["families"])), panel["families"], rotation=60,
                         ha="right", rotation_mode="anchor")  # fmt: skip
         axes.grid(visible=False)
@@ -127,13 +131,12 @@ def _numbers(axes: Axes, values: np.ndarray) -> None:
             axes.text(j, i, "-", ha="center", va="center", fontsize=7)
 
 
-def _legend(figure: Figure, grid: np.ndarray, names: list[str]) -> None:
+def _legend(figure: Figure, names: list[str]) -> None:
     """One legend for all panels, below them."""
-    found: dict[str, Any] = {}
-    for axes in grid:
-        handles, labels = axes.get_legend_handles_labels()
-        found.update(dict(zip(labels, handles, strict=True)))
+    drawn = pens(names)
+    handles = [Line2D([], [], **drawn[name], fillstyle="none") for name in names]
+    shown = short(names)
     figure.legend(
-        [found[name] for name in names], names, loc="outside lower center", ncols=3,
-        handlelength=3.5,
+        handles, list(shown.values()), loc="outside lower center",
+        ncols=3 if shown[names[0]] == names[0] else 5, handlelength=2.6, columnspacing=1.0,
     )  # fmt: skip

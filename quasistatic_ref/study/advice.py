@@ -1,4 +1,4 @@
-"""Which setting to use: for each solver the fastest of those that are about as right as its best."""
+"""Which setting to use: each solver's fastest of those that are about as right as its best."""
 
 from __future__ import annotations
 

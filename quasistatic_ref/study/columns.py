@@ -82,7 +82,8 @@ def common(columns: Columns, by: Sequence[str] = ("label",)) -> Columns:
     one = _numbered(columns, by)
     there = np.zeros((one.max() + 1, unit.max() + 1), dtype=bool)
     there[one, unit] = True
-    return _kept(columns, there.all(axis=0)[unit])
+    shared: np.ndarray = np.all(there, axis=0, keepdims=True)[0]
+    return _kept(columns, shared[unit])
 
 
 def groups(columns: Columns, by: Sequence[str]) -> Iterator[tuple[tuple[str, ...], Columns]]:

@@ -8,7 +8,13 @@ import math
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files import bytes_read, json_text, text_written, writable_folder, written_whole
+from quasistatic_ref.files import (
+    bytes_read,
+    bytes_written,
+    json_text,
+    text_written,
+    writable_folder,
+)
 from quasistatic_ref.study.problems import FACTS
 from quasistatic_ref.study.store import PACKED, STUDY, Row, rows_read, study_read
 
@@ -38,7 +44,7 @@ def packed(folder: str | Path, out: str | Path) -> list[Path]:
     content = lzma.compress(lines.encode(), preset=9 | lzma.PRESET_EXTREME)
     written = [
         text_written(out / STUDY, json_text(study) + "\n"),
-        written_whole(out / PACKED, lambda file: _write(file, content)),
+        bytes_written(out / PACKED, content),
     ]
     if study["kind"] == "solvers":
         written.append(text_written(out / FACTS, bytes_read(folder / FACTS).decode()))
@@ -65,7 +71,3 @@ def _down(value: float) -> float:
 
 def _figures(value: float | None) -> float | None:
     return None if value is None else float(f"{value:.{FIGURES}g}")
-
-
-def _write(file: Any, content: bytes) -> None:
-    file.write(content)

@@ -9,19 +9,19 @@ from quasistatic_ref.study.page import Table
 from quasistatic_ref.study.statistics import SHIFT
 
 METHOD = (
-    "Each problem is min 1/2 x'Hx - g'x, Ax >= b, one step of a contact simulation. Its exact "
+    "Each problem is `min 1/2 x'Hx - g'x, Ax >= b`, one step of a contact simulation. Its exact "
     "answer is known; beyond 60 coordinates it is enclosed, and no digit beyond the bound is told.",
-    "Digits are -log10 of ||x - x*||_H / ||H^-1 g||_H, 0 to 16. In this report a solver delivers "
-    "the digits of its answer if it says that it solved the problem (outcome solved), otherwise 0: "
-    "an answer with an apology is no use to a simulator.",
+    "Digits are -log10 of `||x - x*||_H / ||H^-1 g||_H`, 0 to 16. In this report a solver delivers "
+    "the digits of its answer if it says that it solved the problem (outcome solved), otherwise 0, "
+    "since a simulator cannot go on with the answer of a solver that failed.",
     "A claim is false (said optimal, was wrong) if the solver says optimal and its answer has "
-    "fewer digits than the setting promises. By strong convexity ||x - x*||_H^2 <= 2 gap, so an "
+    "fewer digits than the setting promises. By strong convexity `||x - x*||_H^2 <= 2 gap`, so an "
     "accuracy promises about half of its digits.",
     "A time is that of the whole call, conversions on the road included, compilation by CVXPY not; "
     "a call that did not solve counts with the time limit of {limit:g} s. Times are compared "
     "within this run only, on the same problems: all solvers are asked on a problem before the "
     "next one, the first place going round. They are summed up by medians and by the shifted "
-    f"geometric mean exp(mean(log(t + s))) - s, s = {1e3 * SHIFT:g} ms.",
+    f"geometric mean `exp(mean(log(t + s))) - s`, s = {1e3 * SHIFT:g} ms.",
     "Performance profiles are after Dolan and More (Math. Program. 91, 2002): the share of "
     "problems that a solver gets right, to the digits named, within tau times the time of the "
     "fastest solver that does. At the left end: how often it is the fastest; at the right end: "

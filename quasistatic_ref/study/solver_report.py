@@ -53,8 +53,7 @@ def solver_report(
     Report
     """
     columns = columns_of(rows, study["time_limit"])
-    present = set(columns["setting"])
-    settings = [s["name"] for s in study["settings"] if s["name"] in present]
+    settings = _settings(study, columns)
     base = _widest(columns)
     main = _main_settings(columns, settings, base)
     families = list(dict.fromkeys(fact["family"] for fact in facts))
@@ -67,10 +66,10 @@ def solver_report(
         "Solvers on contact problems with exact answers",
         (
             Section("Which settings to use", (head, *_advised(study, columns, settings, base))),
-            Section("Accuracy and time", tuple(_compared(columns, settings, main, base))),
+            Section("Accuracy and time", tuple(_compared(study, columns, settings, main, base))),
             Section("Said optimal, was wrong", tuple(_claims(columns, settings, promised))),
             Section("By problem family", tuple(_by_family(columns, main, base, families))),
-            Section("Units, warm starts, roads", tuple(_contrasts(columns, base))),
+            Section("Units, warm starts, roads", tuple(_contrasts(columns, settings, base))),
             Section("How calls ended", (outcome_table(columns),)),
             Section("Method", (*method(study["time_limit"]), settings_table(study["settings"]))),
             Section("Limitations", LIMITATIONS),
@@ -79,6 +78,13 @@ def solver_report(
                     (*place_tables(study), options_table(study["solvers"]))),
         ),
     )  # fmt: skip
+
+
+def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
+    """The settings that were asked, each solver's own first, then from loose to tight."""
+    asked = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
+    asked.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
+    return [s["name"] for s in asked]
 
 
 def _widest(columns: Columns) -> dict[str, str | bool]:
@@ -112,6 +118,7 @@ def _advised(
 
 
 def _compared(
+    study: Mapping[str, Any],
     columns: Columns,
     settings: Sequence[str],
     main: Sequence[str],
@@ -134,23 +141,27 @@ def _compared(
         Picture("profiles", "profiles", {"panels": panels}, "Performance profiles.", rows),
         Picture("success", "success", {"panels": shares, "levels": LEVELS},
                 "Problems solved to 3, 6 and 9 correct digits.", rows),
-        _against_time(columns, settings, base),
+        _against_time(study, columns, settings, base),
     ]  # fmt: skip
     tables = [solver_table(columns, {**base, "setting": s}) for s in settings]
     return [*blocks, *tables]
 
 
 def _against_time(
-    columns: Columns, settings: Sequence[str], base: Mapping[str, str | bool]
+    study: Mapping[str, Any],
+    columns: Columns,
+    settings: Sequence[str],
+    base: Mapping[str, str | bool],
 ) -> Picture:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
+    own_ = {s["name"]: s["accuracy"] is None for s in study["settings"]}
     panels, said = [], []
     for units in sorted(set(columns["units"])):
         where = {**base, "units": units}
         own = common(chosen(columns, where), ["label", "setting"])
         lines = {
             label: [
-                (s, float(np.median(at["seconds"])), float(np.median(at["digits"])))
+                (own_[s], float(np.median(at["seconds"])), float(np.median(at["digits"])))
                 for s in settings
                 if size(at := chosen(part, {"setting": s}))
             ]
@@ -161,8 +172,8 @@ def _against_time(
             said.append(f"units = {units}{same_problems(own)}")
     where_ = {name: value for name, value in base.items() if name != "units"}
     caption = (
-        "Median digits against median time of a call; a line joins the settings of a solver from "
-        f"{settings[0]} to {settings[-1]}, the last one filled."
+        "Median digits against median time of a call. A mark is a setting: half filled the "
+        "solver's own, filled the tightest; a line joins the others from loose to tight."
     )
     words = f"{filter_words(where_)}; {'; '.join(said)}"
     return Picture("digits_time", "digits_time", {"panels": panels}, caption, words)
@@ -200,7 +211,9 @@ def _by_family(
     return [Picture("families", "families", {"panels": panels}, caption, rows), *tables]
 
 
-def _contrasts(columns: Columns, base: Mapping[str, str | bool]) -> list[Block]:
+def _contrasts(
+    columns: Columns, settings: Sequence[str], base: Mapping[str, str | bool]
+) -> list[Block]:
     road, units = base["road"], base["units"]
     asked = (
         ("Raw units and natural units.", "units", ("raw", "natural"),
@@ -209,5 +222,5 @@ def _contrasts(columns: Columns, base: Mapping[str, str | bool]) -> list[Block]:
         ("Directly and through CVXPY.", "road", ("qpsolvers", "cvxpy"),
          {"units": units, "warm": False}, False),
     )  # fmt: skip
-    tables = [contrast(columns, *one) for one in asked]
+    tables = [contrast(columns, settings, *one) for one in asked]
     return [table for table in tables if table.rows]

@@ -96,11 +96,13 @@ def worst_claims(columns: Columns, promised: Mapping[str, float], most: int = 12
     )  # fmt: skip
     names = ("solver", "setting", "units", "warm", "problem", "its own status",
              "digits promised", "digits")  # fmt: skip
-    return Table("The false claims that were furthest off.", "wrong = true", names, rows, left=6)
+    return Table("The false claims that were furthest off, one of each solver, setting, units and "
+                 "warmth.", "wrong = true", names, rows, left=6)  # fmt: skip
 
 
 def contrast(
     columns: Columns,
+    settings: Sequence[str],
     title: str,
     by: str,
     values: Sequence[Any],
@@ -112,6 +114,7 @@ def contrast(
     Parameters
     ----------
     columns : mapping of str to ndarray
+    settings : sequence of str
     title : str
     by : str
         The field; ``road`` compares a solver with itself, too.
@@ -121,7 +124,12 @@ def contrast(
         Whether to tell their median.
     """
     rows = []
-    for key, part in groups(chosen(columns, where), ["solver", "setting"]):
+    every = dict(groups(chosen(columns, where), ["solver", "setting"]))
+    solvers = dict.fromkeys(solver for solver, _ in every)
+    for key in ((solver, setting) for solver in solvers for setting in settings):
+        if key not in every:
+            continue
+        part = every[key]
         own = common(part, [by])
         parts = [chosen(own, {by: value}) for value in values]
         if not all(map(size, parts)):
@@ -194,4 +202,3 @@ def _span(values: Sequence[float]) -> str:
 def _median_told(values: np.ndarray) -> str:
     told = values[np.isfinite(values)]
     return f"{np.median(told):g}" if len(told) else "-"
-
