@@ -53,6 +53,11 @@ FAR: Final = 100.0
 The unconstrained step is about one long. Solvers lose digits on numbers like 1e6 beside 1; a
 row that is held at 100 stays inactive, and the judge, who sees the true distance, would notice."""
 
+PROVED: Final = 1e-13
+"""Largest excess of a solid's support over a candidate for the closest point, relative to the
+coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
+another feature misses by the size of the shapes, or is as good."""
+
 WITNESS: Final = 1e-6
 """Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
 

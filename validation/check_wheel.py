@@ -75,6 +75,8 @@ def main() -> None:
             ["verify", "step.json", "solution.json"],
             ["inspect", "bunny_grasp"],
             ["backends"],
+            ["vectors", "own", "--layer", "qp", "--out", "answers"],
+            ["vectors", "check", "answers"],
         ):
             output([binary / "quasistatic-ref", *command], empty)
             print(f"{command[0]}: good")

@@ -33,13 +33,14 @@ COMMANDS = {
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that suggests the nearest command."""
+    """An argument parser that suggests the nearest command, or action of a command."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with status 2 and a sentence."""
         unknown = re.search(r"invalid choice: '(\w*)'", message)
-        hint = suggestion(unknown[1], COMMANDS) if unknown else ""
-        super().error(f"{message.split(' (choose from')[0]}{hint}")
+        said, _, choices = message.partition(" (choose from")
+        hint = suggestion(unknown[1], re.findall(r"\w+", choices)) if unknown else ""
+        super().error(f"{said}{hint}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

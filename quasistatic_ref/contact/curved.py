@@ -10,9 +10,9 @@ import numpy as np
 
 from quasistatic_ref.step.data import Array
 
-HALVINGS = 140
-"""Bisections of an ellipsoid's root: the bracket ratio, 1e308 at most, halves in its logarithm ten
-times and then in its width 130 times, past the last bit."""
+STEPS = 100
+"""Most Newton steps to an ellipsoid's root: about ten are usual, as each starts within 1 of it in
+the sum."""
 
 
 def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
@@ -20,7 +20,8 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
 
     The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
     root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
-    every sum of the denominators is free of cancellation; w > 0 is bracketed and bisected.
+    every sum of the denominators is free of cancellation. Where one term alone is 1 the root is not
+    yet reached; the sum is at most 3 there and convex, so that Newton's steps rise to the root.
     (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
     """
     least = half_axes.min()
@@ -31,13 +32,15 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
     # is taken by moving the point off that plane by less than any number matters.
     z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
     low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
-    high = np.sqrt(np.sum((r * z) ** 2, axis=1))
-    high = np.maximum(high, low)
-    for _ in range(HALVINGS):
-        middle = np.where(high > 4 * low, np.sqrt(low) * np.sqrt(high), (low + high) / 2)
-        above = np.sum((r * z / (middle[:, None] + (r - 1))) ** 2, axis=1) > 1
-        low, high = np.where(above, middle, low), np.where(above, high, middle)
-    on = z * r / (((low + high) / 2)[:, None] + (r - 1))  # x / e, of length one
+    w = low
+    for _ in range(STEPS):
+        terms = (r * z / (w[:, None] + (r - 1))) ** 2
+        slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
+        rise = (np.sum(terms, axis=1) - 1) / slope
+        if (rise <= np.spacing(w)).all():
+            break
+        w = np.maximum(w, w + rise)
+    on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
     on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
     normal = on / half_axes
     normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]
@@ -62,17 +65,20 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     above_side = (p[:, 0] - rim[0]) * side[0] + (p[:, 1] - rim[1]) * side[1]
     above_base = -half_length - p[:, 1]
     along = (tip - rim) / slant
-    s = np.clip((p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1], 0.0, slant)
-    on_side = rim + s[:, None] * along
+    s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
+    on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
     on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
     d_side, d_base = _length(p - on_side), _length(p - on_base)
-    nearest = np.where((d_side <= d_base)[:, None], on_side, on_base)
+    side_nearest = d_side <= d_base
+    nearest = np.where(side_nearest[:, None], on_side, on_base)
     away = p - nearest
     distance = _length(away)
     flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
     level = np.maximum(above_side, above_base)
     # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
-    face = (level <= 0) | (distance <= level)
+    # By where the closest point is, not by its distance: next to the surface that is all rounding.
+    within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
+    face = (level <= 0) | within | (distance == 0)
     flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
     phi = np.where(face, level, distance)
     return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)

@@ -56,11 +56,15 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
     on_a, on_b = tail_a + s * way_a, tail_b + r * way_b
     apart = (on_b - on_a)[0]
     gap, size = float(np.sqrt(apart @ apart)), float(np.abs([a.vertices, b.vertices]).max())
+    across = np.cross(way_a, way_b)[0]
+    steepness = float(np.sqrt((across @ across) / ((way_a @ way_a.T) * (way_b @ way_b.T))).item())
+    inside = 0 < s[0] < 1 and 0 < r[0] < 1
     n = apart
     if gap <= ON_SURFACE * size:  # axes that cross, or lie in each other
-        n = np.cross(way_a, way_b)[0]
-        if np.sqrt(n @ n) <= ON_SURFACE * size**2:
-            n = a.normals[0]
+        n = across if np.sqrt(across @ across) > ON_SURFACE * size**2 else a.normals[0]
+    elif inside and steepness * size > gap:  # the difference of near points has few digits
+        n = across
+    if n is not apart:
         n = n * (1.0 if n @ apart >= 0 else -1.0)
         gap = float(n @ apart / np.sqrt(n @ n))
     return _with_margins(a, b, gap, on_a[0], n / np.sqrt(n @ n))

@@ -1,14 +1,16 @@
 """Signed distance, closest points and normal of two solids, by the road that suits them.
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
-have closed forms, right to rounding. The others, curved solids (cylinder, cone, ellipsoid)
-among themselves and on polytopes, are asked of coal and proved.
+have closed forms, right to rounding; so have a polytope or a cylinder and a cylinder, cone or
+ellipsoid that are apart. The others, curved solids that meet, and cones and ellipsoids among
+themselves, are asked of coal and proved.
 """
 
 from __future__ import annotations
 
 from quasistatic_ref.contact.by_coal import coal_witness
 from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.curved_pair import curved_witness
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.polytope import polytope
 from quasistatic_ref.contact.polytope_pair import polytope_pair
@@ -40,7 +42,8 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
         return _solid_on_plane(b, b.shape, a).swapped()
     P, Q = polytope(a.shape), polytope(b.shape)
     if P is None or Q is None:
-        return coal_witness(name, a, b)
+        apart = curved_witness(a, b)
+        return coal_witness(name, a, b) if apart is None else apart
     found = polytope_pair(P, Q, a.R.T @ b.R, a.R.T @ (b.t - a.t))
     return Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
 

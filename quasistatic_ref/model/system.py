@@ -16,6 +16,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.world import world_of
@@ -141,12 +142,22 @@ class System:
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         order = self._order
-        return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
+        after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
+        q_next = order.paper_q(after)
+        for joint in self.joints:
+            if joint.kind in ("floating", "planar"):
+                q_next[screw.place(joint)] = screw.position(joint, q, delta_q)
+        return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         order = self._order
-        return order.paper_v(pin.difference(self._model, order.model_q(q), order.model_q(q_next)))
+        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
+        delta_q = order.paper_v(change)
+        for joint in self.joints:
+            if joint.kind in ("floating", "planar", "continuous"):
+                delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
+        return delta_q
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with its actuated entries replaced by q_a, shape (n_q_a,)."""

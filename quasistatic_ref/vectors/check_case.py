@@ -62,6 +62,8 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     if freedom is None:
         return plain_failure(failing)
     verdict = freedom(case, record, answer, failing)
+    held = [d.digits for name, d in found.items() if name not in free and name not in failing]
+    digits = min(held, default=None)
     return verdict if verdict.field else Verdict("", verdict.verdict, verdict.reason, "", digits)
 
 

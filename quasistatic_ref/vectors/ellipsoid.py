@@ -67,12 +67,15 @@ def _largest_root(squares: Sequence[Real], p: Vector, pole: Real) -> Real:
     for _ in range(4 * ctx.prec):
         step = (-F(t) / slope(t)).mid()
         t = (t + step).mid()
-        if abs(step) <= abs(arb(t)) * arb(2) ** (16 - ctx.prec) or step == 0:
+        # Beside the sizes of the ellipsoid: next to its surface t itself is next to nothing.
+        if abs(step) <= (abs(t) + ball(max(squares))) * arb(2) ** (16 - ctx.prec):
             break
-    width = (abs(t) + ball(max(squares))) * arb(2) ** (32 - ctx.prec)
-    if sign_at(F(t - width)) <= 0 or sign_at(F(t + width)) >= 0:
-        raise Undecided
-    return t + width * arb(0, 1)
+    # As wide as it takes: a point that is itself a ball has no narrower root.
+    for spared in range(32, ctx.prec // 2, 16):
+        width = (abs(t) + ball(max(squares))) * arb(2) ** (spared - ctx.prec)
+        if sign_at(F(t - width)) > 0 > sign_at(F(t + width)):
+            return t + width * arb(0, 1)
+    raise Undecided
 
 
 def sign_at(value: Real) -> int:

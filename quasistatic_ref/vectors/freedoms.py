@@ -11,15 +11,19 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.vectors.compare import tolerance_of
+from quasistatic_ref.vectors.compare import differences, tolerance_of
 from quasistatic_ref.vectors.expected import Json
 from quasistatic_ref.vectors.joints import quaternion_places
 from quasistatic_ref.vectors.multipliers import multipliers_problem, wrench_problem
+from quasistatic_ref.vectors.other_contacts import contacts_problem, record_from
 from quasistatic_ref.vectors.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.vectors.verdict import Difference, Verdict, acceptable, failure
 
 Failing = Mapping[str, Difference]
 WITNESS: Final = ("alpha", "beta", "n")
+CHOSEN: Final = tuple(f"contacts.{name}" for name in ("index", *WITNESS, "d1", "d2"))
+ANOTHER: Final = 1e3
+"""An error of more tolerances than that is another answer, and may be right."""
 
 
 def plain_failure(failing: Failing) -> Verdict:
@@ -29,8 +33,13 @@ def plain_failure(failing: Failing) -> Verdict:
 
 
 def another_witness(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
-    """Other closest points, or another normal, where they are not unique."""
-    if record["flags"].get("unique", True) or "phi" in failing:
+    """Other closest points, or another normal, that prove the same distance.
+
+    Exactly, they may be unique and still be decided by the last bit of a pose: a face that is
+    parallel to another but for 1e-18. Far from the expected ones they have to prove themselves;
+    a little beside them they are wrong where those are unique.
+    """
+    if "phi" in failing or (record["flags"].get("unique", True) and not _far(failing)):
         return plain_failure(failing)
     tolerance = max(tolerance_of(record["tolerance"], name) for name in ("phi", *WITNESS))
     phi = np.atleast_1d(np.array(record["output"]["phi"], dtype=np.float64))
@@ -39,9 +48,15 @@ def another_witness(case: Json, record: Json, answer: Json, failing: Failing) ->
         alpha, beta, n = (points[name][i] for name in WITNESS)
         problem = witness_problem(solid, float(phi[i]), alpha, beta, n, tolerance)
         if problem:
-            first = next(iter(failing))
-            return failure(first, f"{first} is another one, and not valid: {problem}")
+            first = next(iter(failing.values()))
+            sentence = f"{first.sentence}; nor is it another valid one: {problem}"
+            return failure(first.field, sentence, first.digits)
     return acceptable("another witness of the same distance")
+
+
+def _far(failing: Failing) -> bool:
+    """Whether an answer is another one, and not the same with too large an error."""
+    return any(d.error > ANOTHER * d.tolerance for d in failing.values())
 
 
 def another_tie(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
@@ -85,6 +100,8 @@ def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) 
 
 def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
     """Other multipliers of a step, and the wrenches that belong to them."""
+    if next(iter(failing)).startswith("contacts."):
+        return _other_contacts(case, record, answer, failing)
     rest = {name: d for name, d in failing.items() if name not in ("lam", "wrench")}
     if rest or record["flags"].get("unique_multipliers", True):
         return plain_failure(rest or failing)
@@ -93,6 +110,30 @@ def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verd
     if problem := wrench_problem(case, record, answer):
         return failure("wrench", problem)
     return acceptable("other multipliers with the same A'lam")
+
+
+def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other contacts where rounding decides which ones: the rest has to follow from them."""
+    first = next(iter(failing.values()))
+    chosen = {name: failing[name] for name in CHOSEN if name in failing}
+    if not _far(chosen):
+        return plain_failure(failing)
+    if problem := contacts_problem(case, record, answer["contacts"]):
+        sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"
+        return failure(first.field, sentence, first.digits)
+    own = record_from(case, record, answer["contacts"])
+    failing = {
+        name: d
+        for name, d in differences(own["output"], answer, own["tolerance"]).items()
+        if not d.holds
+    }
+    if any(name.startswith("contacts.") for name in failing):
+        return plain_failure(failing)
+    if failing:
+        verdict = other_step(case, own, answer, failing)
+        if verdict.field:
+            return verdict
+    return acceptable("other contacts where rounding decides, and what follows from them")
 
 
 FREEDOMS: Final[dict[str, Callable[[Json, Json, Json, Failing], Verdict]]] = {

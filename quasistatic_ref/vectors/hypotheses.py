@@ -164,7 +164,7 @@ HYPOTHESES: Final = (
             "distance": misread("distance"),
             "jacobian": misread("jacobian"),
             "integrate": both(answered_wxyz("q"), misread("integrate")),
-            "step": both(answered_wxyz("q_next"), misread("step")),
+            "step": answered_wxyz("q_next"),
         },
     ),
     Hypothesis(

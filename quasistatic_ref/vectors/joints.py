@@ -39,11 +39,14 @@ class Places:
 
 
 def places(mechanism: Json) -> list[Places]:
-    """Of every body, in the paper's order: actuated ones first, each part in file order."""
+    """Of every body, in the paper's order: actuated ones first, each part in file order.
+
+    A mimic joint has no entries, and no place.
+    """
     found, i, k = [], 0, 0
     for actuated in (True, False):
         for body in mechanism["bodies"]:
-            if bool(body.get("actuated")) == actuated:
+            if bool(body.get("actuated")) == actuated and "mimic" not in body:
                 kind = body["joint"]
                 size_q, size_v = ENTRIES[kind]
                 found.append(Places(body["name"], kind, slice(i, i + size_q), slice(k, k + size_v)))
@@ -62,9 +65,11 @@ def base_rotations(mechanism: Json, q: Json) -> list[tuple[slice, Array]]:
     R: dict[str | None, Array] = {None: np.eye(3)}
     found = []
     for body in mechanism["bodies"]:
-        place = at[body["name"]]
+        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1.0, "offset": 0.0})
+        place = at[mimic["of"]]
+        position = mimic["multiplier"] * np.array(q[place.q], dtype=np.float64) + mimic["offset"]
         turned = R[body["parent"]] @ rotation(body["placement"]["quaternion"])
-        R[body["name"]] = turned @ _joint_rotation(body, np.array(q[place.q], dtype=np.float64))
+        R[body["name"]] = turned @ _joint_rotation(body, position)
         if place.kind == "floating":
             found.append((place.v, R[body["name"]]))
     return found

@@ -100,15 +100,15 @@ def _predictions(layer: str, hypothesis: Hypothesis, one: Failed) -> list[Json]:
 
 
 def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
-    """Whether one of the predictions is the answer, and is not the right answer."""
+    """Whether one of the predictions is the answer wherever it is not the right answer."""
     if not isinstance(one.output, dict):
         return False
+    expected = one.record["output"]
     for prediction in _predictions(layer, hypothesis, one):
-        fields = _told(layer, one, prediction)
-        if fields and all(_same(one, field, fields[field], one.output) for field in fields):
-            expected = one.record["output"]
-            if not all(_same(one, field, fields[field], expected) for field in fields):
-                return True
+        told = _told(layer, one, prediction)
+        wrong = {name: v for name, v in told.items() if not _same(one, name, v, expected)}
+        if wrong and all(_same(one, name, value, one.output) for name, value in wrong.items()):
+            return True
     return False
 
 
@@ -144,7 +144,7 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
         return False
     try:
         found = difference(field, ours, theirs, 0.0)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     numbers = [abs(v) for _, v in leaves(ours) if isinstance(v, int | float)]
     size = max(numbers, default=0.0)

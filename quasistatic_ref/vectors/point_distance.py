@@ -64,11 +64,11 @@ def _box(half: Sequence[Real], at: Vector) -> Surface:
 
 def _cylinder(sizes: Sequence[Real], at: Vector) -> Surface:
     r, outward = _radial(at)
-    up = -1 if at[2] < 0 else 1
+    up = sign(at[2]) or 1
     flat = _rectangle([r - sizes[0], abs(at[2]) - sizes[1]])
     normal = [*(flat.normal[0] * x for x in outward), flat.normal[1] * up]
     lost = (sign(r) == 0 and sign(flat.normal[0]) != 0) or (
-        at[2] == 0 and sign(flat.normal[1]) != 0
+        sign(at[2]) == 0 and sign(flat.normal[1]) != 0
     )
     return Surface(flat.phi, normal, flat.unique and not lost)
 

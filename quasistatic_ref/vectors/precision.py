@@ -37,12 +37,12 @@ class Undecided(ArithmeticError):
     """A ball was too wide for a sign or a rounding: more precision is needed."""
 
 
-def number(x: float | fmpq) -> fmpq:
-    """A float64, exactly."""
-    return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
+def number(x: float | Real) -> Real:
+    """A float64, exactly; what is exact or a ball already, as it is."""
+    return x if isinstance(x, (fmpq, arb)) else fmpq(*x.as_integer_ratio())
 
 
-def numbers(values: Sequence[float | fmpq]) -> list[Real]:
+def numbers(values: Sequence[float | Real]) -> list[Real]:
     """Several float64 numbers, exactly."""
     return [number(x) for x in values]
 
@@ -96,7 +96,7 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
     function : callable
         Returns dicts and lists of numbers; called again at higher precision where needed. It
         must make all its balls itself: one made before has the precision of that time.
-        Booleans, integers, strings and None are passed on, and are absent from the digits.
+        Booleans, integers, strings and None are passed on.
 
     Returns
     -------

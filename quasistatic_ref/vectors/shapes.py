@@ -129,30 +129,34 @@ class Core:
         Outward normals of its faces, of any length; none of a point or a segment.
     edges : list of vector
         Directions of its edges, each once.
+    sides : list of (int, int)
+        The vertices at the ends of each edge.
     """
 
     margin: Real
     vertices: list[Vector]
     normals: list[Vector]
     edges: list[Vector]
+    sides: list[tuple[int, int]]
 
 
 def core(solid: Placed) -> Core | None:
     """The polytope that a shape is, but for its margin; None where it is none."""
     zero, one = fmpq(0), fmpq(1)
-    margin, local = zero, _Hull((), (), ())
+    margin, local = zero, _Hull((), (), (), ())
     match solid.kind:
         case "sphere":
-            margin, local = solid.sizes[0], _Hull(((zero, zero, zero),), (), ())
+            margin, local = solid.sizes[0], _Hull(((zero, zero, zero),), (), (), ())
         case "capsule":
             margin, half = solid.sizes
             ends = (zero, zero, -half), (zero, zero, half)
-            local = _Hull(ends, (), ((zero, zero, one),))
+            local = _Hull(ends, (), ((zero, zero, one),), ((0, 1),))
         case "box":
             corners = tuple(product(*((-half, half) for half in solid.sizes)))
             axes = tuple(tuple(one if i == k else zero for i in range(3)) for k in range(3))
             faces = (*axes, *(tuple(-x for x in axis) for axis in axes))
-            local = _Hull(corners, faces, axes)
+            sides = tuple((k, k + step) for step in (4, 2, 1) for k in range(8) if not k & step)
+            local = _Hull(corners, faces, axes, sides)
         case "convex":
             local = _hull(tuple(tuple(point) for point in solid.points))
         case _:
@@ -162,6 +166,7 @@ def core(solid: Placed) -> Core | None:
         [solid.world(list(x)) for x in local.vertices],
         [solid.world_direction(list(x)) for x in local.normals],
         [solid.world_direction(list(x)) for x in local.edges],
+        list(local.sides),
     )
 
 
@@ -170,6 +175,7 @@ class _Hull:
     vertices: tuple[tuple[Real, ...], ...]
     normals: tuple[tuple[Real, ...], ...]
     edges: tuple[tuple[Real, ...], ...]
+    sides: tuple[tuple[int, int], ...]
 
 
 @lru_cache(maxsize=64)
@@ -200,12 +206,16 @@ def _hull(points: tuple[tuple[Real, ...], ...]) -> _Hull:
     if not faces:
         raise InputError("must not lie in one plane", field="vertices")
     edges: dict[tuple[Real, ...], None] = {}
+    ends_of: list[tuple[int, int]] = []
     for one, other in combinations(faces.values(), 2):
         shared = sorted(one & other)
         if len(shared) > 1:
-            way = subtract(vertices[shared[-1]], vertices[shared[0]])
+            # Of points on one line, the lexicographically least and largest are its ends.
+            ends = sorted(shared, key=lambda k: points[k])
+            way = subtract(vertices[ends[-1]], vertices[ends[0]])
             edges[_direction(way, signed=False)] = None
-    return _Hull(points, tuple(faces), tuple(edges))
+            ends_of.append((ends[0], ends[-1]))
+    return _Hull(points, tuple(faces), tuple(edges), tuple(ends_of))
 
 
 def _direction(x: Vector, signed: bool) -> tuple[Real, ...]:

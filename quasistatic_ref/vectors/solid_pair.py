@@ -6,6 +6,8 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.vectors.algebra import Vector
+from quasistatic_ref.vectors.curved_pair import polytope_and_curved
+from quasistatic_ref.vectors.cylinder_pair import cylinder_and_curved
 from quasistatic_ref.vectors.plane_distance import solid_on_plane
 from quasistatic_ref.vectors.point_distance import point_on_solid
 from quasistatic_ref.vectors.polytope_pair import polytope_pair
@@ -38,7 +40,7 @@ def _point(solid: Placed, point: Vector) -> Witness:
         return point_on_solid(solid, point)
     flat = core(solid)
     assert flat is not None
-    return polytope_pair(flat, Core(fmpq(0), [point], [], []))
+    return polytope_pair(flat, Core(fmpq(0), [point], [], [], []))
 
 
 def _pair(a: Placed, b: Placed) -> Witness:
@@ -51,8 +53,14 @@ def _pair(a: Placed, b: Placed) -> Witness:
     if b.kind == "halfspace":
         return solid_on_plane(b, a).swapped()
     flat_a, flat_b = core(a), core(b)
-    if flat_a is None or flat_b is None:
-        raise InputError(
-            "this pair has no exact distance yet", field="alpha, beta", value=(a.kind, b.kind)
-        )
-    return polytope_pair(flat_a, flat_b)
+    if flat_a is not None and flat_b is not None:
+        return polytope_pair(flat_a, flat_b)
+    if flat_a is not None:
+        return polytope_and_curved(flat_a, b)
+    if flat_b is not None:
+        return polytope_and_curved(flat_b, a).swapped()
+    if a.kind == "cylinder":
+        return cylinder_and_curved(a, b)
+    if b.kind == "cylinder":
+        return cylinder_and_curved(b, a).swapped()
+    raise InputError("this pair has no closed form", field="alpha, beta", value=[a.kind, b.kind])

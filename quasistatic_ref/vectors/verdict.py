@@ -114,4 +114,4 @@ def correct_digits(error: float, size: float, tolerance: float) -> float:
     """
     if error == 0 or (error <= tolerance and size <= CANCELLED * tolerance):
         return DIGITS
-    return float(np.clip(-np.log10(error / size), 0.0, DIGITS)) if size > 0 else 0.0
+    return float(np.clip(-np.log10(error / size), 0.0, DIGITS)) + 0.0 if size > 0 else 0.0

@@ -12,6 +12,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import (
     Box,
     Capsule,
+    Cone,
     Cylinder,
     HalfSpace,
     PlacedShape,
@@ -223,7 +224,7 @@ def test_a_bad_answer_of_coal_is_an_error(monkeypatch, spoil, gap):
         return phi
 
     monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cylinder(0.15, 0.2)  # boxes have a closed form
+    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
     with pytest.raises(ContactError, match=r"^p: no trustworthy contact normal at this pose"):
         found_for(placed(box), placed(box, 1), kinematics)
@@ -242,7 +243,7 @@ def test_a_normal_that_is_no_unit_vector_is_an_error_where_bodies_touch(monkeypa
         return 0.0
 
     monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cylinder(0.15, 0.2)  # boxes have a closed form
+    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4])))
     with pytest.raises(ContactError):
         found_for(placed(box), placed(box, 1), kinematics)
@@ -257,7 +258,7 @@ def test_a_bad_normal_of_coal_is_an_error_where_bodies_touch(monkeypatch):
         return phi
 
     monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cylinder(0.15, 0.2)  # boxes have a closed form
+    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4])))
     with pytest.raises(ContactError):
         found_for(placed(box), placed(box, 1), kinematics)
@@ -266,7 +267,7 @@ def test_a_bad_normal_of_coal_is_an_error_where_bodies_touch(monkeypatch):
 def test_a_bad_distance_of_coal_is_an_error(monkeypatch):
     honest = coal.distance
     monkeypatch.setattr(coal, "distance", lambda *arguments: honest(*arguments) + 1e-3)
-    box = Cylinder(0.15, 0.2)  # boxes have a closed form
+    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.5])))
     with pytest.raises(ContactError) as caught:
         found_for(placed(box), placed(box, 1), kinematics)

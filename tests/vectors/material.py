@@ -36,9 +36,19 @@ def right_answers(layer):
     }
 
 
+@functools.cache
+def small_cases(layer):
+    """Every third case of a layer, and of the steps the 24 with the least input."""
+    if layer == "step":
+        return tuple(sorted(cases(layer), key=lambda case: len(str(case.input)))[:24])
+    return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
+
+
 def report_on(layer, outputs, **declared):
-    """The report on answers that are given by id."""
-    return layer_report(layer, cases(layer), expected(layer), Answers(outputs, "test", **declared))
+    """The report on answers that are given by id, of these cases alone."""
+    asked = [case for case in cases(layer) if case.id in outputs]
+    known = {case.id: expected(layer)[case.id] for case in asked}
+    return layer_report(layer, asked, known, Answers(outputs, "test", **declared))
 
 
 @functools.cache
@@ -50,7 +60,7 @@ def runner(name="numpy_runner"):
 
 
 def runner_answers(layer, change=lambda case: case):
-    """What the NumPy runner answers to a layer, its inputs changed."""
+    """What the NumPy runner answers to some cases of a layer, their inputs changed."""
     module = runner()
     solve = getattr(module, layer)
-    return {case.id: module.plain(solve(change(case.input))) for case in cases(layer)}
+    return {case.id: module.plain(solve(change(case.input))) for case in small_cases(layer)}

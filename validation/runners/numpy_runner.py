@@ -98,7 +98,7 @@ def integrate(case):
     at, _, _ = slices(case["mechanism"])
     q, delta_q = np.array(case["q"]), np.array(case["delta_q"])
     for body in case["mechanism"]["bodies"]:
-        i, k = at[body["name"]]
+        i, k = at.get(body["name"], (slice(0, 0), slice(0, 0)))
         if i.stop > i.start:
             q[i] = moved(body, q[i], delta_q[k])
     return {"q": q}
@@ -193,7 +193,7 @@ def step(case):
     M, tau = masses(case, at, n_a, n_v)
     delta_q_bar_a = np.zeros(n_a)
     for body in mechanism["bodies"]:
-        i, k = places[body["name"]]
+        i, k = places.get(body["name"], (slice(0, 0), slice(0, 0)))
         if body.get("actuated") and k.stop > k.start:
             delta_q_bar_a[k] = difference(body, np.array(case["q_bar_a"])[i], q[i])
     K_q = np.array(case["K_q"]).reshape(n_a, n_a)

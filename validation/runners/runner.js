@@ -55,7 +55,7 @@ function places(mechanism) {
   const found = {};
   let i = 0, k = 0;
   for (const actuated of [true, false]) {
-    for (const body of mechanism.bodies.filter((b) => Boolean(b.actuated) === actuated)) {
+    for (const body of mechanism.bodies.filter((b) => Boolean(b.actuated) === actuated && !b.mimic)) {
       const [sizeQ, sizeV] = ENTRIES[body.joint];
       found[body.name] = { q: [i, i + sizeQ], v: [k, k + sizeV] };
       i += sizeQ;
@@ -73,7 +73,10 @@ function kinematics(mechanism, q) {
     const parent = found[body.parent];
     const Rp = product(parent.R, rotation(body.placement.quaternion));
     const tp = add(times(parent.R, body.placement.xyz), parent.t);
-    const [Rq, tq] = jointPose(body, q.slice(...at[body.name].q));
+    const mimic = body.mimic || { of: body.name, multiplier: 1, offset: 0 };
+    const entries = at[mimic.of], pace = mimic.multiplier;
+    const position = q.slice(...entries.q).map((x) => (body.mimic ? pace * x + mimic.offset : x));
+    const [Rq, tq] = jointPose(body, position);
     const R = product(Rp, Rq), t = add(times(Rp, tq), tp);
     const J = zeros(6, nV);
     const put = (k, v, w) => [...v, ...w].forEach((x, i) => { J[i][k] = x; });
@@ -81,7 +84,9 @@ function kinematics(mechanism, q) {
       const [v, w] = [column(parent.J, k).slice(0, 3), column(parent.J, k).slice(3)];
       put(k, add(v, cross(w, sub(t, parent.t))), w);
     }
-    const k = at[body.name].v[0], still = [0, 0, 0];
+    const k = entries.v[0], still = [0, 0, 0];
+    // A mimic moves along the column of the joint that it follows.
+    const move = (v, w) => put(k, add(column(J, k).slice(0, 3), scale(v, pace)), add(column(J, k).slice(3), scale(w, pace)));
     if (body.joint === "floating") {
       for (const i of range(3)) {
         put(k + i, column(R, i), still);
@@ -92,9 +97,9 @@ function kinematics(mechanism, q) {
       put(k + 1, column(R, 1), still);
       put(k + 2, still, column(R, 2));
     } else if (body.joint === "prismatic") {
-      put(k, times(Rp, unit(body.axis)), still);
+      move(times(Rp, unit(body.axis)), still);
     } else if (body.joint !== "fixed") {
-      put(k, still, times(Rp, unit(body.axis)));
+      move(still, times(Rp, unit(body.axis)));
     }
     found[body.name] = { R, t, J };
   }
@@ -215,7 +220,7 @@ function moved(body, q, d) {
 function integrate(input) {
   const [at] = places(input.mechanism);
   const q = [...input.q];
-  for (const body of input.mechanism.bodies) {
+  for (const body of input.mechanism.bodies.filter((b) => !b.mimic)) {
     const place = at[body.name];
     const next = moved(body, input.q.slice(...place.q), input.delta_q.slice(...place.v));
     q.splice(place.q[0], next.length, ...next);

@@ -36,10 +36,13 @@ def shortest(P):
     """Weights of the convex combination of points of least length (Wolfe 1976)."""
     S = [int(np.argmin(np.einsum("ij,ij->i", P, P)))]
     w = np.ones(1)
-    for _ in range(1000):
+    size, before, best = max(np.abs(P).max() ** 2, 1e-300), np.inf, (S, w)
+    while True:
         x = w @ P[S]
+        if x @ x >= before:  # it would shrink, were it not for rounding
+            break
+        before, best = x @ x, (S, w)
         j = int(np.argmin(P @ x))
-        size = max(np.abs(P).max() ** 2, 1e-300)
         if x @ x - P[j] @ x <= 1e-16 * size or j in S:
             break
         S, w = [*S, j], np.append(w, 0.0)
@@ -55,7 +58,7 @@ def shortest(P):
             keep[int(np.argmin(np.where(low, w, np.inf)))] = False
             S, w = [s for s, k in zip(S, keep, strict=True) if k], w[keep] / w[keep].sum()
     weights = np.zeros(len(P))
-    weights[S] = w
+    weights[best[0]] = best[1]
     return weights
 
 
@@ -204,14 +207,43 @@ def swapped(found):
     return phi, b, a, -n
 
 
+def points_on(shape, P):
+    """Signed distances and outward normals of many points in the frame of a shape."""
+    kind = shape["kind"]
+    if kind == "halfspace":
+        length = np.linalg.norm(shape["normal"])
+        n = np.array(shape["normal"]) / length
+        return P @ n - shape["offset"] / length, np.tile(n, (len(P), 1))
+    if kind in ("sphere", "capsule"):
+        half = shape.get("length", 0.0) / 2
+        away = P - np.clip(P[:, 2:], -half, half) * AXES[2]
+        d = np.linalg.norm(away, axis=1)
+        n = np.where(d[:, None] > 0, away / np.where(d > 0, d, 1)[:, None], AXES[0])
+        return d - shape["radius"], n
+    if kind == "box":
+        sign = np.where(P < 0, -1.0, 1.0)
+        excess = np.abs(P) - np.array(shape["size"]) / 2
+        beyond = np.maximum(excess, 0.0)
+        d = np.linalg.norm(beyond, axis=1)
+        face = AXES[excess.argmax(axis=1)]
+        n = np.where(d[:, None] > 0, beyond / np.where(d > 0, d, 1)[:, None], face)
+        return np.where(d > 0, d, excess.max(axis=1)), sign * n
+    if kind == "convex":
+        each = []
+        for p in P:
+            phi, _, _, n = core_pair(np.array([p]), np.array(shape["vertices"]))
+            each.append((phi, -n))
+    else:
+        each = [point_on(shape, p) for p in P]
+    return np.array([phi for phi, _ in each]), np.array([n for _, n in each])
+
+
 def cloud_on(cloud, pose_c, shape, pose):
     """Lists over a cloud's points as alpha."""
-    point = {"kind": "sphere", "radius": 0.0}
-    each = [
-        closest_points(point, (np.eye(3), x), shape, pose)
-        for x in transformed(pose_c, cloud["points"])
-    ]
-    return tuple(np.array(column) for column in zip(*each, strict=True))
+    x = transformed(pose_c, cloud["points"])
+    phi, n = points_on(shape, (x - pose[1]) @ pose[0])
+    n = -(n @ pose[0].T)
+    return phi, x, x + phi[:, None] * n, n
 
 
 def closest_points(alpha, pose_alpha, beta, pose_beta):

@@ -49,11 +49,11 @@ def joint_pose(body, q):
 
 
 def slices(mechanism):
-    """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first, each in file order."""
+    """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first; none of a mimic."""
     found, i, k, n_a = {}, 0, 0, 0
     for actuated in (True, False):
         for body in mechanism["bodies"]:
-            if bool(body.get("actuated")) == actuated:
+            if bool(body.get("actuated")) == actuated and "mimic" not in body:
                 size_q, size_v = ENTRIES[body["joint"]]
                 found[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
                 i, k = i + size_q, k + size_v
@@ -69,19 +69,21 @@ def kinematics(mechanism, q):
         R0, t0, J0 = found[body["parent"]]
         placement = body["placement"]
         Rp, tp = R0 @ rotation(placement["quaternion"]), R0 @ placement["xyz"] + t0
-        R_q, t_q = joint_pose(body, q[at[body["name"]][0]])
+        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1.0, "offset": 0.0})
+        entries, columns = at[mimic["of"]]
+        pace, position = mimic["multiplier"], q[entries]
+        R_q, t_q = joint_pose(body, pace * position + mimic["offset"])
         R, t = Rp @ R_q, Rp @ t_q + tp
-        J, columns = J0.copy(), at[body["name"]][1]
+        J, k = J0.copy(), columns.start
         J[:3] -= skew(t - t0) @ J0[3:]
-        k = columns.start
         if body["joint"] == "floating":
             J[:3, k : k + 3] = J[3:, k + 3 : k + 6] = R
         elif body["joint"] == "planar":
             J[:3, k : k + 2], J[3:, k + 2] = R[:, :2], R[:, 2]
         elif body["joint"] == "prismatic":
-            J[:3, k] = Rp @ body["axis"] / np.linalg.norm(body["axis"])
+            J[:3, k] += pace * (Rp @ body["axis"] / np.linalg.norm(body["axis"]))
         elif body["joint"] != "fixed":
-            J[3:, k] = Rp @ body["axis"] / np.linalg.norm(body["axis"])
+            J[3:, k] += pace * (Rp @ body["axis"] / np.linalg.norm(body["axis"]))
         found[body["name"]] = R, t, J
     return found
 

@@ -133,11 +133,11 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
     ),
     "boxes_nearly_parallel": (
         "two faces parallel but for 1e-6 rad",
-        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 1.0, about_x(1e-6))),
+        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 1.0, [5e-7, 3e-7, 0.0, 1.0])),
     ),
     "boxes_nearly_parallel_inside": (
         "the same in penetration",
-        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 0.7, about_x(1e-6))),
+        *(CUBE, ORIGIN, HALF, at(0.125, 0.0, 0.7, [5e-7, 3e-7, 0.0, 1.0])),
     ),
     "boxes_far": (
         "boxes 1 km from the origin, 1 mm apart",
@@ -299,6 +299,57 @@ CORNERS: Final[dict[str, tuple[str, Table, Table, Table, Table]]] = {
             ]
         ),
         ORIGIN,
+    ),
+    "cylinder_on_box": (
+        "a cylinder stands over a box: the witnesses fill its cap",
+        *(CUBE, ORIGIN, cylinder(0.25, 1.0), at(0.125, 0.0, 1.125)),
+    ),
+    "cylinder_beside_box": (
+        "a cylinder lies over a box: the witnesses fill a segment",
+        *(CUBE, ORIGIN, cylinder(0.25, 0.5), at(0.125, 0.0, 1.0, ALONG_X)),
+    ),
+    "cylinder_over_edge": (
+        "a box's edge across a cylinder's side: unique",
+        *(cylinder(0.25, 1.0), ORIGIN, HALF, at(0.75, 0.0, 0.0, [0.3, 0.0, 0.4, 1.0])),
+    ),
+    "cylinders_parallel": (
+        "two cylinders side by side",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.5, 0.0, 0.25)),
+    ),
+    "cylinders_crossed": (
+        "two cylinders whose sides cross: unique",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.5, 0.0, 0.0, ON_SIDE)),
+    ),
+    "cylinders_stacked": (
+        "one cylinder over another: the witnesses fill a disc",
+        *(cylinder(0.25, 1.0), ORIGIN, cylinder(0.125, 1.0), at(0.125, 0.0, 1.25)),
+    ),
+    "cylinders_rims": (
+        "two rims before each other, askew",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            cylinder(0.125, 0.5),
+            at(0.7, 0.2, 1.2, [0.2, -0.3, 0.1, 1.0]),
+        ),
+    ),
+    "cylinder_on_side_of_other": (
+        "a rim before another's side",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            cylinder(0.125, 1.0),
+            at(0.8, 0.0, 0.2, [0.1, 0.5, 0.0, 1.0]),
+        ),
+    ),
+    "cylinder_in_capsule": (
+        "a capsule's ball reaches a cylinder that its axis does not: a depth with a closed form",
+        *(
+            cylinder(0.25, 1.0),
+            ORIGIN,
+            capsule(0.125, 1.0),
+            at(0.3, 0.0, 0.1, [0.3, 0.0, 0.1, 1.0]),
+        ),
     ),
     "cone_on_tip": (
         "a cone on its tip over the floor",

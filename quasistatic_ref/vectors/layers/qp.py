@@ -18,7 +18,7 @@ from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form_of
-from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.solution import Certificate
 from quasistatic_ref.vectors.conditioning import Bounds, bounds
@@ -105,7 +105,8 @@ def cone_step(case_input: Json) -> StepData:
     F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(case_input["g"]))
     f = np.array([block["f"] for block in blocks]).reshape(len(blocks), 4)
     if f[:, 1:].any():
-        raise ValueError("only the first entry of f may differ from 0: phi of a contact")
+        problem = "only its first entry may differ from 0: phi of a contact"
+        raise InputError(problem, field="second_order.f", value=f.tolist())
     contacts = _contacts(F[:, [1, 2, 0, 3]], f[:, 0])
     return _step(case_input, contacts, cone="ellipsoid")
 

@@ -103,7 +103,7 @@ def own(case_input: Json) -> Json:
 def _chosen(tree: Mechanism, case: Json) -> list[Chosen]:
     """The contacts of each pair."""
     names = {pair[side] for pair in case["pairs"] for side in ("alpha", "beta")}
-    places = {name: _pose(tree, case["q"], case["shapes"][name]) for name in sorted(names)}
+    places = {name: shape_pose(tree, case["q"], case["shapes"][name]) for name in sorted(names)}
     found = []
     for pair in case["pairs"]:
         alpha, beta = (case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta"))
@@ -111,7 +111,7 @@ def _chosen(tree: Mechanism, case: Json) -> list[Chosen]:
     return found
 
 
-def _pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
+def shape_pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
     """Pose of a shape in the world, rounded; one that is fixed there as it is given."""
     body = tree.number(entry["body"])
     if body is None:

@@ -1,0 +1,374 @@
+"""Answers that differ and are right, and their neighbours that are not."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.vectors.check_case import case_verdict
+from quasistatic_ref.vectors.converters import CONVENTIONS, Program, tangent_map, wxyz, xyzw
+from quasistatic_ref.vectors.layers import LAYERS
+from tests.tolerances import ROUNDING
+from tests.vectors.material import cases, expected, report_on, right_answers, small_cases
+
+SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
+
+
+def record(output, flags=None, **tolerance):
+    """What is expected, with tolerances by field."""
+    absolute = {name: {"absolute": value, "reason": ""} for name, value in tolerance.items()}
+    return {"output": output, "flags": flags or {}, "tolerance": absolute, "digits": {}}
+
+
+def twice_the_same_row():
+    """Min x^2/2 with the row x >= 1 given twice: lam_1 + lam_2 = 1, in any shares."""
+    case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [1.0]], "b": [1.0, 1.0]}
+    output = {"delta_q": [1.0], "lam": [1.0, 0.0], "A_lam": [1.0], "slack": [0.0, 0.0]}
+    wanted = record(output, {"unique_multipliers": False}, lam=1e-15, A_lam=1e-15)
+    return case, wanted
+
+
+@pytest.mark.parametrize(
+    ("lam", "verdict"),
+    [
+        ([1.0, 0.0], "passed"),
+        ([0.25, 0.75], "acceptable"),
+        ([0.0, 1.0], "acceptable"),
+        ([0.5, 0.4], "failed"),  # A'lam = 0.9
+        ([1.5, -0.5], "failed"),  # below 0
+    ],
+)
+def test_multipliers_that_are_not_unique_count_by_what_they_do(lam, verdict):
+    case, wanted = twice_the_same_row()
+    answer = {**wanted["output"], "lam": lam}
+    assert case_verdict("qp", case, wanted, answer).verdict == verdict
+
+
+def test_unique_multipliers_are_compared_by_component():
+    case, wanted = twice_the_same_row()
+    wanted["flags"]["unique_multipliers"] = True
+    answer = {**wanted["output"], "lam": [0.25, 0.75]}
+    assert case_verdict("qp", case, wanted, answer).field == "lam"
+
+
+def test_a_multiplier_on_a_row_with_slack_is_wrong():
+    case, wanted = twice_the_same_row()
+    wanted["output"]["slack"] = [0.0, 1e-3]
+    answer = {**wanted["output"], "lam": [0.25, 0.75]}
+    verdict = case_verdict("qp", case, wanted, answer)
+    assert verdict.verdict == "failed"
+    assert "slack" in verdict.reason
+
+
+# Three walls of a triangle that leave no room: y = (1, 1, 1) up to a factor, and 0 on a fourth row
+# that repeats the first; then (1 - t, 1, 1, t) does as well, but its largest entry must be 1.
+WALLS = {
+    "H": [[1.0, 0.0], [0.0, 1.0]],
+    "g": [0.0, 0.0],
+    "A": [[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0], [1.0, 0.0]],
+    "b": [1.0, 1.0, 1.0, 1.0],
+}
+
+
+@pytest.mark.parametrize(
+    ("y", "verdict"),
+    [
+        ([1.0, 1.0, 1.0, 0.0], "passed"),
+        (["1", "1", "1", "0"], "passed"),
+        (["1/3", "1", "1", "2/3"], "acceptable"),
+        ([0.25, 1.0, 1.0, 0.75], "acceptable"),
+        ([1 / 3, 1.0, 1.0, 2 / 3], "acceptable"),  # A'y = 1e-16 at most
+        (["1/3", "1", "1", "333/500"], "failed"),  # fractions have to add up
+        ([0.5, 1.0, 1.0, 0.4], "failed"),
+        ([2.0, 2.0, 2.0, 0.0], "failed"),
+        ([1.0, 1.0, 1.0, -0.0], "passed"),
+        ([1.5, 1.0, 1.0, -0.5], "failed"),
+        ([0.0, 0.0, 0.0, 0.0], "failed"),
+        ([1.0, 1.0, 1.0], "failed"),
+        (["1", "1", "1", "1/0"], "failed"),
+        (["1", "1", "1", "1e400"], "failed"),
+        ([1.0, 1.0, 1.0, float("nan")], "failed"),
+    ],
+)
+def test_another_proof_that_there_is_no_solution_is_checked_exactly(y, verdict):
+    wanted = record({"farkas": [1.0, 1.0, 1.0, 0.0]}, {"infeasible": True}, farkas=1e-9)
+    assert case_verdict("qp", WALLS, wanted, {"farkas": y}).verdict == verdict
+
+
+def test_a_solution_of_a_case_without_one_fails():
+    wanted = record({"farkas": [1.0, 1.0, 1.0, 0.0]}, {"infeasible": True}, farkas=1e-9)
+    answer = {"delta_q": [1.0, 1.0], "lam": [0.0] * 4}
+    assert case_verdict("qp", WALLS, wanted, answer).verdict == "failed"
+
+
+def test_a_contradiction_below_rounding_need_not_be_seen():
+    # x >= 1/2 + 2^-52 and x <= 1/2.
+    case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [-1.0]], "b": [0.5 + 2.0**-52, -0.5]}
+    wanted = record({"farkas": [1.0, 1.0]}, {"infeasible": True}, farkas=1e-9)
+    answer = {"delta_q": [0.5], "lam": [1.0, 0.5]}
+    assert case_verdict("qp", case, wanted, answer).verdict == "acceptable"
+    answer["delta_q"] = [0.5 + 1e-9]
+    assert case_verdict("qp", case, wanted, answer).verdict == "failed"
+
+
+@pytest.mark.parametrize(
+    ("chosen", "verdict"),
+    [
+        ([2, 0], "passed"),
+        ([2, 1], "acceptable"),
+        ([2, 3], "acceptable"),
+        ([0, 2], "failed"),  # not the nearest first
+        ([2, 2], "failed"),
+        ([2, 4], "failed"),
+        ([2, 9], "failed"),
+        ([2, 0.5], "failed"),
+        ([2], "failed"),
+    ],
+)
+def test_a_tie_may_be_broken_otherwise(chosen, verdict):
+    case = {"phi": [[0.2, 0.2, 0.1, 0.2, 0.3]], "k": 2}
+    wanted = record({"indices": [[2, 0]]}, {"tie": True})
+    assert case_verdict("selection", case, wanted, {"indices": [chosen]}).verdict == verdict
+
+
+UNTURNED = [0.0, 0.0, 0.0, 1.0]
+
+
+def boxes_face_to_face():
+    """Unit cubes 1 m apart along x: any point of the facing squares is a witness."""
+    box = {"kind": "box", "size": [1.0, 1.0, 1.0]}
+    case = {
+        "alpha": box,
+        "beta": box,
+        "pose_alpha": {"xyz": [0.0, 0.0, 0.0], "quaternion": UNTURNED},
+        "pose_beta": {"xyz": [2.0, 0.25, 0.0], "quaternion": UNTURNED},
+    }
+    output = {"phi": 1.0, "alpha": [0.5, 0.0, 0.0], "beta": [1.5, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
+    fields = dict.fromkeys(("phi", "alpha", "beta", "n"), 1e-14)
+    return case, record(output, {"unique": False}, **fields)
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({}, "passed"),
+        ({"alpha": [0.5, 0.3, -0.4], "beta": [1.5, 0.3, -0.4]}, "acceptable"),
+        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # beside alpha's box
+        ({"alpha": [0.4, 0.0, 0.0], "beta": [1.4, 0.0, 0.0]}, "failed"),  # inside it
+        ({"beta": [1.5, 0.1, 0.0]}, "failed"),  # not opposite
+        ({"n": [0.0, 1.0, 0.0]}, "failed"),
+        ({"n": [-1.0, 0.0, 0.0]}, "failed"),
+        ({"phi": 1.1}, "failed"),
+        ({"phi": -1.0}, "failed"),
+    ],
+)
+def test_another_witness_has_to_prove_the_distance(changes, verdict):
+    case, wanted = boxes_face_to_face()
+    answer = {**wanted["output"], **changes}
+    assert case_verdict("distance", case, wanted, answer).verdict == verdict
+
+
+def test_near_a_unique_witness_there_is_no_other_but_far_from_it_there_may_be():
+    # Unique is said of exact numbers: a face that is parallel but for 1e-18 has one nearest corner.
+    case, wanted = boxes_face_to_face()
+    wanted["flags"]["unique"] = True
+    answer = {**wanted["output"], "alpha": [0.5, 1e-13, 0.0], "beta": [1.5, 1e-13, 0.0]}
+    assert case_verdict("distance", case, wanted, answer).verdict == "failed"
+    answer = {**wanted["output"], "alpha": [0.5, 0.3, 0.0], "beta": [1.5, 0.3, 0.0]}
+    assert case_verdict("distance", case, wanted, answer).verdict == "acceptable"
+
+
+def test_minus_q_is_q_but_minus_cos_sin_is_not():
+    for layer, field in (("integrate", "q"), ("step", "q_next")):
+        answers = right_answers(layer)
+        for case in cases(layer):
+            kinds = {b["name"]: b["joint"] for b in case.input["mechanism"]["bodies"]}
+            if set(kinds.values()) == {"floating"} and field in answers[case.id]:
+                answer = copy.deepcopy(answers[case.id])
+                answer[field][3:7] = [-x for x in answer[field][3:7]]
+                found = case_verdict(layer, case.input, expected(layer)[case.id], answer)
+                assert found.verdict == "acceptable"
+                assert found.digits > 15
+                break
+        else:
+            pytest.fail(f"no floating body in {layer}")
+    turning = next(
+        case
+        for case in cases("integrate")
+        if [b["joint"] for b in case.input["mechanism"]["bodies"]] == ["continuous"]
+    )
+    answer = {"q": [-x for x in right_answers("integrate")[turning.id]["q"]]}
+    found = case_verdict("integrate", turning.input, expected("integrate")[turning.id], answer)
+    assert found.verdict == "failed"
+
+
+def test_a_certificate_may_be_given_and_has_to_hold():
+    layer = "qp"
+    name, wanted = next(
+        (name, wanted)
+        for name, wanted in expected(layer).items()
+        if wanted["output"].get("certificate", {}).get("working_set")
+        and len(wanted["output"]["lam"]) > 4
+    )
+    case = next(case for case in cases(layer) if case.id == name)
+    answer = copy.deepcopy(wanted["output"])
+    assert case_verdict(layer, case.input, wanted, answer).verdict == "passed"
+    answer["certificate"]["working_set"] = answer["certificate"]["working_set"][1:]
+    assert case_verdict(layer, case.input, wanted, answer).field == "certificate"
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_the_expected_outputs_pass_as_answers(layer):
+    report = report_on(layer, right_answers(layer))
+    assert report.ok
+    assert report.count("passed") == len(cases(layer)) > 0
+
+
+def numbers_in(value, keys=()):
+    """Every number of an output, with the keys and indices that lead to it."""
+    inside = value.items() if isinstance(value, dict) else enumerate(value)
+    for key, entry in inside:
+        if isinstance(entry, dict | list):
+            yield from numbers_in(entry, (*keys, key))
+        elif isinstance(entry, int | float):
+            yield (*keys, key), entry
+
+
+def changed(value, keys, number):
+    """A copy with one number replaced."""
+    copied = copy.deepcopy(value)
+    inside = copied
+    for key in keys[:-1]:
+        inside = inside[key]
+    inside[keys[-1]] = number
+    return copied
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
+    """Three numbers of every case, each by two tolerances.
+
+    By a thousandth of its field where it may be another one.
+    """
+    answers = right_answers(layer)
+    tried = 0
+    for case in cases(layer):
+        wanted, answer = expected(layer)[case.id], answers[case.id]
+        found = list(numbers_in(answer))
+        for i in rng.permutation(len(found))[:3]:
+            keys, value = found[i]
+            by = change_of(layer, case.input, wanted, keys)
+            if by is None:
+                continue
+            other = changed(answer, keys, value + (1 if rng.random() < 0.5 else -1) * by)
+            verdict = case_verdict(layer, case.input, wanted, other)
+            assert verdict.verdict == "failed", (case.id, keys, value, by, verdict)
+            tried += 1
+    assert tried >= len(cases(layer))
+
+
+def change_of(layer, case, wanted, keys):
+    """By how much a number is changed; None where no change of it can be wrong."""
+    field = keys[0]
+    inner = keys[2] if field == "contacts" else field
+    name = f"contacts.{inner}" if field == "contacts" else field
+    tolerance = wanted["tolerance"].get(name, {"absolute": 0.0})["absolute"]
+    output = wanted["output"]
+    within = [c[inner] for c in output[field]] if field == "contacts" else [output[field]]
+    size = max(abs(v) for _, v in numbers_in(within))
+    if inner == "indices":  # of a group that is tied, the next may be as good
+        return 10**6 if wanted["flags"]["tie"] else 1
+    if inner == "index":
+        return 1
+    if field == "farkas":
+        return 1e-3
+    free = (layer == "distance" and not wanted["flags"]["unique"] and field != "phi") or (
+        field in ("lam", "wrench") and not wanted["flags"].get("unique_multipliers", True)
+    )
+    if free and field == "lam":
+        A = case.get("A") or output.get("A") or [r for b in case["second_order"] for r in b["F"]]
+        if not any(A[keys[1]]):
+            return None  # a row of zeros: its multiplier does nothing
+    return max(2 * tolerance, 1e-3 * max(size, 0.01) if free else 0.0, 4e-16 * size, 5e-324)
+
+
+@pytest.mark.parametrize("tangent", ["world", "mujoco"])
+@pytest.mark.parametrize("layer", ["jacobian", "step"])
+def test_answers_in_another_tangent_space_are_converted_if_they_say_so(layer, tangent):
+    turned = {}
+    for case in small_cases(layer):
+        B = tangent_map(case.input["mechanism"], case.input["q"], tangent)
+        turned[case.id] = in_tangent(right_answers(layer)[case.id], B)
+    declared = report_on(layer, turned, tangent=tangent)
+    assert declared.ok, declared.trouble
+    assert report_on(layer, turned).count("failed") > 0
+
+
+@pytest.mark.parametrize(("layer", "field"), [("integrate", "q"), ("step", "q_next")])
+def test_quaternions_in_the_other_order_are_converted_if_the_answers_say_so(layer, field):
+    answers = {}
+    for case in small_cases(layer):
+        answer = right_answers(layer)[case.id]
+        if field in answer:
+            q = wxyz(case.input["mechanism"], answer[field])
+            answers[case.id] = {**answer, field: q}
+    assert report_on(layer, answers, quaternion="wxyz").ok
+    assert report_on(layer, answers).count("failed") > 0
+    assert report_on(layer, answers).mistakes[0].name == "quaternion order"
+
+
+def in_tangent(output, B):
+    """An output whose delta_q is B' delta_q: J B, A B, B'HB, B'g; B is orthogonal."""
+    rules = {
+        "J": lambda v: v @ B,
+        "A": lambda v: v @ B,
+        "H": lambda v: B.T @ v @ B,
+        "g": lambda v: B.T @ v,
+        "delta_q": lambda v: B.T @ v,
+        "A_lam": lambda v: B.T @ v,
+    }
+    turned = {}
+    for name, value in output.items():
+        if name == "contacts":
+            turned[name] = [in_tangent(contact, B) for contact in value]
+        elif name in rules and len(value):
+            turned[name] = rules[name](np.array(value)).tolist()
+        else:
+            turned[name] = value
+    return turned
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_every_convention_is_a_way_to_write_the_same_step_and_back(name, rng):
+    n, m, h = 5, 7, 0.01
+    L = rng.normal(size=(n, n))
+    H, A, lam = L @ L.T + np.eye(n), rng.normal(size=(m, n)), rng.uniform(0, 1, m)
+    x = rng.normal(size=n)
+    program = Program(H, H @ x - A.T @ lam, A, A @ x, x, lam)
+    start = rng.normal(size=n)
+    written = CONVENTIONS[name].written(program, h, start)
+    # The KKT conditions of the program as written: H x - g = A' lam, and A x = b as given here.
+    balance = written.H @ written.x - written.g - written.A.T @ written.lam
+    size = np.abs(written.H).max() * np.abs(written.x).max() + np.abs(written.g).max()
+    np.testing.assert_allclose(balance, 0.0, atol=ROUNDING * size)
+    np.testing.assert_allclose(written.A @ written.x, written.b, rtol=ROUNDING, atol=ROUNDING)
+    back = CONVENTIONS[name].read(written, h, start)
+    for field in ("H", "g", "A", "b", "x", "lam"):
+        given, found = getattr(program, field), getattr(back, field)
+        np.testing.assert_allclose(found, given, rtol=ROUNDING, atol=ROUNDING * np.abs(given).max())
+
+
+def test_velocities_have_h_squared_K_and_forces_have_K():
+    K, M, h = 800.0, 0.2, 0.01
+    H = np.diag([h * K, M / h])
+    empty = Program(H, np.zeros(2), np.zeros((0, 2)), np.zeros(0), np.zeros(2), np.zeros(0))
+    v = CONVENTIONS["velocities"].written(empty, h, np.zeros(2))
+    f = CONVENTIONS["forces"].written(empty, h, np.zeros(2))
+    np.testing.assert_allclose(v.H, np.diag([h**2 * K, M]), rtol=ROUNDING)
+    np.testing.assert_allclose(f.H, np.diag([K, M / h**2]), rtol=ROUNDING)
+
+
+def test_wxyz_and_back_is_the_identity():
+    for case in cases("integrate"):
+        mechanism, q = case.input["mechanism"], case.input["q"]
+        assert xyzw(mechanism, wxyz(mechanism, q)) == q

