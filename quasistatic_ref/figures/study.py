@@ -36,7 +36,8 @@ def profiles(data: Mapping[str, Any]) -> Figure:
     for axes, panel in zip(grid, panels, strict=True):
         for k, (label, ratios) in enumerate(zip(panel["labels"], panel["ratios"], strict=True)):
             every = (20 + 4 * k, 75)  # marks of lines that run together stay apart
-            axes.plot(taus, profile(ratios, taus), **pen[label], markevery=every)
+            dress = pen[label] | {"markerfacecolor": "white", "markevery": every}
+            axes.plot(taus, profile(ratios, taus), **dress)
         axes.set_xscale("log")
         axes.set_xlabel(r"$\tau$: time / time of the fastest [-]")
         axes.set_title(panel["title"])
@@ -85,7 +86,7 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
         for label, points in panel["lines"].items():
             set_ = [(1e3 * t, right) for own, t, right in points if not own]
             own = [(1e3 * t, right) for own, t, right in points if own]
-            kinds = (set_, "none", {}), (set_[-1:], "full", POINT), (own, "left", POINT)
+            kinds: Any = (set_, "none", {}), (set_[-1:], "full", POINT), (own, "left", POINT)
             # An empty line that is not clipped has no extent, which upsets the layout.
             for part, fill, more in (kind for kind in kinds if kind[0]):
                 dress = pen[label] | more | {"fillstyle": fill, "clip_on": False}
@@ -134,7 +135,7 @@ def _numbers(axes: Axes, values: np.ndarray) -> None:
 def _legend(figure: Figure, names: list[str]) -> None:
     """One legend for all panels, below them."""
     drawn = pens(names)
-    handles = [Line2D([], [], **drawn[name], fillstyle="none") for name in names]
+    handles = [Line2D([], [], **drawn[name], markerfacecolor="white") for name in names]
     shown = short(names)
     figure.legend(
         handles, list(shown.values()), loc="outside lower center",
