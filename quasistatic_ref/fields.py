@@ -72,7 +72,7 @@ class Fields:
         above: float | None = None,
         least: float | None = None,
     ) -> float:
-        """Return a finite number, greater than `above` and at least `least`."""
+        """Return a finite number, greater than `above` and at least `least` [the field's unit]."""
         value = self.take(field, default)
         if value is default and default is not REQUIRED:
             return value  # type: ignore[no-any-return]  # the caller's own default

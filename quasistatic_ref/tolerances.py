@@ -143,3 +143,14 @@ KNOWN: Final = 1e-6
 
 The bound is the root of a duality gap: float64 data whose ties are split at 1e-17 leave 2e-8. No
 digit beyond the bound is told."""
+
+UNSEEN: Final = 1e-11
+"""Room for rounding in the proof that unmeasured points are not among the closest, relative to the
+sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
+jump in them), and the bound takes two of them and two transformed points."""
+
+SPARSE_FROM: Final = 10_000
+"""Entries of a step's dense J, 4 n_c n_v, from which steps that are not certified are sparse.
+
+A row of 8 boxes has 11,520: PIQP takes as long either way, Clarabel and OSQP are faster sparse.
+bunny_grasp has 780."""

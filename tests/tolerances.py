@@ -100,3 +100,6 @@ hundred of them and poses that are rounded at each."""
 
 FIRST_ORDER: Final = 1e-3
 """Steady motions whose closed form holds to first order in h, or at the start of a slow turn."""
+
+FOUR_ULP: Final = 4 * 2.220446049250313e-16
+"""The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side."""

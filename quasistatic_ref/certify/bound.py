@@ -40,7 +40,8 @@ class ErrorBound:
     Parameters
     ----------
     gap : float
-        1/2 ||delta_q - delta_q*||_H^2 <= gap, in the units of the step; infinite if unknown.
+        1/2 ||delta_q - delta_q*||_H^2 <= gap, infinite if unknown
+        [N m s].
     error : float
         ||delta_q - delta_q*||_H / ||H^-1 g||_H <= error [-]; infinite if unknown.
     """

@@ -37,7 +37,7 @@ def exact_certificate(
     optimum : ExactOptimum
         That of the step.
     residuals : mapping of str to float, optional
-        Residuals of Eqs. (9)-(12) at the rounded answer, in natural units [-].
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at the rounded answer, in natural units [-].
 
     Returns
     -------

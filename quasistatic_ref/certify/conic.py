@@ -54,7 +54,7 @@ def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:
     program : ConicProgram
     x : ndarray, shape (n,)
     z : ndarray, shape (m,)
-        Multipliers, in the dual cone.
+        Multipliers, in the dual cone [those of the program].
 
     Returns
     -------

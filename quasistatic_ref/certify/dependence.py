@@ -56,6 +56,11 @@ def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> lis
     Returns
     -------
     list of bool
+
+    Raises
+    ------
+    AssertionError
+        Never: some prime decides.
     """
     k = len(working)
     held = [[*form.row(i), form.b[i, 0]] for i in working]

@@ -46,7 +46,7 @@ class Digits:
 
 
 def digits_of_error(error: float) -> float:
-    """-log10 of a relative error, clipped to 0 .. 16; 0 for NaN.
+    """-log10 of a relative error [-], clipped to 0 .. 16; 0 for NaN.
 
     Examples
     --------
@@ -74,11 +74,11 @@ def correct_digits(
     delta_q : ndarray, shape (n_v,)
         The answer.
     exact_delta_q : ndarray, shape (n_v,)
-        The optimum.
+        The optimum [m, rad].
     lam : ndarray, shape (m,), optional
         The answer's multipliers, the user's own rows last.
     exact_net : ndarray, shape (n_v,), optional
-        A'lam of the optimum; needed with `lam`.
+        A'lam of the optimum [N s, N m s]; needed with `lam`.
 
     Returns
     -------

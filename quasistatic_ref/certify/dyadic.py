@@ -63,7 +63,7 @@ def dyadic(array: Array | float) -> Dyadic:
     Parameters
     ----------
     array : ndarray
-        Finite float64 numbers of any shape.
+        Finite float64 numbers of any shape and unit [-].
 
     Returns
     -------

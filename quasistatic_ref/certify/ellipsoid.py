@@ -31,7 +31,7 @@ def enclosure_certificate(
     step : StepData
     found : Enclosure
     residuals : mapping of str to float, optional
-        Of Eqs. (9)-(12), in natural units [-].
+        Of Eqs. :eq:`eq-9`-:eq:`eq-12`, in natural units [-].
 
     Returns
     -------

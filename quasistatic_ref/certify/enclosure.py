@@ -57,8 +57,8 @@ class Enclosure:
         Independent rows that delta_q follows from exactly, where every contact that bears load is
         at its apex; None where the answer is not rational.
     error : float
-        ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that; 0.0 where delta_q is exact but for
-        the correct rounding of each entry.
+        ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where delta_q is exact but
+        for the correct rounding of each entry.
     """
 
     delta_q: Array
@@ -162,7 +162,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
-    """How far float64 numbers are from the optimum, at most, in the one definition of error."""
+    """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
     off = arb_mat([[arb(float(v)) / form.x_unit] for v in delta_q]) - found.x
     length = _root((off.transpose() * (arb_mat(form.H) * off))[0, 0]) + _root(2 * found.gap)
     return nearest_above(length / found.free) if found.free > 0 else float("inf")

@@ -52,10 +52,10 @@ class ExactOptimum:
     differentiable : bool
         With respect to g; see :mod:`~quasistatic_ref.certify.degeneracy`.
     smallest_inactive_slack : float or None
-        Smallest slack of the rows that are not strictly active: 0.0 where delta_q is not
+        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
         differentiable, otherwise the smallest that is not zero; None if there are no such rows.
     smallest_active_multiplier : float or None
-        Smallest of lam on the working set; None if that is empty.
+        Smallest of lam [N s] on the working set; None if that is empty.
     walks : int
         Violated rows that were added to the warm start: zero if it was right.
     """

@@ -19,7 +19,7 @@ from quasistatic_ref.tolerances import ILL_POSED
 
 
 def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
-    """The exact optimum of Eq. (13).
+    """The exact optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 
 
 def relative_length(step: StepData, delta_q: Array) -> float:
-    """||delta_q||_H relative to what the step asks for by itself.
+    """||delta_q||_H relative to what the step asks for by itself [-].
 
     That is the largest of the unconstrained steps that the target, tau_a and tau_u would each
     cause alone (together they may cancel, but for rounding), and of max_i b_i / ||a_i||, the

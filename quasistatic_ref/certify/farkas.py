@@ -29,7 +29,7 @@ class FarkasVector:
     Parameters
     ----------
     y : ndarray, shape (m,)
-        Each entry rounded correctly; contact-major, the user's own rows last.
+        Each entry rounded correctly [-]; contact-major, the user's own rows last.
     exact : tuple of str, length m
         The proof itself: each entry as ``"p/q"``, or ``"p"`` if q = 1.
     contradiction : float

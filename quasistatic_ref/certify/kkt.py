@@ -61,7 +61,17 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> Rational:
 
 
 def rounded_solution(form: ExactForm, solution: Rational) -> tuple[Array, Array, Array, Array]:
-    """delta_q, lam on the working set, A'lam and all slacks in float64, rounded correctly."""
+    """Float64 numbers, rounded correctly.
+
+    Returns
+    -------
+    delta_q : ndarray, shape (n_v,)
+    lam : ndarray, shape (working,)
+        On the working set [N s].
+    net : ndarray, shape (n_v,)
+        A'lam [N s, N m s].
+    slack : ndarray, shape (m,)
+    """
     x, lam, net, slack = (
         np.array([nearest_fraction(unit * v / solution.denominator) for v in values])
         for unit, values in (

@@ -17,7 +17,8 @@ class EnergyNorm:
     Parameters
     ----------
     unit : ndarray, shape (n_v,)
-        Units in which the diagonal of H is one: the factor stays regular at mass ratios of 1e9.
+        Units [m, rad] in which the diagonal of H is one: the factor stays regular at mass ratios
+        of 1e9.
     L : ndarray, shape (n_v, n_v)
         Lower Cholesky factor of H in these units.
     """
@@ -26,11 +27,11 @@ class EnergyNorm:
     L: Array
 
     def displacement(self, v: Array) -> float:
-        """||v||_H of a displacement."""
+        """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
         return float(_norms((self.L.T @ (v / self.unit))[:, None])[0])
 
     def impulses(self, P: Array) -> Array:
-        """||H^-1 p||_H of each row p of P, the displacement that an impulse causes."""
+        """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
         return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))
 
 

@@ -21,13 +21,13 @@ class Residuals:
     Parameters
     ----------
     stationarity : float
-        Eq. (9), as mended: H delta_q - g - sum_j A_j' lam_j = 0.
+        Eq. :eq:`eq-9`, as mended: H delta_q - g - sum_j A_j' lam_j = 0 [N s].
     primal : float
-        Eq. (10): A delta_q >= b.
+        Eq. :eq:`eq-10`: A delta_q >= b [m].
     dual : float
-        Eq. (11): lam >= 0.
+        Eq. :eq:`eq-11`: lam >= 0 [N s].
     complementarity : float
-        Eq. (12): (A delta_q - b) o lam = 0.
+        Eq. :eq:`eq-12`: (A delta_q - b) o lam = 0 [N m s].
     """
 
     stationarity: float
@@ -37,12 +37,12 @@ class Residuals:
 
     @property
     def worst(self) -> float:
-        """The largest of the four; NaN if any of them is."""
+        """The largest of the four [of its own unit]; NaN if any of them is."""
         return float(np.max(list(asdict(self).values())))
 
 
 def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
-    """Residuals of Eqs. (9)-(12) at an answer.
+    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
     Parameters
     ----------

@@ -1,4 +1,6 @@
-"""How H, g, A and b of Eqs. (1), (4)-(8), (13) change with the parameters of a step, exactly.
+"""How H, g, A and b change with the parameters of a step, exactly.
+
+They are those of Eqs. :eq:`eq-1`, :eq:`eq-4`-:eq:`eq-8`, :eq:`eq-13`.
 
 Each derivative is a rational number in SI units; A and b are affine in every parameter.
 """

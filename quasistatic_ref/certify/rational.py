@@ -1,4 +1,6 @@
-r"""H, g, A, b of Eqs. (1), (4)-(8), (13) formed from the step's numbers without rounding.
+r"""H, g, A, b formed from the step's numbers without rounding.
+
+They are those of Eqs. :eq:`eq-1`, :eq:`eq-4`-:eq:`eq-8`, :eq:`eq-13`.
 
 The step is what it says: float64 numbers. Everything built from them is rational; rounding it
 would split the ties between the rows of a sticking contact, and the answer would then depend on

@@ -9,7 +9,7 @@ from flint import arb, fmpq
 
 
 def nearest(p: int, q: int) -> float:
-    """The float64 nearest to p / q, ties to even; subnormals too, and never -0.0.
+    """The float64 nearest to p / q [-], ties to even; subnormals too, and never -0.0.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def nearest(p: int, q: int) -> float:
 
 
 def nearest_fraction(x: fmpq) -> float:
-    """The float64 nearest to a fraction."""
+    """The float64 nearest to a fraction [-]."""
     return nearest(int(x.p), int(x.q))
 
 
@@ -48,7 +48,7 @@ def nearest_in(ball: arb) -> float | None:
 
 
 def nearest_above(ball: arb) -> float:
-    """A float64 that no number in a ball exceeds."""
+    """A float64 that no number in a ball exceeds [of the unit of the ball]."""
     top = ball.upper()
     if not top.is_finite():
         return float("inf")

@@ -28,7 +28,14 @@ class Verdict:
 
 
 def wrong_bits(name: str, given: Array, right: Array) -> str:
-    """What is wrong with float64 numbers that must be right to the last bit; empty if nothing."""
+    """What is wrong with numbers that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    given, right : ndarray, of the same shape (k,)
+        What is judged, and what it must be [of one unit].
+    """
     given = np.array(given, dtype=np.float64)
     if given.shape != right.shape:
         return f"{name} has shape {given.shape}; the step wants {right.shape}"

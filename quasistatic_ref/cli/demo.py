@@ -8,7 +8,7 @@ import sys
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
-from quasistatic_ref.simulate.grasp import CASES, CLOSED, grasp_report
+from quasistatic_ref.simulate.grasp import CASES, CLOSED, INSTANTS, grasp_report
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -57,7 +57,6 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.gallery import INSTANTS
     from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
     from quasistatic_ref.figures.style import figure_written
 

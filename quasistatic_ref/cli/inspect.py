@@ -90,7 +90,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record["cone"] = scenario.cone
+    record |= {"engine": scenario.engine, "cone": scenario.cone}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     return record
@@ -135,6 +135,7 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_rows(rows)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
+        print(f"solved by {record['backend']}, engine {record['engine']}")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         print(f"- {sentence}")

@@ -28,6 +28,7 @@ COMMANDS = {
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers, or sweep a scenario's parameters",
     "figures": "make the figures, as PNG and PDF",
+    "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
 }
 

@@ -23,8 +23,9 @@ def add_out(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def add_solver(parser: argparse.ArgumentParser) -> None:
-    """``--backend``, ``--cone`` and ``--certify``."""
+    """``--backend``, ``--engine``, ``--cone`` and ``--certify``."""
     parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
+    parser.add_argument("--engine", metavar="NAME", help="native or cvxpy: how it is asked")
     add_cone(parser)
     parser.add_argument("--certify", metavar="KIND", help="full (default), residual or off")
 
@@ -54,9 +55,9 @@ def add_set(parser: argparse.ArgumentParser) -> None:
 
 
 def scenario_settings(options: argparse.Namespace) -> list[str]:
-    """``--set``, ``--backend``, ``--cone`` and ``--certify`` as changes of a scenario."""
+    """``--set`` and the options of :func:`add_solver` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
-    for key in ("backend", "certify"):
+    for key in ("backend", "engine", "certify"):
         value = getattr(options, key, None)
         if value is not None:
             settings.append(f"solver.{key}={json_text(value)}")

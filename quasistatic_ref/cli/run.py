@@ -23,23 +23,34 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_solver(parser)
     shared.add_set(parser)
     shared.add_json(parser)
+    parser.add_argument(
+        "--view",
+        action="store_true",
+        help="write an HTML file that plays the run in 3-D, without network (extra 'view')",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Run it; exit status 3 where a step has no solution, its steps so far being kept."""
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     writable_folder(options.out)  # known before the work, not after it
+    if options.view:
+        from quasistatic_ref.figures.viewer import view_written, viewer_script
+
+        viewer_script()  # so that a missing extra is known before the work, too
     stem = scenario.path.stem
     try:
         trajectory = scenario.run()
     except RunFailed as failure:
         return shared.failed_run_saved(failure, options.out, stem)
     path = trajectory.save(options.out / f"{stem}.npz")
+    view = view_written(scenario, trajectory, path.with_suffix(".html")) if options.view else None
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
+        "engine": scenario.engine,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -48,16 +59,19 @@ def run(options: argparse.Namespace) -> int:
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
         "milliseconds_per_step": milliseconds,
     }
+    if view is not None:
+        summary["view"] = str(view)
     if options.json:
         shared.print_json(summary)
         return 0
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     worst = _worst(summary["worst_residual"])
-    print(f"{summary['certified']}; backend {summary['backend']}, worst residual {worst}")
+    asked = f"{summary['backend']} ({summary['engine']})"
+    print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
     print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
-    print(f"wrote {path}")
+    print(f"wrote {path}{'' if view is None else f' and {view}'}")
     return 0
 
 

@@ -14,6 +14,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.engines import CVXPY
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -40,6 +41,11 @@ def run(options: argparse.Namespace) -> int:
     """Solve it and write the solution file; a word on the certificate goes to standard error.
 
     An infeasible step gets a solution file too, with the proof, and exit status 3.
+
+    Raises
+    ------
+    InputError
+        If files or options do not go together.
     """
     certify = options.certify or CERTIFY[0]
     if options.digits is not None:
@@ -55,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     backend = DEFAULT if options.backend is None else options.backend
     certify = CERTIFY[0] if options.certify is None else options.certify
     try:
-        solution = solve_step(step, backend, certify=certify)
+        solution = solve_step(step, backend, engine=options.engine or CVXPY, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
         raise

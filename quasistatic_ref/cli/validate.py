@@ -22,7 +22,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, print a table, write claims.md and the figures; exit status 1 if a claim fails."""
+    """Measure, print a table, write claims.md and the figures; exit status 1 if a claim fails.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
     for name in options.names:
         if name not in BY_NAME:
             raise InputError(f"is no claim{suggestion(name, BY_NAME)}", value=name)

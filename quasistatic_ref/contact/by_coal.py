@@ -40,7 +40,13 @@ ROUNDS = 30
 
 
 class Judged(NamedTuple):
-    """coal's answer, and what is wrong with it."""
+    """coal's answer, and what is wrong with it.
+
+    Attributes
+    ----------
+    defect : float
+        By how much it is wrong [m].
+    """
 
     phi: float
     alpha: Array

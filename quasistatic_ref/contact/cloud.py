@@ -31,6 +31,7 @@ from quasistatic_ref.model.shapes import (
 from quasistatic_ref.step.data import Array
 
 Distance = tuple[Array, Array]
+_AXES = np.eye(3)
 
 
 def signed_distance(shape: Shape, points: Array) -> Distance:
@@ -55,12 +56,8 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
         If the shape is of another kind.
     """
     match shape:
-        case Sphere():
-            return distance_to_segment(points, 0.0, shape.radius)
-        case Capsule():
-            return distance_to_segment(points, shape.half_length, shape.radius)
-        case Box():
-            return distance_to_box(points, shape.half_extents)
+        case Sphere() | Capsule() | Box():
+            return distance_to_rounded_box(points, *rounded_box(shape))
         case Cylinder():
             return distance_to_cylinder(points, shape.radius, shape.half_length)
         case HalfSpace():
@@ -91,32 +88,46 @@ def closest(phi: Array, k: int) -> NDArray[np.int64]:
     ndarray of int, shape (min(k, N),)
     """
     if k < len(phi):
-        # Only what can be among the k smallest is sorted; <= keeps every tie in the running.
-        candidates = np.flatnonzero(phi <= np.partition(phi, k - 1)[k - 1])
+        # Only what can be among the k smallest is sorted; every tie stays in the running.
+        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
     else:
         candidates = np.arange(len(phi))
     return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
 
 
-def distance_to_segment(points: Array, half_length: float, radius: float) -> Distance:
-    """Sphere (half_length = 0) and capsule: distance to the axis segment minus the radius."""
-    offset = points.copy()
-    offset[:, 2] -= np.clip(points[:, 2], -half_length, half_length)
-    distance = _norm(offset)
-    return distance - radius, _unit(offset, distance)
+def rounded_box(shape: Sphere | Capsule | Box) -> tuple[Array, float]:
+    """Half extents (3,) of a shape's core, a point, segment or cuboid, and the ball's radius."""
+    if isinstance(shape, Box):
+        return shape.half_extents, 0.0
+    half_length = shape.half_length if isinstance(shape, Capsule) else 0.0
+    return np.array([0.0, 0.0, half_length]), shape.radius
 
 
-def distance_to_box(points: Array, half_extents: Array) -> Distance:
-    """Box: outside by components, inside to the nearest face."""
-    sign = np.where(points < 0, -1.0, 1.0)
+def distance_to_rounded_box(
+    points: Array, half_extents: Array, radius: float | Array = 0.0
+) -> Distance:
+    """A cuboid, segment or point with a ball about each of its points: box, capsule, sphere.
+
+    Outside the core by components, inside to the nearest face.
+
+    Parameters
+    ----------
+    points : ndarray, shape (..., 3)
+    half_extents : ndarray, shape (..., 3)
+        One for all points, or one for each.
+    radius : float or ndarray, shape (...)
+    """
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
     outside = _norm(beyond)
-    inside = excess.max(axis=1)
-    nearest_face = np.eye(3)[excess.argmax(axis=1)]
+    inside = np.maximum.reduce(excess, axis=-1)
     is_outside = outside > 0
-    normal = np.where(is_outside[:, None], _unit(beyond, outside), nearest_face)
-    return np.where(is_outside, outside, inside), sign * normal
+    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
+    away = np.where(is_outside[..., None], beyond, nearest_face)
+    away /= np.where(is_outside, outside, 1.0)[..., None]
+    # Zero has the positive sign, whichever zero it is.
+    normal = np.copysign(away, points + 0.0)
+    return outside + np.minimum(inside, 0.0) - radius, normal
 
 
 def distance_to_cylinder(points: Array, radius: float, half_length: float) -> Distance:
@@ -145,8 +156,8 @@ def _dot(points: Array, vector: Array) -> Array:
 
 
 def _norm(vectors: Array) -> Array:
-    x, y, z = vectors.T
-    return np.asarray(np.sqrt(x * x + y * y + z * z))
+    squares = vectors * vectors
+    return np.asarray(np.sqrt(squares[..., 0] + squares[..., 1] + squares[..., 2]))
 
 
 def _unit(vectors: Array, norms: Array) -> Array:

@@ -42,7 +42,7 @@ def corners(shape: Shape, towards: Array) -> tuple[Array, float]:
     ----------
     shape : Shape
     towards : ndarray, shape (3,)
-        Unit vector from this shape to the other, in this shape's frame.
+        Unit vector [-] from this shape to the other, in this shape's frame.
 
     Returns
     -------

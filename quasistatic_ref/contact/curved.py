@@ -16,7 +16,7 @@ the sum."""
 
 
 def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
-    """Signed distance and outward normal of points (N, 3) against an ellipsoid.
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against an ellipsoid.
 
     The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
     root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
@@ -50,7 +50,7 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
 
 
 def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
-    """Signed distance and outward normal of points (N, 3) against a cone, tip up.
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against a cone, tip up.
 
     In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
     """

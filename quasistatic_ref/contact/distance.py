@@ -18,6 +18,7 @@ from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.corners import corners
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
@@ -53,14 +54,16 @@ class ClosestPoints:
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
     def chosen(self, index: NDArray[np.int64]) -> ClosestPoints:
-        """Some of the contacts, in the order given."""
+        """The contacts of an `index` of shape (k,), in its order."""
         return ClosestPoints(
             self.phi[index], self.alpha[index], self.beta[index], self.n[index], self.point[index]
         )
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of all pairs, in order, each pair's in ascending distance.
+    """The contacts of all pairs, in order, each pair's in ascending distance, by brute force.
+
+    :class:`~quasistatic_ref.contact.tracker.ContactTracker` gives the same, bit for bit, sooner.
 
     Raises
     ------
@@ -68,9 +71,15 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
         If a pair has no trustworthy normal, or a pose is not finite: of NaN, coal makes the
         distance 0.
     """
-    if not (np.isfinite(kinematics.R).all() and np.isfinite(kinematics.t).all()):
+    R, t = kinematics.R, kinematics.t
+    check_finite(R, t)
+    return joined([pair_closest_points(pair, R, t) for pair in pairs])
+
+
+def check_finite(R: Array, t: Array) -> None:
+    """Refuse poses that are not finite."""
+    if not (np.isfinite(R).all() and np.isfinite(t).all()):
         raise ContactError("must be finite", field="poses")
-    return joined([pair_closest_points(pair, kinematics) for pair in pairs])
 
 
 def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
@@ -87,9 +96,9 @@ def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
     )
 
 
-def pair_closest_points(pair: ContactPair, kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of one pair, in ascending distance."""
-    a, b = _placed(pair.alpha, kinematics), _placed(pair.beta, kinematics)
+def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
+    """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
+    a, b = _placed(pair.alpha, R, t), _placed(pair.beta, R, t)
     if isinstance(b.shape, PointCloud):
         return _points_on_solid(a, b, b.shape.points, 0.0, pair.k)
     if isinstance(a.shape, PointCloud):
@@ -132,12 +141,13 @@ def _points_on_solid(
     solid: Placed, other: Placed, points: Array, radius: float, k: int | None = None, first: int = 0
 ) -> ClosestPoints:
     """Points of another body, each with a ball about it, on a solid: all, or the k closest."""
-    R = solid.R.T @ other.R
-    in_solid = _rotated(R, points) + solid.R.T @ (other.t - solid.t)
+    # One product, as a tracker has it for all pairs at once: the bits are then the same.
+    relative = solid.R.T @ np.column_stack([other.R, other.t - solid.t])
+    in_solid = rotated(relative[:, :3], points) + relative[:, 3]
     phi, normal = signed_distance(solid.shape, in_solid)
     index = np.arange(len(points)) if k is None else closest(phi, k)
-    n = _rotated(solid.R, normal[index])
-    centre = _rotated(other.R, points[index]) + other.t
+    n = rotated(solid.R, normal[index])
+    centre = rotated(other.R, points[index]) + other.t
     distance = phi[index]
     return ClosestPoints(
         phi=distance - radius,
@@ -148,12 +158,7 @@ def _points_on_solid(
     )
 
 
-def _placed(placed: PlacedShape, kinematics: Kinematics) -> Placed:
-    R, t = kinematics.R[placed.link], kinematics.t[placed.link]
-    return Placed(placed.shape, R @ placed.R, R @ placed.t + t)
-
-
-def _rotated(R: Array, points: Array) -> Array:
-    # Not `@`: BLAS may sum in another order for another number of points, and a point's
-    # distance must not depend on its company.
-    return points[:, :1] * R[:, 0] + points[:, 1:2] * R[:, 1] + points[:, 2:] * R[:, 2]
+def _placed(placed: PlacedShape, R: Array, t: Array) -> Placed:
+    R_link, t_link = R[placed.link], t[placed.link]
+    world = R_link @ np.column_stack([placed.R, placed.t])
+    return Placed(placed.shape, world[:, :3], world[:, 3] + t_link)

@@ -71,6 +71,11 @@ class ContactPair:
                 )
 
     @property
+    def has_cloud(self) -> bool:
+        """Whether one side is a cloud."""
+        return isinstance(self.alpha.shape, PointCloud) or isinstance(self.beta.shape, PointCloud)
+
+    @property
     def corners(self) -> int:
         """Number of corners of both shapes: the candidates beside the closest pair."""
         return corner_count(self.alpha.shape) + corner_count(self.beta.shape)

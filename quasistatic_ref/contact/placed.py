@@ -17,7 +17,7 @@ class Placed(NamedTuple):
     t: Array
 
     def farthest(self, direction: Array) -> Array:
-        """The farthest point along a direction; both in the world frame."""
+        """The farthest point along a direction, shape (3,) [m]; both in the world frame."""
         return self.R @ support_point(self.shape, self.R.T @ direction) + self.t
 
     def reach(self, directions: Array) -> Array:

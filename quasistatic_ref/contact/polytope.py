@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.cloud import distance_to_segment, signed_distance
+from quasistatic_ref.contact.cloud import distance_to_rounded_box, rounded_box, signed_distance
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
 from quasistatic_ref.step.data import Array
@@ -58,7 +58,7 @@ class Polytope:
     def core_distance(self, points: Array) -> tuple[Array, Array]:
         """Signed distance and normal of points, in the shape's own frame, to the core."""
         if isinstance(self.shape, Capsule):
-            return distance_to_segment(points, self.shape.half_length, 0.0)
+            return distance_to_rounded_box(points, rounded_box(self.shape)[0])
         return signed_distance(self.shape, points)
 
 

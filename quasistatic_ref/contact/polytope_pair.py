@@ -146,7 +146,9 @@ def _nearest_edges(a: Polytope, b: Polytope, bound: float) -> tuple[float, Array
 
 
 def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Parameters in [0, 1] of the closest points of segments p + s u and q + r v.
+    """Parameters in [0, 1] of the closest points of segments p + s u and q + r v, shapes (N,).
+
+    p, u, q and v have the shape (N, 3) [m].
 
     Between parallel segments every pair of facing points is as near as any; one is taken.
     (C. Ericson, "Real-Time Collision Detection", 5.1.9.)

@@ -64,7 +64,13 @@ def support_point(shape: Shape, direction: Array) -> Array:
 
 
 def support_value(shape: Shape, directions: Array) -> Array:
-    """How far the shape reaches along directions (N, 3) of its own frame: max n . x, shape (N,)."""
+    """How far the shape reaches along directions (N, 3) of its own frame: max n . x, shape (N,).
+
+    Raises
+    ------
+    ContactError
+        If the shape is none of these.
+    """
     radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
     match shape:
         case Box():

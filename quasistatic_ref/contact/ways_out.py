@@ -41,7 +41,7 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     ----------
     a, b : Placed
     first : ndarray, shape (3,)
-        The known direction, a unit vector in the world frame.
+        The known direction, a unit vector in the world frame [-].
     phi : float
         The gap along it [m].
     size : float

@@ -1,1 +1,44 @@
-"""Figures with matplotlib, which is imported in this room only."""
+"""Figures with matplotlib, which is imported in this room only.
+
+The names below are loaded on first use.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from quasistatic_ref.figures.animation import animate as animate
+    from quasistatic_ref.figures.draw import draw_scene as draw_scene
+    from quasistatic_ref.figures.legible import faults as faults
+    from quasistatic_ref.figures.moments import moment as moment
+    from quasistatic_ref.figures.scene import Camera as Camera
+    from quasistatic_ref.figures.style import figure_style as figure_style
+    from quasistatic_ref.figures.style import figure_written as figure_written
+    from quasistatic_ref.figures.style import panels as panels
+    from quasistatic_ref.figures.style import style_file as style_file
+    from quasistatic_ref.figures.style import styled as styled
+
+_HOME = {
+    "Camera": "scene",
+    "animate": "animation",
+    "draw_scene": "draw",
+    "faults": "legible",
+    "figure_style": "style",
+    "figure_written": "style",
+    "moment": "moments",
+    "panels": "style",
+    "style_file": "style",
+    "styled": "style",
+}
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

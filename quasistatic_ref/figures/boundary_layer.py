@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import figure_style, sized
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -28,8 +28,8 @@ def boundary_layer(scenario: Scenario, run: Trajectory, height_at_rest: float) -
     lift = run["q"][1:, 2] - height_at_rest
     mu_omega = float(run["mu_omega"][0])
     limit = mu_omega * scenario.system.mass("sphere") * -float(scenario.gravity[2])
-    with paper_style():
-        figure, (top, bottom) = plt.subplots(2, 1, figsize=(4.6, 3.8), sharex=True)
+    with figure_style():
+        figure, (top, bottom) = plt.subplots(2, 1, figsize=sized(4.6, 3.8), sharex=True)
         top.plot(1e3 * torque, spin)
         top.set_ylabel("spin rate [rad/s]")
         bottom.plot(1e3 * torque, 1e3 * lift)

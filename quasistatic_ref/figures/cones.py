@@ -6,12 +6,12 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-from scipy.spatial import ConvexHull
 
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import figure_style, scaled, sized
+from quasistatic_ref.figures.surfaces import faces
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Contacts, StepData
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 COLOURS = {PYRAMID: "tab:blue", ELLIPSOID: "tab:orange", "product": "tab:green"}
@@ -22,8 +22,9 @@ STILL = 1e-12
 
 def limit_surfaces() -> Figure:
     """The forces that a contact can bear at f_n = 1, in units of mu_v, mu_v, mu_omega."""
-    with paper_style():
-        figure = plt.figure(figsize=(7.2, 2.9))
+    with figure_style():
+        figure = plt.figure(figsize=sized(6.3, 2.9))
+        pad = -6 + 10 * (scaled(1) - 1)  # larger figures have larger numbers beside the axes
         for k, name in enumerate(SHOWN):
             axes = figure.add_subplot(1, 3, k + 1, projection="3d")
             if name == ELLIPSOID:
@@ -35,19 +36,19 @@ def limit_surfaces() -> Figure:
             else:
                 axes.add_collection3d(
                     Poly3DCollection(
-                        _facets(cone(name).table),
+                        faces(cone(name).table),
                         facecolor=COLOURS[name],
                         edgecolor="k",
                         linewidth=0.6,
                         alpha=0.5,
                     )
                 )
-            axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1), box_aspect=(1, 1, 1))
+            axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), box_aspect=(1, 1, 1))
             axes.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zticks=(-1, 0, 1))
-            axes.set_xlabel(r"$f_1/\mu_v$", labelpad=-6)
-            axes.set_ylabel(r"$f_2/\mu_v$", labelpad=-6)
-            axes.set_zlabel(r"$\tau/\mu_\omega$", labelpad=-8)
-            axes.tick_params(labelsize=7, pad=-3)
+            axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=pad)
+            axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=pad)
+            axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=pad - 2)
+            axes.tick_params(labelsize="small", pad=-3)
             axes.set_title(name)
         figure.subplots_adjust(left=0.0, right=0.95, bottom=0.06, top=0.92, wspace=0.12)
     return figure
@@ -74,8 +75,8 @@ def pinch_thresholds(
         ELLIPSOID: np.hypot(slide, spin),  # (R22)
         "product": np.maximum(slide, spin),  # (R23)
     }
-    with paper_style():
-        figure, axes = plt.subplots(figsize=(4.8, 3.4))
+    with figure_style():
+        figure, axes = plt.subplots(figsize=sized(4.8, 3.4))
         for name in SHOWN:
             axes.plot(1e3 * d, least[name], color=COLOURS[name], label=name)
             for share, marker, fill in ((0.97, "v", "none"), (1.03, "^", COLOURS[name])):
@@ -88,8 +89,9 @@ def pinch_thresholds(
                     1e3 * d[right],
                     share * least[name][right],
                     marker,
-                    markersize=4,
-                    color=COLOURS[name],
+                    markersize=scaled(4),
+                    color="black",
+                    markeredgewidth=0.6,
                     markerfacecolor=fill,
                     linestyle="none",
                 )
@@ -159,19 +161,3 @@ def _slip(step: StepData) -> float:
         np.einsum("ci,ci->c", axis, motion[:, :3]) for axis in (step.contacts.d1, step.contacts.d2)
     ]
     return float(np.abs(np.concatenate([*along, motion[:, 3]])).max())
-
-
-def _facets(points: Array) -> list[Array]:
-    """The faces of the convex hull, each with its corners in order."""
-    hull = ConvexHull(points)
-    faces: dict[tuple[float, ...], set[int]] = {}
-    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
-        faces.setdefault(tuple(np.round(plane, 9)), set()).update(simplex.tolist())
-    ordered = []
-    for plane, corners in faces.items():
-        at = points[sorted(corners)]
-        centre, normal = at.mean(axis=0), np.array(plane[:3])
-        first = at[0] - centre
-        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
-        ordered.append(at[np.argsort(angle)])
-    return ordered

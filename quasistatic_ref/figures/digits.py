@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import figure_style, scaled, sized
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":")
@@ -33,7 +33,7 @@ class BackendDigits:
     unsolved : int
         Steps of these for which it gave no answer; they are in none of the numbers below.
     worst, low, median, best : float
-        Correct digits of delta_q: the least, the first percentile, the median, the most.
+        Correct digits [-] of delta_q: the least, the first percentile, the median, the most.
     """
 
     units: str
@@ -60,9 +60,9 @@ def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure
     panels = list(dict.fromkeys(r.units for r in records))
     backends = list(dict.fromkeys(r.backend for r in records))
     settings = list(dict.fromkeys(r.accuracy for r in records))
-    with paper_style():
+    with figure_style():
         figure, (grid,) = plt.subplots(
-            1, len(panels), figsize=(7.2, 3.1), sharey=True, squeeze=False,
+            1, len(panels), figsize=sized(6.3, 3.1), sharey=True, squeeze=False,
             gridspec_kw={"wspace": 0.06},
         )  # fmt: skip
         for axes, units in zip(grid, panels, strict=True):
@@ -84,7 +84,7 @@ def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure
             handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(backends),
             title="marker: median step; bar: first percentile; line: worst step to best; "
             f"{told}\n{subject}",
-            title_fontsize=8,
+
         )  # fmt: skip
     return figure
 
@@ -95,14 +95,14 @@ def _draw(axes: Axes, own: Sequence[BackendDigits], at: Sequence[float], k: int)
     shown = [r for r in own if r.unsolved < r.steps]
     colour, style = COLOURS[k], LINES[k % len(LINES)]
     worst, best = [r.worst for r in shown], [r.best for r in shown]
-    axes.vlines(x, worst, best, colors=colour, linewidth=1.0, linestyle=style)
+    axes.vlines(x, worst, best, colors=colour, linewidth=scaled(1.0), linestyle=style)
     low = [r.low for r in shown]
-    axes.plot(x, low, linestyle="none", marker="_", markersize=6, color=colour)
+    axes.plot(x, low, linestyle="none", marker="_", markersize=scaled(6), color="black")
     axes.plot(
-        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=5.5,
+        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=scaled(5.5),
         color=colour, markeredgecolor="black", markeredgewidth=0.5, label=own[0].backend,
     )  # fmt: skip
     for p, r in zip(at, own, strict=True):
         if r.unsolved:
             text = f"{100 * r.unsolved / r.steps:.1f} % unsolved"
-            axes.text(p, -0.4, text, rotation=90, fontsize=7, ha="center", va="bottom")
+            axes.text(p, -0.4, text, rotation=90, fontsize="small", ha="center", va="bottom")

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.scene import Camera, draw_contacts, draw_floor, draw_shapes
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import figure_style, sized
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.scenario import Scenario
@@ -35,9 +35,9 @@ def grasp_strip(
     instants : sequence of float
         Times of the columns [s].
     """
-    with paper_style():
+    with figure_style():
         figure, grid = plt.subplots(
-            len(runs), len(instants), figsize=(7.2, 1.62 * len(runs)), squeeze=False,
+            len(runs), len(instants), figsize=sized(6.3, 1.45 * len(runs)), squeeze=False,
             gridspec_kw={"wspace": 0.03, "hspace": 0.05},
         )  # fmt: skip
         for row, (title, run) in zip(grid, runs.items(), strict=True):
@@ -51,7 +51,7 @@ def grasp_strip(
             f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}; "
             "open dots: contacts considered, "
             "filled dots: contacts that bear load",
-            ha="center", fontsize=8,
+            ha="center", fontsize="small",
         )  # fmt: skip
     return figure
 
@@ -59,9 +59,9 @@ def grasp_strip(
 def rotation_plot(
     scenario: Scenario, runs: Mapping[str, Trajectory], link: str, since: float
 ) -> Figure:
-    """Angle that a body has turned since the grip closed, against time."""
-    with paper_style():
-        figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    """Angle that a body has turned since the grip closed, at the time `since` [s], against time."""
+    with figure_style():
+        figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
         for title, run in runs.items():
             motion = link_motion(scenario.system, run, link)
             after = motion.index(since)

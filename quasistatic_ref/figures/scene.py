@@ -11,7 +11,9 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, PlacedShape, PointCloud, Sphere
+from quasistatic_ref.figures.style import scaled
+from quasistatic_ref.figures.surfaces import surface_points
+from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array
 
@@ -36,7 +38,7 @@ class Camera:
     elevation: float
 
     def axes(self) -> Array:
-        """Rows: to the right, upwards, towards the camera; world frame."""
+        """Rows: to the right, upwards, towards the camera; shape (3, 3), world frame."""
         a, e = np.radians([self.azimuth, self.elevation])
         right = np.array([-np.sin(a), np.cos(a), 0.0])
         towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
@@ -47,55 +49,33 @@ class Camera:
         return np.asarray(points @ self.axes().T)
 
 
-def surface_points(placed: PlacedShape) -> Array:
-    """A cloud's points, or points whose hull looks like the shape; its own frame, (N, 3) [m]."""
-    shape = placed.shape
-    if isinstance(shape, PointCloud):
-        return shape.points
-    if isinstance(shape, Box):
-        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
-        return np.asarray(signs * shape.half_extents)
-    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 48), np.linspace(-1, 1, 25))
-    if isinstance(shape, Cylinder):
-        ring = np.stack([np.cos(azimuth), np.sin(azimuth), np.sign(height)], axis=-1)
-        return np.asarray(ring.reshape(-1, 3) * [shape.radius, shape.radius, shape.half_length])
-    if isinstance(shape, Sphere | Capsule):
-        r = np.sqrt(1 - height**2)
-        ball = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1)
-        points = shape.radius * ball.reshape(-1, 3)
-        if isinstance(shape, Capsule):
-            end = np.array([0, 0, shape.half_length])
-            points = np.concatenate([points + end, points - end])
-        return np.asarray(points)
-    return np.zeros((0, 3))
-
-
 def draw_shapes(
-    axes: Axes, camera: Camera, shapes: Iterable[PlacedShape], kinematics: Kinematics
+    axes: Axes,
+    camera: Camera,
+    shapes: Iterable[PlacedShape],
+    kinematics: Kinematics,
+    unit: float = 1.0,
 ) -> None:
-    """Draw shapes from the farthest to the nearest."""
+    """Draw shapes from the farthest to the nearest, with `unit` of the axes to a metre [1/m]."""
     ordered = sorted(shapes, key=lambda placed: _nearness(camera, placed, kinematics))
     for layer, placed in enumerate(ordered):
-        _draw_shape(axes, camera, placed, kinematics, 1 + layer / len(ordered))
+        R, t = kinematics.R[placed.link], kinematics.t[placed.link]
+        local = surface_points(placed)
+        if len(local):
+            seen = unit * camera.seen((local @ placed.R.T + placed.t) @ R.T + t)
+            _draw_shape(axes, placed, seen, 1 + layer / len(ordered))
 
 
-def _draw_shape(
-    axes: Axes, camera: Camera, placed: PlacedShape, kinematics: Kinematics, zorder: float
-) -> None:
+def _draw_shape(axes: Axes, placed: PlacedShape, seen: Array, zorder: float) -> None:
     """Draw one shape: a cloud as dots, shaded by depth; a solid as its outline, filled."""
-    R, t = kinematics.R[placed.link], kinematics.t[placed.link]
-    cloud = isinstance(placed.shape, PointCloud)
-    local = surface_points(placed)
-    if not len(local):
-        return
-    world = (local @ placed.R.T + placed.t) @ R.T + t
-    seen = camera.seen(world)
-    if cloud:
+    if isinstance(placed.shape, PointCloud):
         order = seen[:, 2].argsort()
         x, y, depth = seen[order].T
         near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
-        size, opacity = 1.2 + 1.6 * near, 0.25 + 0.6 * near
-        axes.scatter(x, y, s=size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder)
+        size, opacity = 0.8 + 1.1 * near, 0.25 + 0.6 * near
+        axes.scatter(
+            x, y, s=scaled(1) ** 2 * size, c=CLOUD, alpha=opacity, linewidths=0, zorder=zorder
+        )
         return
     outline = seen[ConvexHull(seen[:, :2]).vertices, :2]
     axes.add_patch(
@@ -123,11 +103,15 @@ def draw_contacts(axes: Axes, camera: Camera, points: Array, bearing: NDArray[np
 
     Parameters
     ----------
+    axes : Axes
+    camera : Camera
     points : ndarray, shape (n_c, 3)
         World frame [m].
     bearing : ndarray of bool, shape (n_c,)
     """
     seen = camera.seen(points)
-    for chosen, size, colour in ((~bearing, 8, "white"), (bearing, 20, CONTACT)):
+    for chosen, size, colour in ((~bearing, 5, "white"), (bearing, 13, CONTACT)):
         x, y = seen[chosen, 0], seen[chosen, 1]
-        axes.scatter(x, y, s=size, c=colour, linewidths=0.8, edgecolors="black", zorder=9)
+        axes.scatter(
+            x, y, s=scaled(1) ** 2 * size, c=colour, linewidths=0.6, edgecolors="black", zorder=9
+        )

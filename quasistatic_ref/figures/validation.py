@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import scaled, sized, styled
 
 Picture = Mapping[str, Any]
 MARKS = ("o", "s", "^", "D", "v", "P")
@@ -21,12 +21,13 @@ def _caption(h: float) -> str:
 
 def _open(mark: str) -> dict[str, Any]:
     """Hollow marks, each kind of another size: equal values stay visible."""
-    return {"marker": mark, "markersize": 8 - 3 * MARKS.index(mark), "fillstyle": "none"}
+    size = scaled(9 - 2.75 * MARKS.index(mark))
+    return {"marker": mark, "markersize": size, "fillstyle": "none"}
 
 
 def grasp(picture: Picture) -> Figure:
     """Rotation of the bunny during the lift."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     for case, angle in picture["angles"].items():
         axes.plot(picture["times"], angle, label=case)
     axes.set(xlabel="time t [s]", ylabel="rotation since the grip closed [deg]")
@@ -38,14 +39,15 @@ def grasp(picture: Picture) -> Figure:
 def contact_geometry(picture: Picture) -> Figure:
     """Two bodies, their closest points, phi and the frame; in the plane of d1 or d2 and n."""
     data = picture["outline"]
-    figure, axes = plt.subplots(figsize=(4.6, 3.2))
+    figure, axes = plt.subplots(figsize=sized(4.6, 3.2))
     for body in ("capsule", "box"):
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
     alpha, beta = 1e3 * data["alpha"][[0, 2]], 1e3 * data["beta"][[0, 2]]
     axes.plot(*np.stack([alpha, beta]).T, color="black", linestyle=":", linewidth=1)
-    for name, point, mark in ((r"$\alpha$", alpha, "o"), (r"$\beta$", beta, "s")):
-        axes.plot(*point, marker=mark, color="black", linestyle="", markersize=4)
-        axes.annotate(name, point, xytext=(4, -12), textcoords="offset points")
+    for name, point, mark, aside in ((r"$\alpha$", alpha, "o", -14), (r"$\beta$", beta, "s", 4)):
+        axes.plot(*point, marker=mark, color="black", linestyle="", markersize=scaled(4))
+        offset = scaled(aside), scaled(-12)
+        axes.annotate(name, point, xytext=offset, textcoords="offset points")
     for name in ("n", "d1", "d2"):
         arrow = 25 * data[name][[0, 2]]
         if np.linalg.norm(arrow) < 1:
@@ -63,7 +65,7 @@ def contact_geometry(picture: Picture) -> Figure:
 
 def boundary_layer(picture: Picture) -> Figure:
     """Spin and lift-off against torque; size of the layer against the time step."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 2.8), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=sized(6.3, 2.8), layout="constrained")
     left.plot(1e3 * picture["torque"], 1e6 * picture["lift"])
     left.axvline(1e3 * picture["limit"], color="black", linestyle=":", linewidth=1)
     left.annotate(
@@ -83,12 +85,12 @@ def boundary_layer(picture: Picture) -> Figure:
 
 def step_time(picture: Picture) -> Figure:
     """Shares of the parts of a step."""
-    figure, axes = plt.subplots(figsize=(4.6, 1.9))
+    figure, axes = plt.subplots(figsize=sized(4.6, 1.9))
     shares = dict(reversed(list(picture["shares"].items())))
     axes.set_axisbelow(True)
     axes.barh(list(shares), [100 * s for s in shares.values()], color="0.6", edgecolor="black")
     for k, share in enumerate(shares.values()):
-        axes.annotate(f" {100 * share:.1f} %", (100 * share, k), va="center", fontsize=8)
+        axes.annotate(f" {100 * share:.1f} %", (100 * share, k), va="center", fontsize="small")
     axes.set(xlabel="share of the time of a step [%]", xlim=(0, 110))
     axes.set_title(
         f"{_caption(picture['h'])}; {picture['milliseconds']:.1f} ms a step", loc="right"
@@ -98,7 +100,7 @@ def step_time(picture: Picture) -> Figure:
 
 def sliding_threshold(picture: Picture) -> Figure:
     """Least force that moves a point, by direction: the pyramid beside Coulomb's circle."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     degrees = np.degrees(picture["angles"])
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
@@ -106,7 +108,7 @@ def sliding_threshold(picture: Picture) -> Figure:
     for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
         axes.plot(degrees, found, linestyle="", **_open(mark), label=rf"$\mu_v$ = {mu:g}")
     axes.set(
-        xlabel="direction of the force from $d_1$ [deg]", ylabel=r"least force / ($\mu_v m g$)"
+        xlabel="direction of the force from $d_1$ [deg]", ylabel=r"least force / ($\mu_v m g$) [-]"
     )
     axes.set_title(_caption(picture["h"]), loc="right")
     axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.62))
@@ -115,7 +117,7 @@ def sliding_threshold(picture: Picture) -> Figure:
 
 def pushed_block(picture: Picture) -> Figure:
     """Force of the finger over friction, against the quasi-dynamic number."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     friction = picture["mu"] * picture["m"] * 9.81
     pi = picture["v"] / (picture["mu"] * 9.81 * picture["h"])
     line = np.geomspace(0.8 * pi.min(), 1.2 * pi.max(), 100)
@@ -126,7 +128,10 @@ def pushed_block(picture: Picture) -> Figure:
         axes.plot(pi[at], force, linestyle="", **_open(mark), label=f"h = {1e3 * h:g} ms")
     axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
     axes.set(xscale="log", yscale="log")
-    axes.set(xlabel=r"quasi-dynamic number $\Pi = v / (\mu_v g h)$", ylabel=r"push / ($\mu_v m g$)")
+    axes.set(
+        xlabel=r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]",
+        ylabel=r"push / ($\mu_v m g$) [-]",
+    )
     axes.set_title("friction pyramid", loc="right")
     axes.legend()
     return figure
@@ -134,7 +139,7 @@ def pushed_block(picture: Picture) -> Figure:
 
 def planar_push(picture: Picture) -> Figure:
     """Turn of a pushed slider over that of the quasi-static law, against its speed."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     rho = picture["rho"]
     line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
@@ -147,7 +152,9 @@ def planar_push(picture: Picture) -> Figure:
         )
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
         axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
-    axes.set(xscale="log", xlabel=r"quasi-dynamic number $\Pi$", ylabel="turn / Lynch's turn")
+    axes.set(
+        xscale="log", xlabel=r"quasi-dynamic number $\Pi$ [-]", ylabel="turn / Lynch's turn [-]"
+    )
     axes.set_title(f"h = {1e3 * picture['h']:g} ms, friction ellipsoid; lines: (R28)", loc="right")
     axes.legend()
     return figure
@@ -155,13 +162,13 @@ def planar_push(picture: Picture) -> Figure:
 
 def patch_torsion(picture: Picture) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
-        (line,) = axes.plot(picture["rings"], found, marker=mark, label=name)
-        axes.axhline(picture["limits"][name], color=line.get_color(), linestyle=":", linewidth=1)
+        axes.plot(picture["rings"], found, marker=mark, label=name)
+        axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
     axes.set_xscale("log", base=2)
     axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])
-    axes.set(xlabel="rings of point contacts", ylabel=r"$\mu_\omega$ / ($\mu$ a)")
+    axes.set(xlabel="rings of point contacts [-]", ylabel=r"$\mu_\omega$ / ($\mu$ a) [-]")
     axes.set_title("h = 10 ms, friction pyramid; dotted: continuum", loc="right")
     axes.legend()
     return figure
@@ -169,14 +176,14 @@ def patch_torsion(picture: Picture) -> Figure:
 
 def flat_patch(picture: Picture) -> Figure:
     """Who bears the load of a rigid disk that turns."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.6))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.6))
     at = np.arange(len(picture["r"]))
     uniform = np.full(len(at), 1 / len(at))
     axes.set_axisbelow(True)
     axes.bar(at - 0.2, uniform, 0.4, color="white", edgecolor="black", label="uniform load")
     axes.bar(at + 0.2, picture["shares"], 0.4, color="0.5", edgecolor="black", label="this model")
     axes.set_xticks(at, [f"{1e3 * r:.0f}" for r in picture["r"]])
-    axes.set(xlabel="radius of the ring of points [mm]", ylabel="share of the load")
+    axes.set(xlabel="radius of the ring of points [mm]", ylabel="share of the load [-]")
     axes.set_title(_caption(picture["h"]), loc="right")
     axes.legend(loc="upper left")
     return figure
@@ -184,7 +191,7 @@ def flat_patch(picture: Picture) -> Figure:
 
 def peg_wedging(picture: Picture) -> Figure:
     """Depth at which a peg stops to wedge, against Whitney's line."""
-    figure, axes = plt.subplots(figsize=(4.6, 2.8))
+    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     line = np.array([0, 0.9])
     axes.plot(line, line, color="black", linewidth=1, linestyle="-", label=r"$l = \mu d$, (R17)")
     for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
@@ -193,9 +200,9 @@ def peg_wedging(picture: Picture) -> Figure:
         axes.plot(
             picture["mu"][at], ratio, linestyle="", **_open(mark), label=f"d = {1e3 * width:g} mm"
         )
-    axes.annotate("slides in", (0.25, 0.65))
+    axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
-    axes.set(xlabel=r"$\mu$", ylabel="depth / width, l / d")
+    axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
     axes.set_title(f"{_caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
     axes.legend(loc="upper left")
     return figure
@@ -203,7 +210,7 @@ def peg_wedging(picture: Picture) -> Figure:
 
 def mujoco_friction(picture: Picture) -> Figure:
     """Velocity against load, below and beyond the threshold, of both engines."""
-    figure, both = plt.subplots(1, 2, figsize=(7.2, 2.8), layout="constrained")
+    figure, both = plt.subplots(1, 2, figsize=sized(6.3, 2.8), layout="constrained")
     units = {"torsion": "spin rate [rad/s]", "tangent": "velocity [m/s]"}
     for axes, (kind, unit) in zip(both, units.items(), strict=True):
         for (what, cone), final in picture["creep"].items():
@@ -215,22 +222,14 @@ def mujoco_friction(picture: Picture) -> Figure:
         )
         axes.set_yscale("symlog", linthresh=1e-5)
         axes.axvline(1, color="black", linestyle=":", linewidth=1)
-        axes.set(xlabel="load / what friction can hold", ylabel=unit)
+        axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
         axes.set_title(f"{kind}, h = {1e3 * picture['h']:g} ms", loc="right")
-    both[0].legend()
-    return figure
-
-
-def _styled(draw: Callable[[Picture], Figure]) -> Callable[[Picture], Figure]:
-    def figure(picture: Picture) -> Figure:
-        with paper_style():
-            return draw(picture)
-
+    figure.legend(*both[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
 PICTURES: Final[dict[str, Callable[[Picture], Figure]]] = {
-    draw.__name__: _styled(draw)
+    draw.__name__: styled(draw)
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
         patch_torsion, flat_patch, peg_wedging, mujoco_friction,

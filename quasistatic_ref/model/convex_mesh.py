@@ -32,7 +32,7 @@ class ConvexMesh:
     triangles : ndarray of int, shape (T, 3)
         Its surface; corners counter-clockwise from outside.
     normals, offsets : ndarray, shapes (T, 3) and (T,)
-        Outward unit normal and offset of each triangle's plane: x is inside where
+        Outward unit normal [-] and offset [m] of each triangle's plane: x is inside where
         normals @ x <= offsets. Coplanar triangles share equal bits.
     volume : float
         [m^3].
@@ -80,7 +80,7 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     points : array_like, shape (N, 3)
         At least four, not in one plane [m]; corners keep their order, the others are dropped.
     excess : float
-        See :class:`ConvexMesh`.
+        See :class:`ConvexMesh` [-].
 
     Raises
     ------

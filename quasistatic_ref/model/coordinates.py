@@ -1,12 +1,14 @@
 """The paper's order of coordinates, q = [q_a; q_u], against pinocchio's.
 
-Within each block the order is pinocchio's. Nothing outside :class:`System` sees the other.
+Within each block the order is pinocchio's. Nothing outside
+:class:`~quasistatic_ref.model.system.System` sees the other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -79,7 +81,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class MimicJoint:
-    """A joint without coordinates: its position is multiplier * that of `of` + offset."""
+    """A joint without coordinates: multiplier [-] * the position of `of` + offset [m, rad]."""
 
     name: str
     of: str
@@ -116,21 +118,40 @@ class Order:
     q: Indices
     v: Indices
 
+    @cached_property
+    def q_back(self) -> Indices:
+        """Which entry of our q each entry of pinocchio's is, shape (n_q,)."""
+        return np.argsort(self.q)
+
+    @cached_property
+    def v_back(self) -> Indices:
+        """The same of delta_q."""
+        return np.argsort(self.v)
+
     def paper_q(self, q: Array) -> Array:
-        """Configuration in the paper's order, from pinocchio's."""
-        return q[self.q]
+        """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
+        return q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
-        """Configuration in pinocchio's order, from the paper's."""
-        return _scattered(np.asarray(q, dtype=np.float64), self.q)
+        """Configuration in pinocchio's order, from the paper's; both of shape (n_q,)."""
+        return _reordered(np.asarray(q, dtype=np.float64), self.q_back)
 
     def paper_v(self, v: Array) -> Array:
-        """Last axis from pinocchio's order to the paper's: delta_q, forces, Jacobians."""
-        return v[..., self.v]
+        """Last axis, shape (..., n_v), from pinocchio's order to the paper's; of delta_q, J."""
+        return v.take(self.v, axis=-1)
 
     def model_v(self, v: Array) -> Array:
-        """Vector of delta_q in pinocchio's order, from the paper's."""
-        return _scattered(np.asarray(v, dtype=np.float64), self.v)
+        """Vector of delta_q in pinocchio's order, from the paper's; both of shape (n_v,)."""
+        return _reordered(np.asarray(v, dtype=np.float64), self.v_back)
+
+
+def joint_key(joint: str) -> str:
+    """Name of a joint inside the model.
+
+    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
+    space, so this cannot be a link's.
+    """
+    return f"joint {joint}"
 
 
 def paper_order(joints: Sequence[ModelJoint]) -> Order:
@@ -149,9 +170,8 @@ def paper_order(joints: Sequence[ModelJoint]) -> Order:
     )
 
 
-def _scattered(values: Any, at: Indices) -> Array:
+def _reordered(values: Any, at: Indices) -> Array:
     if values.shape != at.shape:
         raise ValueError(f"expected shape {at.shape}, not {values.shape}")
-    out = np.empty(at.size)
-    out[at] = values
-    return out
+    taken: Array = values.take(at)
+    return taken

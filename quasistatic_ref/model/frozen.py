@@ -10,7 +10,7 @@ from quasistatic_ref.errors import ModelError
 
 
 def finite(value: Any, key: str) -> float:
-    """A finite float; ModelError naming the field otherwise."""
+    """A finite float [the field's unit]; ModelError naming the field otherwise."""
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -21,7 +21,7 @@ def finite(value: Any, key: str) -> float:
 
 
 def freeze_size(owner: Any, key: str) -> None:
-    """Replace a field by a float, which must be positive."""
+    """Replace a field by a float; ModelError unless it is positive."""
     value = getattr(owner, key)
     number = finite(value, key)
     # Twice the size is what coal is given.
@@ -31,7 +31,7 @@ def freeze_size(owner: Any, key: str) -> None:
 
 
 def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
-    """Replace a field by a read-only float64 copy, finite and of the given shape."""
+    """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
     value = getattr(owner, key)
     try:
         array = np.array(value, dtype=np.float64) + 0.0
@@ -46,7 +46,7 @@ def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
 
 
 def freeze_lengths(owner: Any, key: str) -> None:
-    """Replace a field by three positive lengths, read-only."""
+    """Replace a field by three positive lengths, read-only; ModelError if they are not."""
     freeze_array(owner, key, (3,))
     lengths = getattr(owner, key)
     if not ((lengths > 0).all() and np.isfinite(2 * lengths).all()):

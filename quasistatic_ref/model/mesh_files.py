@@ -67,7 +67,7 @@ def mesh_path(address: str, folder: Path, package_dirs: Sequence[str | Path]) ->
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
-    """Convex hull of a mesh file, each coordinate multiplied by its scale.
+    """Convex hull of a mesh file, each coordinate multiplied by its scale, shape (3,) [-].
 
     Raises
     ------
@@ -87,7 +87,7 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
 
 
 def hull_of_loaded(geometry: Any) -> ConvexMesh:
-    """Convex hull of a mesh as coal loaded it."""
+    """Convex hull of a mesh as coal loaded it; ModelError if it is too small."""
     if geometry.num_vertices < 4 or geometry.num_tris < 1:
         problem = "must be at least four vertices, and triangles"
         raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))

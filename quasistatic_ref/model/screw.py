@@ -9,6 +9,8 @@ simulation are as small as that. Here nothing that cancels is divided by a small
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from quasistatic_ref.model.coordinates import Joint
@@ -24,7 +26,7 @@ def position(joint: Joint, q: Array, delta_q: Array) -> Array:
 
 
 def change(joint: Joint, q: Array, q_next: Array, delta_q: Array) -> Array:
-    """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
+    """A joint's entries (k,) of q_next (-) q, of which delta_q holds a rotation vector already.
 
     Parameters
     ----------
@@ -62,21 +64,26 @@ def translation(linear: Array, angular: Array) -> Array:
         v [m] and w [rad].
     """
     angle, axis = _angle_axis(angular)
-    once = np.cross(angular, linear)
-    across = np.cross(axis, np.cross(axis, linear))
-    half = np.sinc(angle / (2 * np.pi))  # sin(a / 2) / (a / 2)
-    return np.asarray(linear + half * half / 2 * once + (1 - np.sinc(angle / np.pi)) * across)
+    v = linear.tolist()
+    once = _cross(angular.tolist(), v)
+    across = _cross(axis, _cross(axis, v))
+    half = _sinc(angle / 2)
+    first, second = half * half / 2, 1 - _sinc(angle)
+    return np.array([v[i] + first * once[i] + second * across[i] for i in range(3)])
 
 
 def linear_part(translation: Array, angular: Array) -> Array:
     """The v whose twist (v, w) carries a base by a translation, shape (3,) [m].
 
+    The rotation vector w is `angular`, shape (3,) [rad].
+
     V^-1 t = t - w x t / 2 + (1 - (a / 2) cot(a / 2)) e x (e x t), for a < 2 pi.
     """
     angle, axis = _angle_axis(angular)
-    across = np.cross(axis, np.cross(axis, translation))
-    ratio = angle / 2 / np.tan(angle / 2) if angle else 1.0
-    return np.asarray(translation - np.cross(angular, translation) / 2 + (1 - ratio) * across)
+    t = translation.tolist()
+    once, across = _cross(angular.tolist(), t), _cross(axis, _cross(axis, t))
+    ratio = angle / 2 / math.tan(angle / 2) if angle else 1.0
+    return np.array([t[i] - once[i] / 2 + (1 - ratio) * across[i] for i in range(3)])
 
 
 def _rotation(joint: Joint, q: Array) -> Array:
@@ -84,7 +91,7 @@ def _rotation(joint: Joint, q: Array) -> Array:
     if joint.kind == "planar":
         c, s = q[joint.q][2:]
         return np.array([[c, -s], [s, c]])
-    x, y, z, w = q[joint.q][3:]
+    x, y, z, w = q[joint.q][3:].tolist()
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -100,6 +107,16 @@ def _turn(before: Array, after: Array) -> float:
     return float(np.arctan2(c * s_next - s * c_next, c * c_next + s * s_next))
 
 
-def _angle_axis(angular: Array) -> tuple[float, Array]:
-    angle = float(np.hypot.reduce(angular))
-    return angle, angular / angle if angle else np.zeros(3)
+def _angle_axis(angular: Array) -> tuple[float, list[float]]:
+    w = angular.tolist()
+    angle = math.hypot(*w)
+    return angle, [w_i / angle for w_i in w] if angle else [0.0, 0.0, 0.0]
+
+
+def _cross(a: list[float], b: list[float]) -> list[float]:
+    # Of three numbers: NumPy's takes twenty times as long.
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _sinc(x: float) -> float:
+    return math.sin(x) / x if x else 1.0

@@ -9,7 +9,6 @@ base has x, y and the angle of the same twist, in the plane.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
@@ -19,34 +18,17 @@ from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.world import world_of
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
 
 Array = NDArray[np.float64]
+WORLD_POSE = np.eye(4)
 _UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
-
-
-@dataclass(frozen=True, eq=False)
-class Kinematics:
-    """Where every link is, and how it moves with delta_q; link 0 is the world.
-
-    Parameters
-    ----------
-    R : ndarray, shape (L, 3, 3)
-        Rotation from each link's frame to the world's [-].
-    t : ndarray, shape (L, 3)
-        Origin of each link's frame in the world [m].
-    J : ndarray, shape (L, 6, n_v)
-        Rows 0-2: velocity of that origin, rows 3-5: angular velocity, both in the world
-        frame, per unit of delta_q.
-    """
-
-    R: Array
-    t: Array
-    J: Array
 
 
 class System:
@@ -75,6 +57,8 @@ class System:
         Mass of each link as its file says [kg].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
+    motion : Motion
+        How links move with the coordinates.
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -92,15 +76,19 @@ class System:
     def __init__(self, bodies: Sequence[Body]) -> None:
         self.bodies = tuple(bodies)
         world = world_of(self.bodies)
-        self._model, self._data = world.model, world.model.createData()
+        self._model, self._workspace = world.model, world.workspace
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
+        self._gravity: ArrayLike | None = None
+        self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
         self.inertias = world.inertias
         for array in (self.masses, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
+        turning = ("floating", "planar", "continuous")
+        self._screws = tuple(joint for joint in self.joints if joint.kind in turning)
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -110,10 +98,19 @@ class System:
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
         self.q_start = self._order.paper_q(world.start)
         self.q_start.setflags(write=False)
+        u = self._order.v[self.n_a :]
+        self._un_actuated = np.ix_(u, u)
+        self.motion = Motion(world.model, world.frames, self._order)
+        self._M_u = self.M_u(self.q_start) if constant_mass(world.model, self.joints) else None
         self._check_inertia()
 
+    @property
+    def rigid(self) -> bool:
+        """Whether M_u is the same array at every q."""
+        return self._M_u is not None
+
     def joint(self, name: str) -> Joint:
-        """Joint of that name, e.g. ``gripper/width``."""
+        """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""
         for joint in self.joints:
             if joint.name == name:
                 return joint
@@ -121,7 +118,7 @@ class System:
         raise ModelError(f"is no joint{suggestion(name, known)}", field="joint", value=name)
 
     def link(self, name: str) -> int:
-        """Number of a link; the name of a body stands for its root link."""
+        """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
         if name in self._roots:
             return self._roots[name]
         if name not in self.links:
@@ -154,13 +151,26 @@ class System:
         order = self._order
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
         delta_q = order.paper_v(change)
-        for joint in self.joints:
-            if joint.kind in ("floating", "planar", "continuous"):
-                delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
+        for joint in self._screws:
+            delta_q[joint.v] = screw.change(joint, q, q_next, delta_q)
         return delta_q
 
+    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,); q_a has shape (n_q_a,)."""
+        order, n = self._order, self.n_q_a
+        if np.shape(q_a) != (n,):
+            raise ModelError(f"must have shape ({n},)", field="q_a", value=np.shape(q_a))
+        q_next = q.copy()
+        q_next[:n] = q_a
+        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
+        delta_q_a: Array = change.take(order.v[: self.n_a])
+        for joint in self._screws:
+            if joint.actuated:
+                delta_q_a[joint.v] = screw.change(joint, q, q_next, delta_q_a)
+        return delta_q_a
+
     def with_actuated(self, q: Array, q_a: Array) -> Array:
-        """Copy of q with its actuated entries replaced by q_a, shape (n_q_a,)."""
+        """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
         if np.shape(q_a) != (self.n_q_a,):
             raise ModelError(f"must have shape ({self.n_q_a},)", field="q_a", value=np.shape(q_a))
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
@@ -203,10 +213,12 @@ class System:
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
-        # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
-        M = pin.crba(self._model, self._data, self._order.model_q(q))
-        u = self._order.v[self.n_a :]
-        return np.array(M[np.ix_(u, u)])
+        if self._M_u is not None:
+            return self._M_u
+        M = self._workspace.mass(self._order.model_q(q))
+        M_u: Array = M[self._un_actuated] + 0.0  # never -0.0
+        M_u.setflags(write=False)
+        return M_u
 
     def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
         """Generalised force of gravity at q, shape (n_v,) [N, N m].
@@ -217,25 +229,20 @@ class System:
         gravity : array_like, shape (3,)
             Acceleration of free fall in the world frame [m/s^2].
         """
-        self._model.gravity.linear = np.array(gravity, dtype=np.float64)
+        if gravity is not self._gravity:
+            self._workspace.set_gravity(np.array(gravity, dtype=np.float64))
+            # Kept only if it cannot change unseen.
+            self._gravity = gravity if isinstance(gravity, tuple) else None
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = -pin.computeGeneralizedGravity(self._model, self._data, self._order.model_q(q))
-        return self._order.paper_v(force + 0.0)
+        force = self._workspace.gravity_torque(self._order.model_q(q))
+        tau: Array = 0.0 - self._order.paper_v(force)
+        return tau
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
-        model, data, L = self._model, self._data, len(self.links)
-        pin.computeJointJacobians(model, data, self._order.model_q(q))
-        pin.updateFramePlacements(model, data)
-        R, t, J = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3)), np.zeros((L, 6, self.n_v))
-        for link, frame in enumerate(self._frames, start=1):
-            R[link], t[link] = data.oMf[frame].rotation, data.oMf[frame].translation
-            if self.n_v:  # without columns, getFrameJacobian ends the process
-                # n_v columns also with mimics, where data.J is wider.
-                jacobian = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-                # A single column comes as a vector.
-                J[link] = self._order.paper_v(jacobian.reshape(6, -1))
-        return Kinematics(R, t, J)
+        found, columns = self._workspace.poses(self._order.model_q(q))
+        poses = np.array([WORLD_POSE, *found])
+        return Kinematics(poses[:, :3, :3], poses[:, :3, 3], columns, self.motion)
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""
@@ -280,7 +287,7 @@ class System:
         return self._roots[body]
 
     def _check_inertia(self) -> None:
-        """Refuse a body whose M_u is singular: Eq. (13) needs it positive definite."""
+        """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite."""
         M_u = self.M_u(self.q_start)
         free = [coordinate for coordinate in self.coordinates if not coordinate.actuated]
         for body in self._roots:

@@ -11,7 +11,7 @@ _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
 def decimal(text: str) -> float:
-    """Finite number written in decimal, e.g. ``-1.5e-3``.
+    """Finite number written in decimal, e.g. ``-1.5e-3`` [any unit].
 
     Stricter than :class:`float`, which also reads ``nan``, ``1_000`` and digits of other
     scripts: a file that another reader would take differently is refused.

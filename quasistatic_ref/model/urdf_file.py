@@ -42,7 +42,7 @@ Defect = tuple[str, str, object]
 
 @dataclass(frozen=True, eq=False)
 class FileMesh:
-    """A mesh as written: its address, and the factor of each coordinate, shape (3,) [-]."""
+    """A mesh as written: its address, and the `scale` of each coordinate, shape (3,) [-]."""
 
     address: str
     scale: Array
@@ -62,7 +62,7 @@ class FileLink:
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
     collisions : tuple of (Solid or FileMesh, R (3, 3), t (3,))
-        Each shape and its frame in the link's.
+        Each shape and its frame in the link's [m].
     defect : Defect or None
         What makes its inertia that of no body; it only matters where something un-actuated
         moves the link.

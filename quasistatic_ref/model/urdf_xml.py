@@ -67,14 +67,14 @@ def xml_root(text: str) -> Element:
 
 
 def only_attributes(element: Element, where: str, known: Collection[str]) -> None:
-    """Refuse an attribute that nothing would read."""
+    """Refuse an attribute that nothing would read, with a ModelError."""
     for name in element.attrib:
         if name not in known:
             raise ModelError(f"is unknown{suggestion(name, known)}", field=f"{where}.{name}")
 
 
 def attribute(element: Element, where: str, name: str) -> str:
-    """Text of an attribute that must be there and not be blank."""
+    """Text of an attribute; ModelError unless it is there and not blank."""
     value = element.get(name)
     if value is None or not value.strip():
         raise ModelError("is missing", field=f"{where}.{name}")
@@ -101,9 +101,14 @@ def numbers(
     count : int
         How many numbers it must hold.
     default : float, optional
-        Each number, where the attribute is missing; without it that is an error.
+        Each number, where the attribute is missing; without it that is an error [its unit].
     most : float
-        Largest absolute value: beyond it squares and products overflow.
+        Largest absolute value: beyond it squares and products overflow [its unit].
+
+    Raises
+    ------
+    ModelError
+        If there are others, or they are no such numbers.
     """
     if default is not None and name not in element.attrib:
         return np.full(count, default)
@@ -123,7 +128,7 @@ def numbers(
 
 
 def at_most_one(element: Element, where: str, tag: str) -> Element | None:
-    """The child of that name, or None; two are refused, since urdfdom reads the first only."""
+    """The child of that name, or None; two are a ModelError, since urdfdom reads the first only."""
     found = element.findall(tag)
     if len(found) > 1:
         raise ModelError("is given more than once", field=f"{where}.{tag}", value=len(found))
@@ -131,7 +136,7 @@ def at_most_one(element: Element, where: str, tag: str) -> Element | None:
 
 
 def exactly_one(element: Element, where: str, tag: str) -> Element:
-    """The only child of that name; a missing one is an error."""
+    """The only child of that name; a missing one is a ModelError."""
     found = at_most_one(element, where, tag)
     if found is None:
         raise ModelError("is missing", field=f"{where}.{tag}")
@@ -139,7 +144,7 @@ def exactly_one(element: Element, where: str, tag: str) -> Element:
 
 
 def ignored_children(element: Element, where: str, read: Collection[str]) -> list[str]:
-    """Names of the children that are not read; one that looks like a misprint is refused."""
+    """Names of the children that are not read; ModelError if one looks like a misprint."""
     ignored = []
     for child in element:
         if child.tag in read:

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint
+from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf
+from quasistatic_ref.model.workspace import PART, Workspace
 
 Array = NDArray[np.float64]
 
@@ -39,10 +40,12 @@ class World:
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
+    workspace : Workspace
+        The same bodies, to be computed with.
     roots : dict of str to int
         Number of each body's root link.
     start : ndarray, shape (n_q,)
-        Initial configuration in pinocchio's order.
+        Initial configuration in pinocchio's order [m, rad, -].
     ignored : tuple of str
         What the URDFs say and the model does not use.
     notes : tuple of str
@@ -50,6 +53,7 @@ class World:
     """
 
     model: Any
+    workspace: Workspace
     joints: tuple[ModelJoint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
@@ -73,6 +77,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         does not have.
     """
     model = pin.Model()
+    parts, own = [pin.Model()], [list[str]()]
     urdfs: dict[str, Urdf] = {}
     for body in bodies:
         if body.name in urdfs:
@@ -82,7 +87,13 @@ def world_of(bodies: Sequence[Body]) -> World:
         )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
-        model = pin.appendModel(model, _prefixed(urdf.model, body.name), 0, _anchor(body))
+        prefixed, anchor = _prefixed(urdf.model, body.name), _anchor(body)
+        if parts[-1].nv and parts[-1].nv + prefixed.nv > PART:
+            parts.append(pin.Model())
+            own.append([])
+        own[-1] += [f"{body.name}/{link}" for link in urdf.links]
+        parts[-1] = pin.appendModel(parts[-1], prefixed, 0, anchor)
+        model = pin.appendModel(model, prefixed, 0, anchor)
     links, masses, roots, shapes = ["world"], [0.0], {}, []
     inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
@@ -97,8 +108,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         for joint, position in _joints(body, urdfs[body.name], model):
             joints.append(joint)
             start[joint.q[0] : sum(joint.q)] = position
+    frames = [
+        [body_frame(part, link) for link in some] for part, some in zip(parts, own, strict=True)
+    ]
     return World(
         model=model,
+        workspace=Workspace(parts, frames),
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
@@ -111,15 +126,6 @@ def world_of(bodies: Sequence[Body]) -> World:
         ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
         notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
     )
-
-
-def joint_key(joint: str) -> str:
-    """Name of a joint inside the model.
-
-    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
-    space, so this cannot be a link's.
-    """
-    return f"joint {joint}"
 
 
 def _prefixed(model: Any, name: str) -> Any:

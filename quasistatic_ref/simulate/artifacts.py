@@ -43,7 +43,7 @@ def boundary_layer(step: StepData, solution: StepSolution) -> float:
     """Largest gap [m] that a contact with load has after the step, to first order; 0 without."""
     force = solution.wrench[:, 2]
     loaded = force > BEARS * force.max(initial=0.0)
-    motion = step.contacts.J[:, :3] @ solution.delta_q
+    motion = step.contacts.motion(solution.delta_q)[:, :3]
     gap = step.contacts.phi + np.sum(step.contacts.n * motion, axis=1)
     return max(0.0, float(gap[loaded].max(initial=0.0)))
 

@@ -27,7 +27,7 @@ def placed_shapes(
 
     A link has the collision shapes of its URDF; a body's name means its cloud, or else its root
     link; a name from ``[shapes]`` is fixed in the world. A pattern such as ``hand/*`` means every
-    link that it matches and that has shapes.
+    link that it matches and that has shapes. ScenarioError if a name is taken.
     """
     named: Shapes = {}
     for name in world.names():

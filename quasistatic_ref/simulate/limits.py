@@ -49,6 +49,8 @@ class Limits:
         t : ndarray, shape (L, 3)
             Origins of the links [m], world frame.
         """
+        if np.vdot(t, t) <= self.reach**2:  # all of them together
+            return None
         distance = np.hypot.reduce(t, axis=1)
         beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too
         if not beyond.size:
@@ -79,8 +81,7 @@ class Limits:
         LimitExceeded
         """
         phi = step.contacts.phi
-        if phi.size and phi.min() < -self.penetration:
-            j = int(phi.argmin())
+        if phi.size and phi[j := int(phi.argmin())] < -self.penetration:
             raise LimitExceeded(
                 f"contact {step.contacts.name[j]} is {-phi[j]:.3g} m deep, deeper than "
                 f"limits.penetration = {self.penetration:g} m; start the bodies apart, move "

@@ -30,7 +30,7 @@ class LinkMotion:
     t: Array
 
     def rotation_since(self, time: float) -> Array:
-        """Angle between the orientation at each instant and that at `time` [rad]."""
+        """Angle [rad] of each orientation from that at `time` [s], shape (steps + 1,)."""
         reference = self.R[self.index(time)]
         return rotation_angle(self.R @ reference.T)
 

@@ -38,7 +38,7 @@ UNREADABLE: tuple[type[Exception], ...] = (
 
 
 def npz_arrays(path: str | Path) -> dict[str, NDArray[Any]]:
-    """Every array of the file, by name.
+    """Every array of the file by name, each of the shape and type that it has there.
 
     Raises
     ------

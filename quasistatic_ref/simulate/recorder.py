@@ -120,11 +120,17 @@ class Recorder:
             "contacts": self.names if self.record == "full" else [],
         }
         keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
-        arrays = {key: np.array([row[key] for row in self.rows]) for key in keys}
+        arrays = {key: _stacked([row[key] for row in self.rows]) for key in keys}
         constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
         parts = self.seconds[0] if self.seconds else {}
         seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
         return Trajectory(header, {"q": np.array(self.q), **arrays, **constant}, seconds)
+
+
+def _stacked(values: list[Any]) -> NDArray[Any]:
+    """One array of all steps, in which zero is 0.0, never -0.0."""
+    array = np.array(values)
+    return array + 0.0 if array.dtype == np.float64 else array
 
 
 def _or_nan(value: float | None) -> float:

@@ -27,6 +27,8 @@ from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.backends import backend as known_backend
+from quasistatic_ref.solve.engines import ENGINES, NATIVE, default_engine
+from quasistatic_ref.solve.native import check_native
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
@@ -67,6 +69,8 @@ class Scenario:
         External, world frame, at centres of mass.
     backend, accuracy, certify, record, cone
         Settings.
+    engine : str, optional
+        As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     limits : Limits
         Beyond which no step is taken.
     """
@@ -88,6 +92,7 @@ class Scenario:
     cone: str = PYRAMID
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
+    engine: str | None = None
 
     def simulator(self) -> Simulator:
         """A simulator of this scenario."""
@@ -99,6 +104,7 @@ class Scenario:
             gravity=self.gravity.tolist(),
             feels_gravity=self.feels_gravity,
             backend=self.backend,
+            engine=self.engine,
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
@@ -174,7 +180,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
     certify = solver.text("certify", CERTIFY[0], CERTIFY)
-    backend = _backend(solver, certify)
+    backend, engine = _asked(solver, certify, named)
     accuracy = solver.number("accuracy", ACCURACY, above=0.0)
     solver.close()
     limits = _limits(top.table("limits", {}))
@@ -220,22 +226,25 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         cone=named,
         limits=limits,
         bodies=entries,
+        engine=engine,
     )
 
 
-def _backend(solver: Fields, certify: str) -> str:
-    """The backend's name, looked up here rather than in the first step."""
+def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
+    """Names of the backend and the engine, looked up here rather than in the first step."""
     name = solver.text("backend", DEFAULT)
-    if name == NONE:
-        if certify != CERTIFY[0]:
-            problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
-            raise solver.fail("backend", problem, name)
-        return name
+    engine = solver.text("engine", default_engine(name, cone_name), ENGINES)
+    if name == NONE and certify != CERTIFY[0]:
+        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+        raise solver.fail("backend", problem, name)
     try:
-        known_backend(name)
+        if engine == NATIVE:
+            check_native(name, cone_name)
+        elif name != NONE:
+            known_backend(name)
     except BackendError as error:
-        raise solver.fail("backend", error.problem, name) from None
-    return name
+        raise solver.fail(error.field or "backend", error.problem, error.value) from None
+    return name, engine
 
 
 def _limits(table: Fields) -> Limits:

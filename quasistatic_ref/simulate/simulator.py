@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
-from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
+from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.model.system import System
+from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.backends import DEFAULT, NONE
+from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
 from quasistatic_ref.solve.extended import extension_rows, with_rows
+from quasistatic_ref.solve.problems import Problem, may_be_sparse, problem_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
-from quasistatic_ref.tolerances import ACCURACY
+from quasistatic_ref.tolerances import ACCURACY, SPARSE_FROM
 
 Force = Callable[[float, Array], Array]
 Target = Callable[[float], Array]
@@ -76,12 +79,15 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     backend, accuracy, certify
         As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    engine : str, optional
+        As there; ``"native"`` by default where that reaches the backend and the cone.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
         q -> constraints and costs of the user's own at q, for every step.
     limits : Limits, optional
-        Beyond which no step is taken; those of :class:`Limits` by default.
+        Beyond which no step is taken; by default those of
+        :class:`~quasistatic_ref.simulate.limits.Limits`.
     """
 
     def __init__(
@@ -94,6 +100,7 @@ class Simulator:
         gravity: Sequence[float] = GRAVITY,
         feels_gravity: Array | None = None,
         backend: str = DEFAULT,
+        engine: str | None = None,
         accuracy: float = ACCURACY,
         certify: str = "full",
         cone: str = PYRAMID,
@@ -101,13 +108,24 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
+        self.tracker = ContactTracker(self.pairs)
         self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
+        self._gravity = tuple(self.gravity.tolist())
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.backend, self.accuracy, self.certify = backend, accuracy, certify
         self.cone, self.extension = cone, extension
         self.limits = Limits() if limits is None else limits
-        self.problem: StepProblem | None = None
+        self.engine = default_engine(backend, cone) if engine is None else engine
+        check_engine(self.engine)
+        self._curved = CVXPY if engine is None else engine  # extensions that are more than rows
+        self.problem: Problem | None = None
+        large = 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
+        able = may_be_sparse(self.engine, backend, certify) and extension is None and system.rigid
+        geometry = BlockGeometry if large and able else ContactGeometry
+        self.geometry = geometry(self.layout, system.motion)
+        self._like: StepData | None = None
+        self._here: tuple[bytes, Kinematics] | None = None
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
@@ -131,10 +149,10 @@ class Simulator:
             starts or ends beyond the limits.
         """
         lap = Stopwatch()
-        kinematics = self.system.kinematics(q)
-        points = closest_points(self.pairs, kinematics)
+        kinematics = self.kinematics(q)
+        points = self.tracker.closest_points(kinematics.R, kinematics.t)
         lap("distances")
-        step = self.step_data(q, q_bar_a, force, contacts(self.layout, points, kinematics))
+        step = self.step_data(q, q_bar_a, force, points, kinematics)
         own = None if self.extension is None else self.extension(q)
         if own is not None and (rows := extension_rows(step, own)) is not None:
             step, own = with_rows(step, rows), None
@@ -143,33 +161,47 @@ class Simulator:
         self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
-        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
+        self.limits.check_reach(step, self.system.links, self.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
-    def step_data(self, q: Array, q_bar_a: Array, force: Array | float, at: Contacts) -> StepData:
-        """The problem of one step: everything in Eq. (13) at q."""
+    def kinematics(self, q: Array) -> Kinematics:
+        """Poses and Jacobians at q; those of the end of a step serve the next one too."""
+        key = np.asarray(q, dtype=np.float64).tobytes()
+        if self._here is None or self._here[0] != key:
+            self._here = key, self.system.kinematics(q)
+        return self._here[1]
+
+    def step_data(
+        self,
+        q: Array,
+        q_bar_a: Array,
+        force: Array | float,
+        points: ClosestPoints,
+        kinematics: Kinematics,
+    ) -> StepData:
+        """The problem of one step: everything in Eq. :eq:`eq-13` at q."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + force
-        target = system.with_actuated(q, q_bar_a)
-        return StepData(
-            h=self.h,
-            K_q=self.K_q,
-            M_u=system.M_u(q),
-            tau_a=tau[:n_a],
-            tau_u=tau[n_a:],
-            delta_q_bar_a=system.difference(q, target)[:n_a],  # q_bar_a(t + h) (-) q_a
-            contacts=at,
-            cone=self.cone,
-        )
+        tau = self.weighs * system.gravity_force(q, self._gravity) + force
+        delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
+        tau_a, tau_u, M_u, like = tau[:n_a], tau[n_a:], system.M_u(q), self._like
+        if like is None or tau.shape != self.weighs.shape:  # checked once, or to say what is wrong
+            at = self.geometry.contacts(points, kinematics)
+            step = StepData(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, at, self.cone)
+        else:
+            at = self.geometry.contacts(points, kinematics, like.contacts)
+            step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
+        self._like = step
+        return step
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
-        """The step solved, with a CVXPY problem that is built once."""
-        if self.problem is None or not self.problem.fits(step):
-            self.problem = StepProblem(step)
+        """The step solved, with a problem that is built once."""
+        if self.backend != NONE and (self.problem is None or not self.problem.fits(step)):
+            self.problem = problem_for(step, self.engine, self.backend)
         return solve_step(
             step,
             self.backend,
+            engine=self.engine if own is None else self._curved,
             accuracy=self.accuracy,
             certify=self.certify,
             problem=self.problem,
@@ -267,16 +299,3 @@ def _target_function(simulator: Simulator, target: Target | Array, steps: int) -
         return lambda t: constant
     table = [checked(row) for row in values]
     return lambda t: table[round(t / simulator.h) - 1]
-
-
-class Stopwatch:
-    """Wall time between laps, by name."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._last = time.perf_counter()
-
-    def __call__(self, name: str) -> None:
-        """End the lap of that name."""
-        now = time.perf_counter()
-        self.seconds[name], self._last = now - self._last, now

@@ -20,6 +20,7 @@ def piecewise_linear(times: Array, values: Array, t: float) -> Array:
     times : ndarray, shape (w,)
         Strictly increasing [s].
     values : ndarray, shape (w, d)
+        [m, rad, -]
     t : float
         [s].
 
@@ -41,7 +42,7 @@ class JointTrack:
     times : ndarray, shape (w,)
         Strictly increasing [s].
     values : ndarray, shape (w, nq)
-        The joint's entries of q; an angle, shape (w, 1), for a continuous joint.
+        The joint's entries of q [m, rad, -]; an angle, shape (w, 1), for a continuous joint.
 
     Raises
     ------
@@ -57,7 +58,7 @@ class JointTrack:
         self.system, self.joint, self.times, self.values = system, joint, times, values
 
     def at(self, t: float) -> Array:
-        """The joint's entries of q at time t."""
+        """The joint's entries of q at time t, shape (nq,)."""
         if self.joint.kind not in ("floating", "planar"):
             value = piecewise_linear(self.times, self.values, t)
             if self.joint.kind == "continuous":
@@ -83,7 +84,7 @@ class Targets:
     Parameters
     ----------
     q_a_start : ndarray, shape (n_q_a,)
-        Held by every joint that has no track.
+        Held by every joint that has no track [m, rad, -].
     tracks : sequence of JointTrack
     """
 

@@ -47,8 +47,9 @@ class Trajectory:
         :mod:`~quasistatic_ref.simulate.artifacts`; and ``failed``: the reason, or None for a
         complete run.
     arrays : mapping of str to ndarray
-        The first axis is the step: ``t`` (end of the step), ``delta_q``, ``q_bar_a``, ``phi``,
-        ``alpha``, ``beta``, ``n``, ``d1``, ``d2``, ``point``, ``lam``, ``wrench``,
+        Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
+        step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
+        ``point``, ``lam``, ``wrench``,
         ``certificate`` (its kind), ``worst_residual`` (natural units; NaN where nothing was
         certified), ``digits`` (correct ones of the backend; NaN where the exact answer is not
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
@@ -56,8 +57,8 @@ class Trajectory:
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
         ``extra_b``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
-        Wall time of the parts of each step; kept in memory only, so that equal runs make equal
-        files.
+        Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
+        runs make equal files.
     """
 
     header: Mapping[str, Any]

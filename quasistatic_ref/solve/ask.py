@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
 
 import cvxpy as cp
 import numpy as np
 import qpsolvers
 
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.solve.answer import Answer
 from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.step.standard_form import standard_form
@@ -22,23 +22,6 @@ RELAXED = (1.0, 1e2, 1e4)
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """What a solver returned.
-
-    Parameters
-    ----------
-    delta_q : ndarray, shape (n_v,)
-    lam : ndarray, shape (m,)
-        Contact-major, the user's own rows last.
-    statistics : SolverStatistics
-    """
-
-    delta_q: Array
-    lam: Array
-    statistics: SolverStatistics
 
 
 def backend_answer(
@@ -96,7 +79,7 @@ def _through_qpsolvers(
 ) -> Answer:
     del problem  # this road needs no CVXPY
     form = standard_form(step)
-    program = qpsolvers.Problem(P=form.H, q=-form.g, G=-form.A, h=-form.b)
+    program = qpsolvers.Problem(P=form.H.copy(), q=-form.g, G=-form.A, h=-form.b)
     with warnings.catch_warnings():
         # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
         # and of statuses, which are dealt with below.

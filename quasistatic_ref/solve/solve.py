@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -18,21 +18,20 @@ from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import (
     BackendError,
     InputError,
-    StepDataError,
     StepIllPosed,
     StepNotSolved,
 )
-from quasistatic_ref.solve.ask import Answer, backend_answer
+from quasistatic_ref.solve.answer import Answer
+from quasistatic_ref.solve.ask import backend_answer
 from quasistatic_ref.solve.backends import DEFAULT, NONE, cone_backend
+from quasistatic_ref.solve.engines import CVXPY, NATIVE, check_engine
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
-from quasistatic_ref.solve.units import (
-    Units,
-    from_natural,
-    natural_units,
-    out_of_reach,
-    to_natural,
-    within_reach,
-)
+from quasistatic_ref.solve.native import NativeProblem, check_native
+from quasistatic_ref.solve.problems import Problem
+from quasistatic_ref.solve.scaled import Scaled, out_of_range
+from quasistatic_ref.solve.sparse import SparseProblem
+from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
+from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -43,18 +42,20 @@ from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
+NOTHING_CLAIMED = Certificate("none")
 
 
 def solve_step(
     step: StepData,
     backend: str = DEFAULT,
     *,
+    engine: str = CVXPY,
     accuracy: float = ACCURACY,
     certify: str = "full",
-    problem: StepProblem | None = None,
+    problem: Problem | None = None,
     extension: Extension | None = None,
 ) -> StepSolution:
-    """The optimum of Eq. (13).
+    """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------
@@ -63,6 +64,10 @@ def solve_step(
     backend : str
         A name from :func:`~quasistatic_ref.solve.backends.installed_backends`; or ``"none"``,
         with ``certify="full"`` only: the exact method from a cold start.
+    engine : str
+        ``"cvxpy"``: through the problem of :mod:`~quasistatic_ref.step.problem`; or ``"native"``:
+        the standard form through the solver's own interface, some ten times faster. What is
+        certified does not depend on it.
     accuracy : float
         Asked of the backend, in natural units [-].
     certify : str
@@ -70,8 +75,8 @@ def solve_step(
         (in the ellipsoid, which has no rational optimum, enclosed to 1e-13 or better);
         ``"residual"``: the backend's answer, refused if its residuals are not small, with a
         rigorous bound of its error; ``"off"``: the backend's answer, on its own word.
-    problem : StepProblem, optional
-        A compiled problem of the same kind, kept by the caller between steps.
+    problem : StepProblem or NativeProblem, optional
+        Of the same kind of step and of the engine, kept by the caller between steps.
     extension : Extension, optional
         Constraints and costs of the caller's own. Linear constraints become rows of the step, and
         are certified as such; any others need a backend that takes cones, and get residuals.
@@ -91,143 +96,141 @@ def solve_step(
     StepNotSolved
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
-        If the backend is unknown or not installed.
+        If the backend is unknown or not installed, or the engine does not reach it.
+    InputError
+        If `certify` or `engine` is no such word, or `accuracy` not greater than 0.
     """
+    check_engine(engine)
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if extension is not None:
         own = extension_rows(step, extension)
+        if own is None and engine == NATIVE:
+            problem_is = "takes rows only; an extension that is more needs engine = 'cvxpy'"
+            raise BackendError(problem_is, field="engine", value=engine)
         if own is None:
             return extended_solution(step, extension, backend, accuracy, certify)
         step = with_rows(step, own)
     if step.cone == ELLIPSOID:
         cone_backend(backend, "the ellipsoid")
+    if isinstance(problem, SparseProblem) and certify != "full" and problem.fits(step):
+        return problem.solution(step, accuracy, certify)
     if backend == NONE and certify != "full":
         raise BackendError("gives no answer of its own; use certify = 'full'", value=backend)
     # What overflows shows in the result; the processor's flags, which NumPy warns of, get lost
     # between BLAS's threads.
     with np.errstate(all="ignore"):
-        natural, units = _scaled(step)
-        if certify == "full":
-            road = _enclosed if step.cone == ELLIPSOID else _exact
-            solution = road(step, natural, units, backend, accuracy, problem)
+        if engine == NATIVE:
+            problem = _native(step, backend, problem)
+        kept = problem.metric if isinstance(problem, NativeProblem) else None
+        question = _Question(Scaled(step, kept), backend, accuracy, problem)
+        if certify != "full":
+            solution = _believed(question, certify)
         else:
-            solution = _believed(step, natural, units, backend, accuracy, certify, problem)
-    numbers = (solution.delta_q, solution.lam, solution.lam_extra, solution.wrench.ravel())
-    residuals = np.array(list(solution.certificate.residuals.values()))
-    if not np.isfinite(np.concatenate([*numbers, residuals])).all():
-        raise _out_of_range()
+            solution = _enclosed(question) if step.cone == ELLIPSOID else _exact(question)
+    good = finite(solution.delta_q) and finite(solution.lam)
+    if certify != "off" or solution.lam_extra.size:
+        residuals = np.array(list(solution.certificate.residuals.values()))
+        others = (solution.lam_extra, solution.wrench.ravel(), residuals)
+        good = good and all(map(finite, others))
+    if not good:
+        raise out_of_range(step)
     return solution
 
 
-def _scaled(step: StepData) -> tuple[StepData, Units]:
-    """The step in its natural units."""
-    try:
-        units = natural_units(step)
-        sizes = np.array([*units.coordinate, units.length, units.size])
-        if (np.isfinite(sizes) & (sizes > 0)).all():
-            return to_natural(step, units), units
-    except (StepDataError, np.linalg.LinAlgError):
-        pass
-    raise _out_of_range()
+def _native(step: StepData, backend: str, problem: Problem | None) -> NativeProblem | None:
+    """The caller's native problem if it fits, or another; None where no backend is asked."""
+    if isinstance(problem, NativeProblem) and problem.backend == backend and problem.fits(step):
+        return problem
+    check_native(backend, step.cone)
+    return None if backend == NONE else NativeProblem(step, backend)
 
 
-def _out_of_range() -> StepDataError:
-    return StepDataError(
-        "its numbers are too large, too small or too unlike each other: their products leave the "
-        "range of float64; look for a wrong unit"
-    )
+@dataclass(eq=False)
+class _Question:
+    """A step, and who is asked for its answer, at which accuracy in natural units."""
+
+    scaled: Scaled
+    backend: str
+    accuracy: float
+    problem: Problem | None
+
+    @property
+    def step(self) -> StepData:
+        return self.scaled.step
+
+    def answer(self) -> Answer:
+        """The backend's answer in natural units, the rows out of reach bearing no load."""
+        if isinstance(self.problem, NativeProblem):
+            return self.problem.answer(self.scaled, self.accuracy)
+        natural = self.scaled.natural
+        kept = self.problem if isinstance(self.problem, StepProblem) else None
+        answer = backend_answer(within_reach(natural), self.backend, self.accuracy, kept)
+        idle = np.repeat(out_of_reach(natural), natural.counts)
+        answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
+        return answer
 
 
-def _believed(
-    step: StepData,
-    natural: StepData,
-    units: Units,
-    backend: str,
-    accuracy: float,
-    certify: str,
-    problem: StepProblem | None,
-) -> StepSolution:
+def _believed(question: _Question, certify: str) -> StepSolution:
     """The backend's own answer."""
+    step, units = question.step, question.scaled.units
     try:
-        answer = _asked(natural, backend, accuracy, problem)
-        certificate = _judged(natural, answer, backend, accuracy, certify)
+        answer = question.answer()
+        certificate = NOTHING_CLAIMED if certify == "off" else _judged(question, answer)
     except StepNotSolved as failure:
         failure.step = step  # the caller's own step, not its scaled copy
         raise
     delta_q, lam = from_natural(answer.delta_q, answer.lam, units)
-    return _solution(step, delta_q, lam, backend, certificate, answer.statistics)
+    return _solution(step, delta_q, lam, question.backend, certificate, answer.statistics)
 
 
-def _asked(natural: StepData, backend: str, accuracy: float, problem: StepProblem | None) -> Answer:
-    """The backend's answer, the rows out of reach bearing no load."""
-    answer = backend_answer(within_reach(natural), backend, accuracy, problem)
-    idle = np.repeat(out_of_reach(natural), natural.counts)
-    answer.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
-    return answer
-
-
-def _exact(
-    step: StepData,
-    natural: StepData,
-    units: Units,
-    backend: str,
-    accuracy: float,
-    problem: StepProblem | None,
-) -> StepSolution:
+def _exact(question: _Question) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
-    answer, statistics = _attempt(natural, backend, accuracy, problem)
+    step, scaled = question.step, question.scaled
+    answer, statistics = _attempt(question)
     warm: list[int] = []
     if answer is not None:
-        form = standard_form(natural)
+        form = standard_form(scaled.natural)
         warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
     optimum = exact_step(step, warm)
     if answer is not None:
-        statistics = _graded(step, units, answer, optimum.delta_q, optimum.net)
-    residuals = _natural_residuals(natural, units, optimum.delta_q, optimum.lam)
+        statistics = _graded(step, scaled.units, answer, optimum.delta_q, optimum.net)
+    residuals = _natural_residuals(scaled, optimum.delta_q, optimum.lam)
     certificate = exact_certificate(step, optimum, residuals)
-    return _solution(step, optimum.delta_q, optimum.lam, backend, certificate, statistics)
+    return _solution(step, optimum.delta_q, optimum.lam, question.backend, certificate, statistics)
 
 
-def _enclosed(
-    step: StepData,
-    natural: StepData,
-    units: Units,
-    backend: str,
-    accuracy: float,
-    problem: StepProblem | None,
-) -> StepSolution:
+def _enclosed(question: _Question) -> StepSolution:
     """The optimum in the ellipsoid with a proved bound; where there is none, a judged answer."""
-    answer, statistics = _attempt(natural, backend, accuracy, problem)
+    step, units, name = question.step, question.scaled.units, question.backend
+    answer, statistics = _attempt(question)
     found = enclosure(step)
     if found is None:
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
-            raise StepNotSolved(backend, status, step, accuracy)
-        certificate = _judged(natural, answer, backend, accuracy, "residual")
+            raise StepNotSolved(name, status, step, question.accuracy)
+        certificate = _judged(question, answer)
         delta_q, lam = from_natural(answer.delta_q, answer.lam, units)
-        return _solution(step, delta_q, lam, backend, certificate, statistics)
+        return _solution(step, delta_q, lam, name, certificate, statistics)
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
     if answer is not None:
         statistics = _graded(step, units, answer, found.delta_q, found.net)
-    residuals = _natural_residuals(natural, units, found.delta_q, found.lam)
+    residuals = _natural_residuals(question.scaled, found.delta_q, found.lam)
     certificate = enclosure_certificate(step, found, residuals)
-    return _solution(step, found.delta_q, found.lam, backend, certificate, statistics)
+    return _solution(step, found.delta_q, found.lam, name, certificate, statistics)
 
 
-def _attempt(
-    natural: StepData, backend: str, accuracy: float, problem: StepProblem | None
-) -> tuple[Answer | None, SolverStatistics]:
+def _attempt(question: _Question) -> tuple[Answer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
-    statistics = SolverStatistics(backend, "not asked", None, None, accuracy)
-    if backend == NONE:
+    statistics = SolverStatistics(question.backend, "not asked", None, None, question.accuracy)
+    if question.backend == NONE:
         return None, statistics
     try:
-        answer = _asked(natural, backend, accuracy, problem)
+        answer = question.answer()
     except StepNotSolved as failure:
         return None, replace(statistics, status=f"failed: {failure.status}", digits=0.0)
     return answer, answer.statistics
@@ -242,11 +245,10 @@ def _graded(
     return replace(answer.statistics, digits=digits.delta_q)
 
 
-def _natural_residuals(
-    natural: StepData, units: Units, delta_q: Array, lam: Array
-) -> dict[str, float]:
+def _natural_residuals(scaled: Scaled, delta_q: Array, lam: Array) -> dict[str, float]:
+    units = scaled.units
     x = delta_q / (units.size * units.coordinate)
-    return asdict(_residuals(natural, x, lam * (units.length / units.size)))
+    return asdict(_residuals(scaled.natural, x, lam * (units.length / units.size)))
 
 
 def _residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
@@ -254,17 +256,14 @@ def _residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
     return judge(step, delta_q, lam)
 
 
-def _judged(
-    natural: StepData, answer: Answer, name: str, accuracy: float, certify: str
-) -> Certificate:
-    """The backend's answer judged by its residuals, or not at all."""
-    if certify == "off":
-        return Certificate("none")
+def _judged(question: _Question, answer: Answer) -> Certificate:
+    """The backend's answer judged by its residuals."""
+    natural = question.scaled.natural
     residuals = _residuals(natural, answer.delta_q, answer.lam)
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
-        raise StepNotSolved(name, status, natural, accuracy, residuals)
+        raise StepNotSolved(question.backend, status, natural, question.accuracy, residuals)
     bound = error_bound(natural, answer.delta_q, answer.lam).error
     known = bound if math.isfinite(bound) else None
     return Certificate("residual", asdict(residuals), error_bound=known)
@@ -279,11 +278,11 @@ def _solution(
     statistics: SolverStatistics,
 ) -> StepSolution:
     m = int(step.offsets[-1])
-    return StepSolution(
+    return StepSolution.with_later_wrench(
+        lambda: contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         delta_q=delta_q,
         lam=lam[:m],
         lam_extra=lam[m:],
-        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         backend=backend,
         certificate=certificate,
         statistics=statistics,

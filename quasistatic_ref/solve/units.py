@@ -4,21 +4,23 @@ Absolute tolerances of solvers mean nothing for a body of 0.1 kg that moves by 1
 
 .. math:: \delta q = \rho\,S\,x,\qquad \text{lengths in units of } \rho\,\ell
 
-Eqs. (13) and (4) keep their form: S is diagonal, one unit per coordinate, such that the diagonal
-of H becomes about one; ell is one length, such that the rows become about one; and rho is the size
-of the step. The matrices do not depend on rho, because the problem is positively homogeneous in
-(g, phi). All units are powers of two, so the conversion loses nothing (short of underflow).
+Eqs. :eq:`eq-13` and :eq:`eq-4` keep their form: S is diagonal, one unit per coordinate, such that
+the diagonal of H becomes about one; ell is one length, such that the rows become about one; and
+rho is the size of the step. The matrices do not depend on rho, because the problem is positively
+homogeneous in (g, phi). All units are powers of two, so the conversion loses nothing (short of
+underflow).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.step.data import Array, Extra, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
 STANDSTILL = 2.0**-100
@@ -44,6 +46,43 @@ class Units:
     size: float
 
 
+@dataclass(frozen=True, eq=False)
+class Metric:
+    """What units take from H alone, kept by whoever asks again with the same H.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n_v, n_v)
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S [m, rad].
+    inverse : ndarray, shape (n_v, n_v)
+        Of H.
+    squared : ndarray, shape (n_v,)
+        Squares of `coordinate`.
+    usable : bool
+        Whether all units are finite and positive.
+    """
+
+    H: Array
+    coordinate: Array
+    inverse: Array
+    squared: Array
+    usable: bool
+
+
+def metric(H: Array) -> Metric:
+    """Units in which the diagonal of H is about one, and how long a step is."""
+    coordinate = coordinate_units(np.diag(H))
+    usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
+    inverse: Array = np.linalg.inv(H).astype(np.float64)
+    return Metric(H, coordinate, inverse, coordinate * coordinate, usable)
+
+
+def coordinate_units(diagonal: Array) -> Array:
+    """Diagonal of S [m, rad], from that of H."""
+    return _powers_of_two(1 / np.sqrt(diagonal))
+
+
 def natural_units(step: StepData) -> Units:
     """Units in which the diagonal of H, the rows of A and the unconstrained step are about one.
 
@@ -58,16 +97,36 @@ def natural_units(step: StepData) -> Units:
         A function of the step alone, so that a step replayed by itself gives the same numbers.
     """
     form = standard_form(step)
-    coordinate = _power_of_two(1 / np.sqrt(np.diag(form.H)))
-    row_norms = np.linalg.norm(form.A * coordinate, axis=1)
-    length = _power_of_two(_typical(row_norms))
-    unconstrained = np.linalg.solve(form.H, form.g)
-    energy = float(np.sqrt(form.g @ unconstrained))  # ||H^-1 g||_H
-    push_out = float(form.b.max(initial=0.0)) / float(length)  # from penetration
-    gap = float(np.abs(form.b).max(initial=0.0)) / float(length)
+    return units_of(form, metric(form.H))
+
+
+def units_of(form: StandardForm, of_H: Metric) -> Units:
+    """Natural units of a step from its standard form; not finite where its numbers are not."""
+    squares = np.square(form.A) @ of_H.squared  # exact: powers of two
+    squares.sort()  # NaN comes last
+    energy = math.sqrt(max(float(form.g @ of_H.inverse @ form.g), 0.0))  # ||H^-1 g||_H
+    return units_from(of_H.coordinate, squares, energy, form.b)
+
+
+def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
+    """Natural units from the rows' squared lengths, ascending, and the unconstrained step's."""
+    length = _power_of_two(_typical(squares))
+    push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
+    size = max(energy, push_out)
     # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
-    size = max(energy, push_out) or gap or STANDSTILL
-    return Units(coordinate, float(length), float(_power_of_two(size)))
+    if size == 0:
+        size = -float(b.min(initial=0.0)) / length or STANDSTILL
+    if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
+        size = math.nan
+    return Units(coordinate, length, _power_of_two(size))
+
+
+def natural_form(form: StandardForm, units: Units) -> StandardForm:
+    """The same quadratic program in natural units, bit for bit that of :func:`to_natural`."""
+    S, ell, rho = units.coordinate, units.length, units.size
+    return StandardForm(
+        form.H * np.outer(S, S), form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell))
+    )
 
 
 def to_natural(step: StepData, units: Units) -> StepData:
@@ -107,16 +166,36 @@ def _reach(natural: StepData) -> Array:
     return np.asarray(FAR * np.maximum(1.0, np.linalg.norm(natural.contacts.J, axis=(1, 2))))
 
 
+def reach_of_rows(step: StepData, units: Units) -> Array:
+    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
+    J = step.contacts.J * (units.coordinate / units.length)
+    lengths = np.sqrt(np.einsum("cij,cij->c", J, J))
+    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
+    return np.concatenate([np.repeat(FAR * np.maximum(1.0, lengths), step.counts), own])
+
+
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
-    """delta_q [m, rad] and lam [N s] from their values in natural units."""
+    """delta_q (n_v,) [m, rad] and lam (m,) [N s] from their values in natural units."""
     S, ell, rho = units.coordinate, units.length, units.size
     return delta_q * (rho * S), lam * (rho / ell)
 
 
-def _typical(norms: Array) -> float:
-    positive = norms[norms > 0]
-    return float(np.median(positive)) if positive.size else 1.0
+def _typical(squares: Array) -> float:
+    """Return the median of lengths that are not zero, from their squares in ascending order."""
+    n = len(squares)
+    first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))
+    if first == n:
+        return 1.0
+    lower, upper = (first + n - 1) // 2, (first + n) // 2
+    return (math.sqrt(squares[lower]) + math.sqrt(squares[upper])) / 2
 
 
-def _power_of_two(x: Array | float) -> Array:
+def _powers_of_two(x: Array) -> Array:
     return np.exp2(np.round(np.log2(x)))
+
+
+def _power_of_two(x: float) -> float:
+    if not 0 < x < math.inf:
+        return math.nan
+    exponent = round(math.log2(x))
+    return 2.0**exponent if exponent < 1024 else math.inf

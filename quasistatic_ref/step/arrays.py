@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -14,13 +15,19 @@ Array = NDArray[np.float64]
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """The same array, which cannot be written any more."""
+    """The same array, of any shape and unit [-], which cannot be written any more."""
     array.setflags(write=False)
     return array
 
 
 def numbers(value: Any, name: str) -> Array:
-    """A float64 copy of real numbers; strings, booleans and ragged lists are refused."""
+    """A float64 copy of real numbers, of the same shape.
+
+    Raises
+    ------
+    StepDataError
+        Of strings, booleans and ragged lists.
+    """
     try:
         array = np.array(value)
         if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
@@ -30,8 +37,13 @@ def numbers(value: Any, name: str) -> Array:
     raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
 
 
+def finite(x: Array) -> bool:
+    """Whether all numbers of a vector are finite; one product, where they are."""
+    return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
+
+
 def columns(value: Any, name: str, ndim: int) -> int:
-    """Number of columns that a matrix, or a stack of matrices, says it has."""
+    """Number of columns that a matrix, or a stack of matrices, has; StepDataError if it is none."""
     shape = numbers(value, name).shape
     if len(shape) != ndim:
         raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
@@ -39,14 +51,20 @@ def columns(value: Any, name: str, ndim: int) -> int:
 
 
 def names(value: Any, name: str) -> tuple[str, ...]:
-    """A tuple of strings; a single string is refused."""
+    """A tuple of strings; StepDataError of anything else, such as a single string."""
     if isinstance(value, str) or not all(isinstance(one, str) for one in value):
         raise StepDataError("must be a sequence of strings", field=name, value=value)
     return tuple(value)
 
 
 def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
-    """Replace a field by a read-only float64 copy of the given shape, -0.0 becoming 0.0."""
+    """Replace a field by a read-only float64 copy, -0.0 becoming 0.0.
+
+    Raises
+    ------
+    StepDataError
+        If it holds no finite numbers, or is of another shape.
+    """
     name = f"{prefix}.{key}" if prefix else key
     array = numbers(getattr(owner, key), name) + 0.0
     if array.size == 0 and 0 in shape:
@@ -59,7 +77,7 @@ def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> No
 
 
 def positive_definite(key: str, S: Array) -> Array:
-    """Return S made exactly symmetric from its lower triangle, or refuse it.
+    """Return S, of shape (n, n) [any unit], made exactly symmetric from its lower triangle.
 
     Raises
     ------

@@ -23,85 +23,11 @@ from quasistatic_ref.step.arrays import (
     read_only,
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.tolerances import ORTHONORMAL
+from quasistatic_ref.step.contacts import Contacts
+
+__all__ = ["Array", "Contacts", "Extra", "StepData"]
 
 Array = NDArray[np.float64]
-ROWS = (4, 6)
-
-
-@dataclass(frozen=True, eq=False)
-class Contacts:
-    """The contact points of one step.
-
-    Parameters
-    ----------
-    name : tuple of str, length n_c
-        A name for each contact, for messages.
-    phi : ndarray, shape (n_c,)
-        Signed distance [m], negative in penetration.
-    n, d1, d2 : ndarray, shape (n_c, 3)
-        Unit normal from alpha's body to beta's, and the tangents: {d1, d2, n} is dextral; world.
-    J : ndarray, shape (n_c, 4, n_v)
-        Contact Jacobian, Eq. (3): rows 0-2 the velocity of beta relative to alpha in the world
-        frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.
-    mu_v : ndarray, shape (n_c,)
-        Tangential friction coefficient [-], >= 0.
-    mu_omega : ndarray, shape (n_c,)
-        Torsional friction coefficient, a length [m], >= 0.
-    rows : ndarray of int, shape (n_c,)
-        6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
-
-    Raises
-    ------
-    StepDataError
-        If a shape, a sign or a frame is wrong, or a number is not finite.
-    """
-
-    name: tuple[str, ...]
-    phi: Array
-    n: Array
-    d1: Array
-    d2: Array
-    J: Array
-    mu_v: Array
-    mu_omega: Array
-    rows: NDArray[np.int64]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "name", names(self.name, "contacts.name"))
-        n_c = len(self.name)
-        n_v = columns(self.J, "contacts.J", 3)
-        shapes = {"phi": (n_c,), "n": (n_c, 3), "d1": (n_c, 3), "d2": (n_c, 3)}
-        shapes |= {"J": (n_c, 4, n_v), "mu_v": (n_c,), "mu_omega": (n_c,)}
-        for key, shape in shapes.items():
-            freeze(self, key, shape, "contacts")
-        rows = numbers(self.rows, "contacts.rows")
-        if rows.shape != (n_c,) or not np.isin(rows, ROWS).all():
-            problem = "must be 4 or 6 for each contact"
-            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
-        object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
-        for key in ("mu_v", "mu_omega"):
-            bad = np.flatnonzero(getattr(self, key) < 0)
-            if bad.size:
-                at, value = self.name[bad[0]], float(getattr(self, key)[bad[0]])
-                raise StepDataError("must be >= 0", field=f"contacts[{at}].{key}", value=value)
-        frame = np.stack([self.d1, self.d2, self.n], axis=2)
-        with np.errstate(over="ignore", invalid="ignore"):  # what overflows is no unit vector
-            product = np.swapaxes(frame, 1, 2) @ frame
-            defect = np.abs(product - np.eye(3)).max(axis=(1, 2), initial=0)
-            dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
-        bad = np.flatnonzero(~(defect <= ORTHONORMAL) | ~dextral)
-        if bad.size:
-            raise StepDataError(
-                "d1, d2, n must be a right-handed orthonormal frame",
-                field=f"contacts[{self.name[bad[0]]}]",
-                value=frame[bad[0]].T.tolist(),
-            )
-
-    @property
-    def n_c(self) -> int:
-        """Number of contacts."""
-        return len(self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +54,7 @@ class Extra:
 
 @dataclass(frozen=True, eq=False)
 class StepData:
-    """Everything that Eq. (13) needs.
+    """Everything that Eq. :eq:`eq-13` needs.
 
     Parameters
     ----------
@@ -185,10 +111,11 @@ class StepData:
         freeze(self, "delta_q_bar_a", (n_a,))
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
-        for key, wide in (("contacts.J", self.contacts.J), ("extra.A", self.extra.A)):
-            if wide.shape[-1] != self.n_v:
+        shape_of_J = (self.contacts.n_c, 4, self.contacts.n_v)
+        for key, shape in (("contacts.J", shape_of_J), ("extra.A", self.extra.A.shape)):
+            if shape[-1] != self.n_v:
                 raise StepDataError(
-                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=wide.shape
+                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=shape
                 )
 
     @property
@@ -221,9 +148,42 @@ class StepData:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return read_only(np.concatenate([[0], np.cumsum(self.counts)]))
 
+    @cached_property
+    def row_index(self) -> NDArray[np.int64]:
+        """Which rows of all the cone's, contact-major, the contacts have, shape (m,)."""
+        return read_only(np.flatnonzero(self.mask))
+
+    @cached_property
+    def row_contact(self) -> NDArray[np.int64]:
+        """The contact that each row belongs to, shape (m,)."""
+        return read_only(np.repeat(np.arange(self.contacts.n_c), self.counts))
+
+    @cached_property
+    def H(self) -> Array:
+        """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
+        H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
+        H[:n_a, :n_a] = self.h * self.K_q
+        H[n_a:, n_a:] = self.M_u / self.h
+        return read_only(H)
+
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
         return replace(self, **changes)
+
+    def moved(
+        self, M_u: Array, tau_a: Array, tau_u: Array, delta_q_bar_a: Array, contacts: Contacts
+    ) -> StepData:
+        """The same kind of step elsewhere: the rest is kept, and nothing is checked.
+
+        For steps in sequence, whose numbers are as good as those of the step before. M_u must be
+        read-only; while it is the same array, H is not formed again.
+        """
+        other = object.__new__(StepData)
+        loads = {"tau_a": tau_a, "tau_u": tau_u, "delta_q_bar_a": delta_q_bar_a}
+        other.__dict__.update(self.__dict__, contacts=contacts, M_u=M_u, **loads)
+        if M_u is not self.M_u:
+            other.__dict__.pop("H", None)
+        return other
 
     def same_as(self, other: StepData) -> bool:
         """Tell whether two steps hold the same numbers, bit for bit."""

@@ -28,11 +28,11 @@ def step_record(step: StepData) -> dict[str, Any]:
     contacts = [
         {
             "name": c.name[j],
-            "phi": c.phi[j],
-            "n": c.n[j],
-            "d1": c.d1[j],
-            "d2": c.d2[j],
-            "J": c.J[j],
+            "phi": c.phi[j] + 0.0,  # never -0.0
+            "n": c.n[j] + 0.0,
+            "d1": c.d1[j] + 0.0,
+            "d2": c.d2[j] + 0.0,
+            "J": c.J[j] + 0.0,
             "mu_v": c.mu_v[j],
             "mu_omega": c.mu_omega[j],
             "rows": c.rows[j],
@@ -48,9 +48,9 @@ def step_record(step: StepData) -> dict[str, Any]:
         "n_u": step.n_u,
         "K_q": step.K_q,
         "M_u": step.M_u,
-        "tau_a": step.tau_a,
-        "tau_u": step.tau_u,
-        "delta_q_bar_a": step.delta_q_bar_a,
+        "tau_a": step.tau_a + 0.0,
+        "tau_u": step.tau_u + 0.0,
+        "delta_q_bar_a": step.delta_q_bar_a + 0.0,
         "contacts": contacts,
     }
     if step.extra.names:

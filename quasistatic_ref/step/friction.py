@@ -1,4 +1,4 @@
-r"""The contact-and-friction directions of the paper, Eqs. (5)-(7), other cones, and their rows.
+r"""Directions of contact and friction: the paper's, Eqs. :eq:`eq-5`-:eq:`eq-7`, and other cones'.
 
 For each contact the rows forbid that the motion J delta_q leaves the dual of the friction
 cone. Their multipliers add up to a wrench inside the cone, which of the paper's pyramid is
@@ -20,7 +20,7 @@ from quasistatic_ref.step.data import Array, Contacts
 
 
 def normal_direction(n: Array) -> Array:
-    """n~ = [n, 0] of Eq. (4).
+    """n~ = [n, 0] of Eq. :eq:`eq-4`.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def normal_direction(n: Array) -> Array:
 
 
 def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
-    """d~_1 .. d~_4 of Eqs. (5)-(6): the tangential friction pyramid.
+    """d~_1 .. d~_4 of Eqs. :eq:`eq-5`-:eq:`eq-6`: the tangential friction pyramid.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
 
 
 def torsional_directions(mu_omega: Array) -> Array:
-    """d~_5, d~_6 of Eq. (7): torsional friction about the normal.
+    """d~_5, d~_6 of Eq. :eq:`eq-7`: torsional friction about the normal.
 
     Parameters
     ----------
@@ -71,7 +71,9 @@ def torsional_directions(mu_omega: Array) -> Array:
 
 
 def pyramid(contacts: Contacts) -> Array:
-    """All six d~ of the paper, Eqs. (5)-(7): |f_1|/mu_v + |f_2|/mu_v + |tau|/mu_omega <= f_n.
+    """All six d~ of the paper, Eqs. :eq:`eq-5`-:eq:`eq-7`.
+
+    Their limit surface is |f_1|/mu_v + |f_2|/mu_v + |tau|/mu_omega <= f_n.
 
     Returns
     -------
@@ -132,7 +134,7 @@ def cone_directions(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The rows [J'(n~ + d~_i)]' of Eq. (4), all of each contact.
+    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, all of each contact.
 
     Parameters
     ----------
@@ -143,13 +145,19 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     Returns
     -------
     ndarray, shape (n_c, R, n_v)
-        [m] per unit of delta_q. A contact uses those of :attr:`StepData.mask`: with the paper's
+        [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
         cone six, or the first four.
     """
+    return rows_along(contacts, contacts.J, name)
+
+
+def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
+    """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
+    along: Array = _frames(contacts) @ J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return _frames(contacts) @ contacts.J
-    directions = normal_direction(contacts.n)[:, None, :] + cone_directions(contacts, name)
-    return directions @ contacts.J  # Eq. (4)
+        return np.asarray(along)
+    # n~ + d~_i is a combination of these that does not change with where the contact is.
+    return np.asarray(contacts.combinations(name) @ along)  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -160,8 +168,9 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     rows = len(cone(name).row_names)
-    share = np.eye(rows)[0] if name == ELLIPSOID else np.ones(rows)
-    return contacts.phi[:, None] * share
+    if name == ELLIPSOID:
+        return np.asarray(contacts.phi[:, None] * np.eye(rows)[0])
+    return np.asarray(contacts.phi.repeat(rows).reshape(-1, rows))
 
 
 def friction_coefficients(contacts: Contacts) -> Array:
@@ -172,8 +181,7 @@ def friction_coefficients(contacts: Contacts) -> Array:
     ndarray, shape (n_c, 3)
         [-], [-], [m].
     """
-    mu_omega = np.where(contacts.rows == 6, contacts.mu_omega, 0.0)
-    return np.stack([contacts.mu_v, contacts.mu_v, mu_omega], axis=1)
+    return contacts.mu
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -205,9 +213,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
 
 def _frames(contacts: Contacts) -> Array:
     """Return n~, d1, d2 and spin of each contact, shape (n_c, 4, 4)."""
-    axes = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
     frames = np.zeros((contacts.n_c, 4, 4))
-    frames[:, :3, :3], frames[:, 3, 3] = axes, 1.0
+    frames[:, 0, :3], frames[:, 1, :3], frames[:, 2, :3] = contacts.n, contacts.d1, contacts.d2
+    frames[:, 3, 3] = 1.0
     return frames
 
 

@@ -1,4 +1,4 @@
-"""The step as a CVXPY problem that reads like the paper: Eqs. (1), (4), (10), (13).
+"""The step as a CVXPY problem: Eqs. :eq:`eq-1`, :eq:`eq-4`, :eq:`eq-10`, :eq:`eq-13`.
 
 In this file a bare symbol is a CVXPY object. The problem is compiled once for a given number
 of coordinates and contacts; each step only fills in its parameters. ``StepProblem.problem`` is
@@ -20,7 +20,7 @@ from quasistatic_ref.step.friction import friction_coefficients, friction_rows
 
 
 class StepProblem:
-    """Eq. (13) with everything that changes between steps as a parameter.
+    """Eq. :eq:`eq-13` with everything that changes between steps as a parameter.
 
     Parameters
     ----------
@@ -35,8 +35,10 @@ class StepProblem:
     Attributes
     ----------
     problem : cvxpy.Problem
-    delta_q_a, delta_q_u : cvxpy.Variable
-        Shapes (n_a,) and (n_u,) [m, rad].
+    delta_q_a : cvxpy.Variable
+        Shape (n_a,) [m, rad].
+    delta_q_u : cvxpy.Variable
+        Shape (n_u,) [m, rad].
     delta_q : cvxpy.Expression
         [delta_q_a; delta_q_u].
     """

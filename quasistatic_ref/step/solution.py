@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.lazy import Lazy
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,7 @@ class Certificate:
         ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
         (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
-        Residuals of Eqs. (9)-(12) in natural units [-].
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-].
     active : tuple of (int, int)
         Contact and row of each member of the working set; the user's own rows count as those of
         one contact more. Its multipliers are positive, its rows independent and without slack.
@@ -33,7 +35,7 @@ class Certificate:
     smallest_active_multiplier : float or None
         Smallest multiplier [N s] of the working set. None if that is empty.
     error_bound : float or None
-        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H; 0.0 for ``"exact"``, where the only
+        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 for ``"exact"``, where the only
         error is the correct rounding of each entry.
     """
 
@@ -74,8 +76,8 @@ class SolverStatistics:
 
 
 @dataclass(frozen=True, eq=False)
-class StepSolution:
-    """The optimum of Eq. (13).
+class StepSolution(Lazy):
+    """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
     ----------
@@ -84,8 +86,8 @@ class StepSolution:
     lam : ndarray, shape (m,)
         Multipliers of the contact rows, contact-major: impulses [N s]. In the ellipsoid, each
         contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
-    lam_extra : ndarray
-        Multipliers of the user's own rows.
+    lam_extra : ndarray, shape (extra rows,)
+        Multipliers of the user's own rows [N s, for rows in m].
     wrench : ndarray, shape (n_c, 4)
         Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
     backend : str
@@ -102,6 +104,13 @@ class StepSolution:
     certificate: Certificate
     statistics: SolverStatistics
     cone: str = "pyramid"
+
+    @classmethod
+    def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:
+        """A solution whose wrenches are formed when somebody asks for them."""
+        solution = object.__new__(cls)
+        solution.__dict__.update(fields, later={"wrench": wrench})
+        return solution
 
     @property
     def status(self) -> str:

@@ -1,4 +1,4 @@
-r"""Eq. (13) as the matrices H, g, A, b that solvers see.
+r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
 
 .. math:: \min_{\delta q} \tfrac12 \delta q^T H \delta q - g^T \delta q
           \quad\text{s.t.}\quad A\,\delta q \ge b
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
 
@@ -36,7 +37,7 @@ class StandardForm:
 
 
 def standard_form(step: StepData) -> StandardForm:
-    """H, g of Eq. (13) and A, b of Eq. (8), stacked over the contacts.
+    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, stacked over the contacts.
 
     Parameters
     ----------
@@ -46,12 +47,14 @@ def standard_form(step: StepData) -> StandardForm:
     -------
     StandardForm
     """
-    h, n_a, contacts = step.h, step.n_a, step.contacts
-    H = np.zeros((step.n_v, step.n_v))
-    H[:n_a, :n_a] = h * step.K_q  # Eq. (13)
-    H[n_a:, n_a:] = step.M_u / h
+    contacts, rows = step.contacts, step.row_index
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    g = h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
-    A = friction_rows(contacts, step.cone)[step.mask]  # Eq. (8)
-    b = -row_gaps(contacts, step.cone)[step.mask]  # Eq. (8)
-    return StandardForm(H, g, np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b]))
+    g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
+    A = friction_rows(contacts, step.cone).reshape(-1, step.n_v).take(rows, axis=0)  # Eq. (8)
+    if step.cone == ELLIPSOID:
+        b = -row_gaps(contacts, step.cone).take(rows)
+    else:
+        b = -contacts.phi.take(step.row_contact)  # Eq. (8)
+    if step.extra.names:
+        A, b = np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b])
+    return StandardForm(step.H, g, A, b)

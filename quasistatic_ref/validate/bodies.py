@@ -22,7 +22,7 @@ X, Y, Z = np.eye(3)
 
 
 def cross_matrix(r: Array) -> Array:
-    """[r]x, so that [r]x w = r x w."""
+    """[r]x, so that [r]x w = r x w; shape (3, 3)."""
     return np.array([[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0.0]])
 
 
@@ -52,7 +52,7 @@ def contacts_of(
 
 
 def twist_jacobian(point: Array, n: Array) -> Array:
-    """J of Eq. (3) of a body's point against the world, shape (4, 6)."""
+    """J of Eq. :eq:`eq-3` of a body's point [m] against the world, shape (4, 6)."""
     J = np.zeros((4, 6))
     J[:3, :3], J[:3, 3:] = np.eye(3), -cross_matrix(point)
     J[3, 3:] = n
@@ -92,6 +92,8 @@ def rigid_step(
         Contact points from the centre of mass [m].
     frames : array_like, shape (n_c, 3, 3)
         Rows d1, d2, n; n points from the world into the body.
+    mu_v, mu_omega, phi, rows, h
+        Those of the notation, each for all contacts or for one after the other.
     """
     points = np.reshape(points, (-1, 3))
     frames = np.reshape(frames, (-1, 3, 3))
@@ -130,7 +132,7 @@ def sphere_step(
 
 
 def grid(*axes: Sequence[float] | Array) -> Array:
-    """All combinations of some values, shape (N, number of axes)."""
+    """All combinations of some axes' values [any unit], shape (N, number of axes)."""
     return np.array(np.meshgrid(*axes, indexing="ij"), dtype=np.float64).reshape(len(axes), -1).T
 
 
@@ -152,9 +154,14 @@ def threshold(moves: Callable[[float], bool], low: float, high: float, precision
     moves : callable
         Whether a share of the load moves the body.
     low, high : float
-        Shares; where `low` moves already, or `high` does not yet, NaN is returned.
+        Shares [-]; where `low` moves already, or `high` does not yet, NaN is returned.
     precision : float
         Of the result, relative to `high` [-].
+
+    Returns
+    -------
+    float
+        A share [-].
     """
     if moves(low) or not moves(high):
         return float("nan")

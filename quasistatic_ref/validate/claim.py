@@ -28,8 +28,9 @@ class Comparison:
     what : str
         The quantity, with its unit in brackets.
     measured, expected : ndarray, shape (points,)
+        [unit of `what`].
     scale : ndarray, shape (points,)
-        What an error is relative to: the largest term of the formula, or 1.
+        What an error is relative to: the largest term of the formula, or 1 [the same].
     tolerance : float
         Largest |measured - expected| / scale that is still agreement; 0 asks for equal bits.
     words : str
@@ -45,7 +46,7 @@ class Comparison:
 
     @property
     def errors(self) -> Array:
-        """Each point's error, relative to its scale; NaN where something is not a number."""
+        """Each point's error over its scale, shape (points,); NaN where something is no number."""
         gap = np.abs(self.measured - self.expected)
         # A scale of zero forgives nothing: all terms are zero, and so must the measurement be.
         return np.where(gap == 0, 0.0, gap / np.where(self.scale > 0, self.scale, 1e-300))
@@ -93,7 +94,7 @@ def sum_of_terms(
 
 
 def within(what: str, measured: ArrayLike, low: float, high: float) -> Comparison:
-    """The claim that measurements lie in a closed interval."""
+    """The claim that measurements lie in an interval, from low to high [unit of `what`]."""
     m = np.atleast_1d(np.asarray(measured, float))
     words = f"{low:g} to {high:g}" if np.isfinite(high) else f"at least {low:g}"
     return Comparison(what, m, np.clip(m, low, high), np.ones_like(m), 0.0, words)

@@ -32,13 +32,14 @@ def link_text(
 
     Parameters
     ----------
+    name : str
     mass : float
         [kg].
     inertia : sequence of float
         Principal moments along the link's axes [kg m^2].
     shape : str
         The URDF of its collision geometry at the link's origin, e.g. ``<sphere radius="0.1"/>``.
-    com : sequence of float
+    com : sequence of float, shape (3,)
         Centre of mass in the link's frame [m].
     """
     ixx, iyy, izz = (repr(float(i)) for i in inertia)
@@ -127,8 +128,14 @@ def steps_of(
 
     Parameters
     ----------
+    simulator : Simulator
+    steps : int
+    q : ndarray, shape (n_q,), optional
+        Where to start.
     velocity : array_like, shape (n_a,)
-        Of the targets, which start where the actuated joints do; scalar joints only.
+        Of the targets [m/s, rad/s], which start where the actuated joints do; scalar joints only.
+    force : float or ndarray, shape (n_v,)
+        External generalised force [N, N m].
     """
     q = simulator.system.q_start if q is None else q
     start = q[: simulator.system.n_q_a]

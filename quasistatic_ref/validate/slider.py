@@ -63,7 +63,7 @@ class Push:
 
     @property
     def friction(self) -> Array:
-        """Force and torque of the support: normal to the limit surface where it is."""
+        """Force and torque of the support, shape (3,): normal to the limit surface where it is."""
         scale = np.array([1.0, 1.0, self.mu_omega / self.mu_v])
         along = scale * self.motion
         force: Array = -self.mu_v * self.load * scale * along / np.linalg.norm(along)
@@ -71,24 +71,27 @@ class Push:
 
 
 def turned(x: Array) -> Array:
-    """A vector of the plane, turned by 90 degrees."""
+    """A vector of the plane, shape (2,), turned by 90 degrees."""
     return np.array([-x[1], x[0]])
 
 
 def rotated(x: Array, angle: float) -> Array:
-    """A vector of the plane, turned by an angle [rad]."""
+    """A vector of the plane, shape (2,), turned by an angle [rad]."""
     result: Array = x * np.cos(angle) + turned(x) * np.sin(angle)
     return result
 
 
 def sticking_motion(point: Array, advance: Array, c2: float) -> Array:
-    """Motion of a slider whose touched point is moved: Lynch's, if c2 is (mu_omega / mu_v)^2."""
+    """Motion (3,) of a slider whose touched point (2,) [m] is moved by `advance` (2,) [m].
+
+    It is Lynch's, if c2 is (mu_omega / mu_v)^2.
+    """
     velocity: Array = (c2 * advance + point * (point @ advance)) / (c2 + point @ point)
     return np.append(velocity, turned(point) @ velocity / c2)
 
 
 def sliding_motion(point: Array, normal: Array, c2: float) -> Array:
-    """Motion of a slider whose touched point advances by 1 along a pusher without friction."""
+    """Motion (3,) of a slider whose touched point (2,) [m] advances by 1 [m], without friction."""
     arm = turned(point) @ normal
     motion: Array = np.append(normal, arm / c2) / (1 + arm**2 / c2)
     return motion
@@ -102,6 +105,7 @@ def push(
     Parameters
     ----------
     point, direction : ndarray, shape (2,)
+        Where it touches [m], and which way it goes [-].
     mu_v, c : float
         c = mu_omega / mu_v [m].
     Pi : float

@@ -118,12 +118,12 @@ def _place(field: str) -> tuple[bool, int]:
 
 
 def numbers_of(value: Json) -> Array:
-    """All numbers of a field, in order."""
+    """All numbers of a field, in order, shape (N,)."""
     return np.array([leaf for _, leaf in leaves(value)], dtype=np.float64)
 
 
 def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
-    """How far a field may be off; 0 where nothing is said: integers, names.
+    """How far a field may be off [its unit]; 0 where nothing is said: integers, names.
 
     ``contacts.phi`` is looked for under its whole name, its last part and its first part.
     """

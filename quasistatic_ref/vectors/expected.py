@@ -17,7 +17,7 @@ class Tolerance:
     Parameters
     ----------
     absolute : float
-        In the field's own unit, by component.
+        By component [the field's own unit].
     reason : str
         One clause: which rounding, by what condition of the case.
     """

@@ -141,7 +141,7 @@ def answers_written(
 
 
 def check_layer(name: str) -> str:
-    """Return a layer's name, or refuse it."""
+    """Return a layer's name; InputError if it is none."""
     if name not in LAYERS:
         raise InputError(f"is no layer{suggestion(name, LAYERS)}", field="layer", value=name)
     return name

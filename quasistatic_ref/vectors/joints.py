@@ -60,7 +60,7 @@ def quaternion_places(mechanism: Json) -> list[slice]:
 
 
 def base_rotations(mechanism: Json, q: Json) -> list[tuple[slice, Array]]:
-    """Of each floating joint its entries of delta_q, and the rotation from body to world at q."""
+    """Of each floating joint its entries of delta_q, and R (3, 3), from body to world at q."""
     at = {place.name: place for place in places(mechanism)}
     R: dict[str | None, Array] = {None: np.eye(3)}
     found = []

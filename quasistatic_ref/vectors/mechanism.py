@@ -97,7 +97,7 @@ class Mechanism:
     n_a: int
 
     def number(self, name: str | None) -> int | None:
-        """Number of a body; None for the world."""
+        """Number of a body; None for the world; InputError if unknown."""
         if name is None:
             return None
         names = [body.name for body in self.bodies]
@@ -271,6 +271,6 @@ def _joint_columns(body: MechanismBody, axes: Matrix) -> list[tuple[Vector, Vect
 
 
 def check_length(field: str, values: Sequence[float], length: int) -> None:
-    """Refuse a q or a delta_q of another mechanism."""
+    """InputError if the values, of shape (k,) [m, rad], are a q or delta_q of another mechanism."""
     if len(values) != length:
         raise InputError(f"must hold {length} numbers", field=field, value=len(values))

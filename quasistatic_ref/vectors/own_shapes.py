@@ -28,7 +28,7 @@ from quasistatic_ref.step.data import Array
 
 
 def own_shape(shape: dict[str, Any]) -> Shape:
-    """The package's shape."""
+    """The package's shape; InputError if it has none such."""
     match shape["kind"]:
         case "sphere":
             return Sphere(shape["radius"])
@@ -53,7 +53,7 @@ def own_shape(shape: dict[str, Any]) -> Shape:
 
 
 def own_rotation(quaternion: Sequence[float]) -> Array:
-    """Rotation matrix of a quaternion of any length."""
+    """Rotation matrix (3, 3) of a quaternion of any length."""
     x, y, z, w = np.array(quaternion) / np.hypot.reduce(quaternion)
     return np.array(
         [

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.model.shapes import PlacedShape
@@ -40,8 +39,9 @@ def own_step(case_input: Json) -> Json:
     # Pairs keep their order; within one the contacts stand by index here, by distance there.
     order = np.lexsort((points.point, np.repeat(np.arange(len(pairs)), [p.n_c for p in pairs])))
     points = points.chosen(order)
-    at = contacts(simulator.layout, points, kinematics)
-    step = simulator.step_data(q, target[: system.n_q_a], _force(case_input, mine, q), at)
+    force = _force(case_input, mine, q)
+    step = simulator.step_data(q, target[: system.n_q_a], force, points, kinematics)
+    at = step.contacts
     output = _program(step, mine)
     output["contacts"] = [
         {

@@ -48,14 +48,14 @@ class OwnSystem:
     links: dict[str | None, int]
 
     def model_q(self, q: Sequence[float]) -> Array:
-        """Configuration of the System: quaternions normalised, which pinocchio leaves to us."""
+        """Configuration (n_q,) of the System, its quaternions normalised, as pinocchio does not."""
         unit = np.array(q, dtype=np.float64)
         for part in self.units:
             unit[part] /= np.hypot.reduce(unit[part])
         return _scattered(unit, self.q)
 
     def model_v(self, delta_q: Sequence[float]) -> Array:
-        """Vector of delta_q of the System."""
+        """Vector of delta_q of the System, shape (n_v,)."""
         return _scattered(np.array(delta_q, dtype=np.float64), self.v)
 
 

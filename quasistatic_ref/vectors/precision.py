@@ -43,7 +43,7 @@ def number(x: float | Real) -> Real:
 
 
 def numbers(values: Sequence[float | Real]) -> list[Real]:
-    """Several float64 numbers, exactly."""
+    """Several float64 values [any unit], exactly."""
     return [number(x) for x in values]
 
 
@@ -102,6 +102,11 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
     -------
     tuple
         The same nesting of float64 numbers, half to even and never -0.0, and of strings.
+
+    Raises
+    ------
+    Undecided
+        If the highest precision does not decide a digit.
     """
     precision = PRECISION
     while precision <= HIGHEST:

@@ -41,7 +41,7 @@ def _scaled(output: Json, factor: float, *names: str) -> Json:
 
 
 def times(value: Json, factor: float) -> Json:
-    """All numbers of a value, multiplied."""
+    """All numbers of a value, multiplied by a factor [-]."""
     if isinstance(value, dict):
         return {name: times(v, factor) for name, v in value.items()}
     if isinstance(value, list):

@@ -30,7 +30,7 @@ class Difference:
     place : str
         Which of its numbers, e.g. ``[3][0]``.
     error : float
-        Distance from what is expected, in the field's unit.
+        Distance from what is expected [the field's unit].
     tolerance : float
         How large it may be.
     digits : float
@@ -107,7 +107,7 @@ def acceptable(reason: str, digits: float | None = None) -> Verdict:
 
 
 def correct_digits(error: float, size: float, tolerance: float) -> float:
-    """-log10 of an error relative to the size of its field, 0 to 16.
+    """-log10 [-] of an error relative to the size of its field, 0 to 16.
 
     A field that is zero but for rounding, such as phi of bodies that just touch, has no digits of
     its own: it counts as right to the last where it is within the tolerance.

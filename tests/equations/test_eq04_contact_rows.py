@@ -40,9 +40,11 @@ def test_n_tilde_is_the_normal_and_a_zero(rng):
 
 
 def test_every_row_is_the_printed_one(rng):
-    contacts = random_step(rng, rows=(6, 4, 6, 6)).contacts
+    step = random_step(rng, rows=(6, 4, 6, 6))
+    contacts = step.contacts
     expected = [[row(contacts, j, d) for d in directions(contacts, j)] for j in range(4)]
-    np.testing.assert_allclose(friction_rows(contacts), expected, rtol=ROUNDING, atol=ROUNDING)
+    found = friction_rows(contacts)[step.mask]  # those that the contacts have
+    np.testing.assert_allclose(found, np.array(expected)[step.mask], rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):

@@ -20,6 +20,7 @@ ROOMS = (
     "study",
     "validate",
     "figures",
+    "examples",
     "cli",
 )
 
@@ -27,10 +28,12 @@ ROOMS = (
 WALLS = {
     "cvxpy": ("step/problem.py", "solve"),
     # A QP assembled by hand, to check ours: it must not go through our own way of asking.
-    "qpsolvers": ("solve", "validate/engines/by_hand.py"),
+    # And the loop that people write first, to compare its time.
+    "qpsolvers": ("solve", "validate/engines/by_hand.py", "study/bench/by_hand.py"),
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
     "matplotlib": ("figures",),
+    "meshcat": ("figures",),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
     "flint": ("certify", "vectors"),
 }

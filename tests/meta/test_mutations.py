@@ -23,9 +23,9 @@ SAMPLE = (
     f"{PAGE} contact_wrenches: [f_d1, f_d2, impulses.sum(axis=1), tau_n] -> "
     "[f_d2, f_d1, impulses.sum(axis=1), tau_n]",
     f"{PAGE} contact_wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",
-    f"{PAGE} friction_coefficients: contacts.rows == 6 -> contacts.rows != 6",
     f"{PAGE} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
-    f"{FORM} standard_form: step.M_u / h -> step.M_u * h",
+    f"{FORM} standard_form: -contacts.phi.take(step.row_contact) -> "
+    "contacts.phi.take(step.row_contact)",
     f"{FORM} standard_form: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{JUDGE} optimality_residuals: -slack -> slack",

@@ -1,4 +1,7 @@
-"""The equations cited in the code and those covered by tests/equations are the paper's 1 to 13."""
+"""The equations cited in the code are those labelled in the docs and those covered by tests.
+
+They are the paper's, 1 to 13; the tests are in tests/equations.
+"""
 
 import ast
 import re
@@ -12,7 +15,9 @@ import quasistatic_ref
 PACKAGE = Path(quasistatic_ref.__file__).parent
 EQUATIONS = Path(__file__).parents[1] / "equations"
 PAPER = set(range(1, 14))
-NUMBER = r"\((\d+)\)"
+DOCS = Path(__file__).parents[2] / "docs"
+NUMBER = r"(?:\(|:eq:`eq-)(\d+)[)`]"
+LABEL = re.compile(r"^\$\$.*\$\$ \(eq-(\d+)\)$", re.MULTILINE)
 CITATION = re.compile(rf"\bEqs?\.\s+{NUMBER}(?:(?:-|,\s+and\s+|,\s+|\s+and\s+){NUMBER})*")
 
 
@@ -42,6 +47,8 @@ test_files.__test__ = False
         ("Eqs. (1), (4), (10), (13).", {1, 4, 10, 13}),
         ("Eqs. (4) and (10): the pyramid (5)-(6)", {4, 10}),
         ("H, g of Eq. (13) and A, b of Eq. (8)", {8, 13}),
+        ("Eqs. :eq:`eq-5`-:eq:`eq-7`, as a link", {5, 6, 7}),
+        ("Eqs. :eq:`eq-1`, :eq:`eq-4`, :eq:`eq-13`.", {1, 4, 13}),
         ("residuals of\n    Eqs.\n    (9)-(12)", {9, 10, 11, 12}),
         ("f(3), Sect. (2), equation 4", set()),
     ],
@@ -55,22 +62,39 @@ def test_every_number_cited_in_the_package_is_one_of_the_paper_s():
         assert cited(path.read_text()) <= PAPER, path
 
 
-def required():
-    # Eqs. (2)-(3) are the contact Jacobian's: asked for from the day that it exists.
-    built = (PACKAGE / "contact" / "jacobian.py").exists()
-    return PAPER if built else PAPER - {2, 3}
-
-
 def test_every_equation_of_the_paper_has_one_test_file():
-    numbers = sorted(test_files().values())
-    assert len(numbers) == len(set(numbers))
-    assert set(numbers) >= required()
-    assert set(numbers) <= PAPER
+    assert sorted(test_files().values()) == sorted(PAPER)
 
 
-def test_every_tested_equation_is_cited_in_the_code():
+def test_every_equation_of_the_paper_is_cited_in_the_code():
     everywhere = set().union(*(cited(path.read_text()) for path in PACKAGE.rglob("*.py")))
-    assert everywhere >= required()
+    assert everywhere == PAPER
+
+
+def test_every_equation_of_the_paper_is_labelled_once_in_the_docs_and_in_order():
+    # In order and in one page, because the site numbers equations as they come.
+    labels = {
+        path: [int(n) for n in LABEL.findall(path.read_text())] for path in DOCS.rglob("*.md")
+    }
+    assert [numbers for numbers in labels.values() if numbers] == [sorted(PAPER)]
+
+
+def code_under(equations):
+    """Each equation's number with the text up to the next one."""
+    parts = LABEL.split(equations)[1:]
+    return {int(n): text for n, text in zip(parts[::2], parts[1::2], strict=True)}
+
+
+def test_under_each_equation_stand_its_code_and_its_test():
+    under = code_under((DOCS / "theory" / "equations.md").read_text())
+    # (2) and (3), (5) and (6) are one display and one function.
+    shown = {n: under[n if n not in (2, 5) else n + 1] for n in PAPER}
+    for path, number in test_files().items():
+        header = ast.get_docstring(ast.parse(path.read_text()))
+        module, name = re.search(r"Under test: ([\w.]+)\.(\w+)\.", header).groups()
+        assert f"quasistatic_ref/{module.replace('.', '/')}.py" in shown[number], number
+        assert re.search(rf":pyobject: {name}\b", shown[number]), number
+        assert f"`tests/equations/{path.name}`" in shown[number], number
 
 
 def test_each_file_cites_its_own_number_and_names_what_it_tests():

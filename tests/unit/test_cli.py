@@ -46,7 +46,7 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert main(["run", scene, "--out", str(out)]) == 0
     told = capsys.readouterr().out
     assert told.startswith(
-        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, "
+        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel (native), "
     )
     assert told.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
@@ -357,9 +357,9 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
 
 
 def test_figures_are_made_by_name(out, capsys):
-    assert main(["figures", "sphere_spin", "--out", str(out)]) == 0
-    paths = [out / "sphere_spin.png", out / "sphere_spin.pdf"]
+    assert main(["figures", "cone_surfaces", "--out", str(out)]) == 0
+    paths = [out / "cone_surfaces.png", out / "cone_surfaces.pdf"]
     assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
     assert all(path.stat().st_size > 1000 for path in paths)
-    assert main(["figures", "sphere_spn", "--out", str(out)]) == 2
-    assert "did you mean 'sphere_spin'?" in one_sentence(capsys.readouterr().err)
+    assert main(["figures", "cone_surface", "--out", str(out)]) == 2
+    assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)

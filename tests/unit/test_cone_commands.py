@@ -86,8 +86,8 @@ def test_the_figure_of_limit_surfaces_shows_each_with_its_name():
     titles = [axes.get_title() for axes in figure.axes]
     assert titles == ["pyramid", "ellipsoid", "product"]
     for axes in figure.axes:
-        assert axes.get_xlabel() == r"$f_1/\mu_v$"
-        assert axes.get_zlabel() == r"$\tau/\mu_\omega$"
+        assert axes.get_xlabel() == r"$f_1/\mu_v$ [N]"
+        assert axes.get_zlabel() == r"$\tau_n/\mu_\omega$ [N]"
     plt.close(figure)
 
 

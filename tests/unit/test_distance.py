@@ -46,7 +46,7 @@ def standing(*poses):
     """Links at given poses (R, t), the world first; nothing moves."""
     R = np.array([np.eye(3), *(pose[0] for pose in poses)])
     t = np.array([np.zeros(3), *(pose[1] for pose in poses)])
-    return Kinematics(R, t, np.zeros((len(R), 6, 0)))
+    return Kinematics(R, t, np.zeros((6, 0)))
 
 
 def pair(alpha, beta, k=1):

@@ -9,8 +9,9 @@ from matplotlib.text import Text
 
 from quasistatic_ref.figures.boundary_layer import boundary_layer
 from quasistatic_ref.figures.grasp import CAMERA, grasp_strip, rotation_plot
-from quasistatic_ref.figures.scene import Camera, surface_points
+from quasistatic_ref.figures.scene import Camera
 from quasistatic_ref.figures.style import figure_written
+from quasistatic_ref.figures.surfaces import surface_points
 from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.model.shapes import (
     Box,

@@ -69,11 +69,11 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
 
 
 def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
-    still = Kinematics(np.array([np.eye(3), R]), np.array([np.zeros(3), t]), np.zeros((2, 6, 0)))
+    still = Kinematics(np.array([np.eye(3), R]), np.array([np.zeros(3), t]), np.zeros((6, 0)))
     alpha = PlacedShape("a", 0, np.eye(3), np.zeros(3), a)
     beta = PlacedShape("b", 1, np.eye(3), np.zeros(3), b)
     pair = ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
-    points = pair_closest_points(pair, still)
+    points = pair_closest_points(pair, still.R, still.t)
     assert len(points.phi) == pair.n_c
     return points
 
@@ -145,6 +145,6 @@ def test_parallel_and_crossing_capsules_have_a_normal_at_right_angles_to_both() 
 
 
 def test_a_pose_that_is_not_finite_is_refused() -> None:
-    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((1, 6, 0)))
+    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
     with pytest.raises(ContactError, match="poses: must be finite"):
         closest_points([], still)

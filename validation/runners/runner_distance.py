@@ -3,12 +3,15 @@
 Sphere, point, capsule, box and convex hull are cores, points with a radius about them. Apart, the
 shortest vector of two cores is Wolfe's; in penetration the best of all normals of faces and
 pairs of edges. A half-space meets the farthest point. Cylinder, cone and ellipsoid have the
-signed distance of a point, and so that of a sphere.
+signed distance of a point (runner_curved.py); other pairs of them are projected to and fro.
 """
 
 import numpy as np
+from runner_curved import farthest, point_on
 
 AXES = np.eye(3)
+NEAR = 1e-3
+"""Distance [m] below which the direction between two points has lost digits."""
 
 
 def transformed(pose, points):
@@ -120,72 +123,6 @@ def normals(A, B):
     return np.concatenate([N, -N]), np.concatenate([sine, sine])
 
 
-def point_on(shape, p):
-    """Signed distance and outward normal of a point in the frame of a curved shape."""
-    kind = shape["kind"]
-    if kind == "ellipsoid":
-        return point_on_ellipsoid(np.array(shape["half_axes"]), p)
-    r, z = np.hypot(p[0], p[1]), p[2]
-    outward = np.array([p[0] / r, p[1] / r, 0]) if r > 0 else AXES[0]
-    R, half = shape["radius"], shape["length"] / 2
-    if kind == "cylinder":
-        excess, up = np.array([r - R, abs(z) - half]), -1.0 if z < 0 else 1.0
-        if excess.max() > 0:
-            beyond = np.maximum(excess, 0)
-            phi = np.hypot(*beyond)
-            n = beyond / phi
-        else:
-            phi, n = excess.max(), AXES[int(excess[1] > excess[0]), :2]
-        return phi, n[0] * outward + n[1] * up * AXES[2]
-    slant = np.array([2 * half, R]) / np.hypot(2 * half, R)  # normal of the side, in (r, z)
-    side = slant @ [r, z - half]
-    inside = max(side, -half - z)
-    if inside <= 0:
-        n = slant if side >= -half - z else np.array([0, -1.0])
-        return inside, n[0] * outward + n[1] * AXES[2]
-    at, rim = np.array([r, z]), np.array([R, -half])
-    feet = []
-    for end in (np.array([0, half]), np.array([0, -half])):
-        edge = rim - end
-        feet.append(end + np.clip((at - end) @ edge / (edge @ edge), 0, 1) * edge)
-    away = min((at - foot for foot in feet), key=np.linalg.norm)
-    phi = np.linalg.norm(away)
-    return phi, away[0] / phi * outward + away[1] / phi * AXES[2]
-
-
-def point_on_ellipsoid(a, p):
-    """The root s of sum (a_i p_i / (a_i^2 - a_min^2 + s))^2 = 1, s >= 0, by bisection."""
-    above, least = a * a - a.min() ** 2, int(np.argmin(a))
-    low, high = 0.0, a.max() * np.linalg.norm(p) + a.min() ** 2
-    for _ in range(1100):  # float64 may have to be halved that often to reach 0
-        s = (low + high) / 2
-        if not low < s < high:
-            break
-        with np.errstate(over="ignore"):
-            low, high = (s, high) if np.sum((a * p / (above + s)) ** 2) > 1 else (low, s)
-    below = above + high
-    x = np.where(p == 0, 0.0, a * a * p / np.where(below > 0, below, 1.0))
-    if p[least] == 0 and high < 1e-300:  # on the plane from which two ways out are as short
-        x[least] = a[least] * np.sqrt(max(1 - np.sum(np.delete(x / a, least) ** 2), 0.0))
-    n = x / a**2 / np.linalg.norm(x / a**2)
-    return n @ (p - x), n
-
-
-def farthest(shape, direction):
-    """The point of a shape that lies farthest along a direction, in its own frame."""
-    kind = shape["kind"]
-    if kind == "ellipsoid":
-        a = np.array(shape["half_axes"])
-        return a * a * direction / np.linalg.norm(a * direction)
-    r = np.hypot(direction[0], direction[1])
-    rim = shape["radius"] * (direction / r if r > 1e-12 else AXES[0]) * [1, 1, 0]
-    half = shape["length"] / 2
-    if kind == "cone":
-        ends = [np.array([0, 0, half]), rim - half * AXES[2]]
-        return max(ends, key=lambda p: p @ direction)
-    return rim + (half if direction[2] > 0 else -half) * AXES[2]
-
-
 def on_halfspace(half, pose_h, shape, pose):
     """phi, alpha on the half-space, beta, n."""
     normal = np.array(half["normal"])
@@ -258,6 +195,8 @@ def closest_points(alpha, pose_alpha, beta, pose_beta):
     if kinds[1] == "halfspace":
         return swapped(on_halfspace(beta, pose_beta, alpha, pose_alpha))
     if core(alpha, pose_alpha) is None:
+        if core(beta, pose_beta) is None:
+            return by_projections(alpha, pose_alpha, beta, pose_beta)
         return swapped(closest_points(beta, pose_beta, alpha, pose_alpha))
     # In the frame of beta, whose corners are then not rounded.
     R, t = pose_beta
@@ -270,5 +209,64 @@ def closest_points(alpha, pose_alpha, beta, pose_beta):
         phi, n = point_on(beta, a[0])
         x, y, n = a[0], a[0] - phi * n, -n
     else:
-        raise NotImplementedError(f"{kinds} would need an iteration; the vectors have none")
+        return by_projections(alpha, pose_alpha, beta, pose_beta)
     return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n
+
+
+def projected(shape, pose, x):
+    """The point of a solid shape nearest to x, radius left aside."""
+    found = core(shape, pose)
+    if found is not None:
+        return shortest(found[0] - x) @ found[0]
+    phi, n = point_on(shape, pose[0].T @ (x - pose[1]))
+    return x - phi * (pose[0] @ n) if phi > 0 else x
+
+
+def by_projections(alpha, pose_alpha, beta, pose_beta):
+    """Curved shapes apart: project to and fro (Cheney & Goldstein 1959), with Newton's method."""
+
+    def image(x):
+        return projected(alpha, pose_alpha, projected(beta, pose_beta, x))
+
+    x = image(pose_beta[1])
+    for _ in range(40):
+        for _ in range(5):
+            x = image(x)
+        rest = image(x) - x
+        step = min(1e-5, np.linalg.norm(projected(beta, pose_beta, x) - x) / 4)
+        if np.abs(rest).max() < 1e-17 or step == 0:
+            break
+        slope = np.array([(image(x + step * e) - image(x - step * e)) / (2 * step) for e in AXES])
+        new = image(x + np.linalg.lstsq(AXES - slope.T, rest, rcond=1e-9)[0])
+        if np.abs(image(new) - new).max() < np.abs(rest).max():
+            x = new
+        elif np.abs(rest).max() < 1e-15:
+            break
+    y = projected(beta, pose_beta, x)
+    d = np.linalg.norm(y - x)
+    n = (y - x) / d if d > 0 else AXES[0]  # curved shapes that overlap: the vectors have none
+    radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
+    if 0 < d < NEAR:
+        x, y, n = from_afar(alpha, pose_alpha, beta, pose_beta, n)
+    return n @ (y - x) - sum(radii), x + radii[0] * n, y - radii[1] * n, n
+
+
+def from_afar(alpha, pose_alpha, beta, pose_beta, n):
+    """The same of shapes that nearly touch: moved apart along n, they keep points and normal."""
+
+    def normal(n):
+        _, x, y, found = by_projections(
+            alpha, pose_alpha, beta, (pose_beta[0], pose_beta[1] + n / 8)
+        )
+        return found, x, y
+
+    for _ in range(6):
+        found, x, y = normal(n)
+        rest = found - n
+        if np.abs(rest).max() < 4e-16:
+            break
+        slope = np.array([(normal(n + 1e-6 * e)[0] - normal(n - 1e-6 * e)[0]) / 2e-6 for e in AXES])
+        n = n + np.linalg.lstsq(AXES - slope.T, rest, rcond=1e-9)[0]
+        n = n / np.linalg.norm(n)
+    radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
+    return x - radii[0] * n, y + radii[1] * n - n / 8, n

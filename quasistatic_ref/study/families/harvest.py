@@ -8,7 +8,6 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import StepData
@@ -64,8 +63,8 @@ def asked_again(
         s = int((first + i) * 7919 % run.steps)  # scattered, and the same every time
         q, t = run["q"][s], s * float(run.header["h"]) + other.h
         kinematics = other.system.kinematics(q)
-        at = contacts(simulator.layout, closest_points(simulator.pairs, kinematics), kinematics)
+        points = closest_points(simulator.pairs, kinematics)
         force = 0.0 if other.force is None else other.force(t, q)
-        step: StepData = simulator.step_data(q, other.targets(t), force, at)
+        step: StepData = simulator.step_data(q, other.targets(t), force, points, kinematics)
         k = max(pair.k for pair in other.pairs)
         yield Made(f"{family}/{name},{words}/{s}", family, step, mass_ratio(step), k)

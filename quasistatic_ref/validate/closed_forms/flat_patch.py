@@ -16,7 +16,7 @@ PRECISION = 1e-13
 
 
 def disk() -> tuple[Array, Array]:
-    """Points of equal area on a disk, and frames whose d1 points the way that they would slip."""
+    """Points of equal area on a disk (P, 3) [m], and frames (P, 3, 3): d1 where they would slip."""
     r = RADIUS * np.sqrt((np.arange(RINGS) + 1) / RINGS)
     at = grid(r, 2 * np.pi * (np.arange(POINTS) + 0.25) / POINTS)
     x, y = at[:, 0] * np.cos(at[:, 1]), at[:, 0] * np.sin(at[:, 1])

@@ -38,7 +38,7 @@ def block_steps(slope: float, mu_v: float, c: float, steps: int) -> list[StepRes
 
 
 def moved(results: list[StepResult]) -> Array:
-    """delta_q of each step: x down the slope, z off it; the block's own axes."""
+    """delta_q of each step, shape (k, 6): x down the slope, z off it; the block's own axes."""
     return np.array([result.solution.delta_q for result in results])
 
 

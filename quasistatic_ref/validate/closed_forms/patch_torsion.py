@@ -28,7 +28,7 @@ PRESSURES: dict[str, tuple[Callable[[Array], Array], float]] = {
 
 
 def rings(pressure: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
-    """Radii and loads of rings, by the midpoint rule in t, r = a sin t."""
+    """Radii (k,) [m] and loads (k,) [N] of rings, by the midpoint rule in t, r = a sin t."""
     t = (np.arange(count) + 0.5) * np.pi / 2 / count
     weight = pressure(t) * np.sin(t) * np.cos(t)  # p(r) r dr
     return RADIUS * np.sin(t), LOAD * weight / weight.sum()

@@ -38,13 +38,21 @@ power of (rho / c)^2, up to 5e-13, and rounding of the slowest push, 1e-16 / 1e-
 
 
 def relative(solution: StepSolution, of: Push) -> Array:
-    """Turn, x and y of the slider for an advance of 1, turn times the arm [-]."""
+    """Turn, x and y of the slider for an advance of 1, turn times the arm, shape (3,) [-]."""
     motion = solution.delta_q[[5, 2, 3]] / np.linalg.norm(solution.delta_q[:2])
     return motion * [np.linalg.norm(of.point), 1.0, 1.0]
 
 
 def slow_pushes() -> tuple[Array, Array, Array]:
-    """Sticking and sliding pushes ever slower: the motions, and Lynch's."""
+    """Sticking and sliding pushes ever slower.
+
+    Returns
+    -------
+    measured : ndarray, shape (pushes, speeds, 3)
+        Motions [-], as :func:`relative` gives them.
+    limits, lynch : ndarray, shape (pushes, 3)
+        What they tend to, and Lynch's [-].
+    """
     found, limits = [], []
     for angle, aside, c, sticks in grid([0.3, 2.0], [-0.7, 0.4], [0.02, 0.05], [1.0, 0.0]):
         point = rotated(np.array([0.04, 0.0]), angle)

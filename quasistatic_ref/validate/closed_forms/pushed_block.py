@@ -35,7 +35,7 @@ BLOCK = robot_text(link_text("block", M, (2e-4, 3e-4, 4e-4)))
 
 
 def pushed(v: float, mu_v: float, h: float) -> Array:
-    """Lag of the finger behind its target, gap and total load of the base, in the steady state."""
+    """Steady lag of the finger, largest and least gap [m], load of the base [N], shape (4,)."""
     start = {"xyz": (L, 0.0, C)}
     rail = {"base": "fixed", "actuated": "all", "xyz": (-0.005, 0.0, C)}
     system = system_of({"finger": FINGER, "block": BLOCK}, finger=rail, block=start)

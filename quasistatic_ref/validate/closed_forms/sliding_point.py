@@ -15,12 +15,12 @@ PRECISION = 1e-13
 
 
 def pulled(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
-    """The displacement of one step [m]."""
+    """The displacement of one step, shape (3,) [m]."""
     return exact(point_step(M, (fx, fy, -M * GRAVITY), mu, phi, h)).delta_q
 
 
 def slip(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
-    """The closed form for fx >= fy >= 0: off the floor, stuck, one row at its limit, or two."""
+    """The closed form (3,) for fx >= fy >= 0: off the floor, stuck, or one or two rows tight."""
     if phi - h**2 * GRAVITY >= mu * h**2 * fx / M:
         return h**2 * np.array([fx / M, fy / M, -GRAVITY])
     load = mu * M * GRAVITY

@@ -50,7 +50,7 @@ def step_evidence() -> Evidence:
 
 
 def sequence(tau: float, phi: float, h: float, mu: float) -> tuple[Array, Array]:
-    """Gap before, and turn of, each of some steps."""
+    """Gap before (k,) [m], and turn of (k,) [rad], each of some steps."""
     gaps, turns = [], []
     for _ in range(STEPS):
         rise, turn = one_step(tau, phi, h, mu)

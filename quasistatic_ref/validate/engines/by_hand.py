@@ -43,12 +43,21 @@ errors of single steps add up; measured 5e-13."""
 
 
 def skew(r: Array) -> Array:
-    """The matrix of r x."""
+    """The matrix of r x, shape (3, 3)."""
     return np.array([[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0.0]])
 
 
 def hand_step(finger: float, p: Array, R: Array, target: float) -> Array:
-    """(finger, twist of the sphere in its own axes) of one step, assembled and solved by hand."""
+    """Displacement of the finger and twist of the sphere, shape (7,), assembled and solved by hand.
+
+    Parameters
+    ----------
+    finger, target : float
+        Position of the finger, and where it is to go [m].
+    p : ndarray, shape (3,)
+        Centre of the sphere [m].
+    R : ndarray, shape (3, 3)
+    """
     rows, gaps = [], []
     contacts = (
         (np.array([0, 0, 1.0]), p[2] - RADIUS, 0.0, FLOOR),
@@ -78,7 +87,7 @@ def hand_step(finger: float, p: Array, R: Array, target: float) -> Array:
 
 
 def moved(p: Array, R: Array, twist: Array) -> tuple[Array, Array]:
-    """The pose after a screw, by Rodrigues' formula."""
+    """The pose p (3,) [m] and R (3, 3) after a `twist` (6,) [m, rad], by Rodrigues' formula."""
     v, w = twist[:3], twist[3:]
     angle, W = float(np.linalg.norm(w)), skew(w)
     if angle == 0:
@@ -100,7 +109,7 @@ def by_hand() -> Array:
 
 
 def by_us() -> Array:
-    """The same from a URDF, through System and Simulator."""
+    """The same from a URDF, through System and Simulator, shape (STEPS, 13)."""
     rail = robot_text(
         link_text("rail", 1.0, (1, 1, 1)),
         link_text("finger", 0.1, (1e-4,) * 3),

@@ -60,7 +60,7 @@ def posed(plant: Any, context: Any, body: Any, R: Array, t: Array) -> None:
 
 
 def distances() -> tuple[Array, Array]:
-    """(phi, alpha, beta) of every pair at every pose: ours, Drake's."""
+    """(phi, alpha, beta) of every pair at every pose (k, 7) [m]: ours, Drake's."""
     rng = np.random.default_rng(6)
     ours, theirs = [], []
     for shape in SHAPES.values():
@@ -89,14 +89,14 @@ def distances() -> tuple[Array, Array]:
             near = query.ComputeSignedDistancePairClosestPoints(*geometries)
             points = [np.asarray(near.p_ACa), np.asarray(near.p_BCb)]
             world = [at.R[k] @ p + at.t[k] for k, p in zip(links, points, strict=True)]
-            found = pair_closest_points(pair, at)
+            found = pair_closest_points(pair, at.R, at.t)
             ours.append(np.concatenate([found.phi, found.alpha[0], found.beta[0]]))
             theirs.append(np.concatenate([[near.distance], *world]))
     return np.array(ours), np.array(theirs)
 
 
 def drake_map(system: System, q: Array, plant: Any) -> Array:
-    """T with Drake's v = T delta_q; a base has world [omega; v] there, its own [v; omega] here."""
+    """T (n_v, n_v) with Drake's v = T delta_q: its bases have world [omega; v], ours [v; omega]."""
     R = system.kinematics(q).R[system.link("arm")]
     T = np.zeros((system.n_v, system.n_v))
     base = plant.GetBodyByName("base").floating_velocities_start_in_v()
@@ -108,7 +108,7 @@ def drake_map(system: System, q: Array, plant: Any) -> Array:
 
 
 def dynamics() -> dict[str, tuple[Array, Array]]:
-    """(ours, Drake's) mass matrices and Jacobians of a floating arm at random configurations."""
+    """(ours, Drake's) mass matrices and Jacobians (k, n, n_v) of a floating arm, at random q."""
     rng = np.random.default_rng(7)
     system = system_of({"arm": ARM})
     module = import_module("pydrake.all")

@@ -31,7 +31,7 @@ SLIDE = '<joint type="slide" axis="0 0 1"/><joint type="slide" axis="1 0 0"/>'
 
 
 def mujoco_rates(joints: str, cone: str, limit: float) -> tuple[Array, Array]:
-    """Final velocity, and mean acceleration over the second half, for every share of the limit."""
+    """Final velocity and mean acceleration over the second half, (shares,) each, of the limit."""
     mujoco: Any = import_module("mujoco")
     text = MODEL.format(
         h=H, cone=cone, g=GRAVITY, mu_v=MU_V, mu_w=MU_OMEGA, r=RADIUS, m=M, i=INERTIA, joints=joints
@@ -54,7 +54,7 @@ def mujoco_rates(joints: str, cone: str, limit: float) -> tuple[Array, Array]:
 
 
 def our_rates(torsion: bool, limit: float) -> Array:
-    """Velocity of our first step from rest, for every share of the limit."""
+    """Velocity of our first step from rest, shape (shares,), for every share of the limit."""
     rates = []
     for share in SHARES:
         load = share * limit

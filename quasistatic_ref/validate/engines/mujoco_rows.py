@@ -85,7 +85,7 @@ def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
 
 
 def rows_of(scene: Heap) -> dict[str, Array]:
-    """Both engines' rows of every contact, and what the contact point accounts for."""
+    """Both engines' rows (n_c, 6, n_v), and what the place of the contact point accounts for."""
     theirs, system = mujoco_contacts(scene, "pyramidal"), scene.system
     n, d1, d2 = theirs["frame"].transpose(1, 0, 2)
     phi, point, mu = (theirs[key] for key in ("phi", "point", "friction"))

@@ -34,7 +34,7 @@ def layer_at_torque(h: float, tau: float) -> float:
 
 
 def spun(phi: float, lag: float, h: float) -> StepData:
-    """A sphere whose turn is actuated; q_a the turn, q_u the position of its centre."""
+    """A sphere whose turn is actuated, its target `lag` [rad] ahead; q_u is its centre."""
     J = np.zeros((1, 4, 4))
     J[0, :3, 1:], J[0, 3, 0] = np.eye(3), 1.0
     return StepData(

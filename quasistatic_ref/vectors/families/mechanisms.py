@@ -27,7 +27,7 @@ def random_quaternion(rng: Rng) -> list[float]:
 
 
 def random_pose(rng: Rng, size: float = 1.0) -> Table:
-    """A pose within a cube."""
+    """A pose within a cube of half the side `size` [m]."""
     return {"xyz": few_digits(rng.uniform(-size, size, 3)), "quaternion": random_quaternion(rng)}
 
 
@@ -97,7 +97,7 @@ def _random_position(rng: Rng, kind: str) -> list[float]:
 
 
 def random_step(rng: Rng, mechanism: Table, size: float = 0.5) -> list[float]:
-    """Some delta_q of few significant digits."""
+    """Some delta_q of few significant digits, of about the `size` [m, rad]."""
     counts = {"floating": 6, "planar": 3, "fixed": 0}
     n_v = sum(counts.get(body["joint"], 1) for body in mechanism["bodies"])
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]

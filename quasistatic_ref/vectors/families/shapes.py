@@ -34,12 +34,12 @@ UPRIGHT: Final = [0.0, 0.0, 0.0, 1.0]
 
 
 def at(x: float, y: float, z: float, quaternion: list[float] | None = None) -> Table:
-    """A pose."""
+    """A pose at x, y, z [m]."""
     return {"xyz": [x, y, z], "quaternion": UPRIGHT if quaternion is None else quaternion}
 
 
 def box(x: float, y: float, z: float) -> Table:
-    """A box of these full lengths."""
+    """A box of the full lengths x, y, z [m]."""
     return {"kind": "box", "size": [x, y, z]}
 
 
@@ -64,7 +64,7 @@ def cone(radius: float, length: float) -> Table:
 
 
 def ellipsoid(x: float, y: float, z: float) -> Table:
-    """An ellipsoid of these half axes."""
+    """An ellipsoid of the half axes x, y, z [m]."""
     return {"kind": "ellipsoid", "half_axes": [x, y, z]}
 
 

@@ -45,7 +45,10 @@ def repeated(given: Contacts, index: Any, **changes: Any) -> Contacts:
 
 
 def spread(rng: Rng, n: int, size: float, ratio: float = 1.0) -> Array:
-    """A random symmetric positive definite matrix whose diagonal spans a ratio."""
+    """A random symmetric positive definite matrix, shape (n, n).
+
+    Its diagonal has about the `size` [any unit] and spans a `ratio` [-].
+    """
     scale = np.sqrt(size / np.geomspace(1, ratio, n)) if n else np.zeros(0)
     L = np.tril(0.3 * rng.standard_normal((n, n)), -1) + np.eye(n)
     S = scale[:, None] * (L @ L.T) * scale
@@ -55,7 +58,7 @@ def spread(rng: Rng, n: int, size: float, ratio: float = 1.0) -> Array:
 def step(
     rng: Rng, n_a: int, n_u: int, at: Contacts, ratio: float = 1.0, cone: str = "pyramid"
 ) -> StepData:
-    """A random step on given contacts: stiffness 1 kN/m, masses 1 kg, targets 1 mm away."""
+    """A random step on given contacts: targets 1 mm off, 1 kN/m, masses 1 kg over a `ratio` [-]."""
     return StepData(
         h=0.01,
         K_q=spread(rng, n_a, 1e3, ratio),

@@ -100,7 +100,7 @@ def step_of(case_input: Json) -> StepData:
 
 
 def cone_step(case_input: Json) -> StepData:
-    """The same for second-order cones, each as a contact whose coefficients of friction are 1."""
+    """The same for second-order cones, each a contact with mu_v = mu_omega = 1; or InputError."""
     blocks = case_input["second_order"]
     F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(case_input["g"]))
     f = np.array([block["f"] for block in blocks]).reshape(len(blocks), 4)

@@ -40,7 +40,10 @@ def expected(case_input: Json) -> Expected:
 
 
 def row_coefficients(contact: Json, name: str, table: np.ndarray) -> np.ndarray:
-    """What each row of a contact adds of d1, d2 and spin: (mu_v t1, mu_v t2, mu_omega t3)."""
+    """What each row of a contact adds of d1, d2 and spin: (mu_v t1, mu_v t2, mu_omega t3).
+
+    Both they and the `table` [-] of the cone have the shape (R, 3).
+    """
     torsion = contact["rows"] == 6
     mu = exact([contact["mu_v"], contact["mu_v"], contact["mu_omega"] if torsion else 0.0])
     count = len(cone(name).row_names) if torsion else cone(name).short

@@ -1,0 +1,190 @@
+"""How the documentation is built: ``python -m sphinx -W -n docs OUT``, without network.
+
+Nothing that a page loads comes from elsewhere: MathJax is a Python package whose files are copied,
+and the theme brings its own fonts and scripts. ``python -m validation.check_site OUT`` proves it.
+"""
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+from quasistatic_ref.examples.gallery import EXAMPLES  # noqa: E402 the same
+
+project = "quasistatic_ref"
+author = "The quasistatic_ref developers"
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.doctest",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "matplotlib.sphinxext.plot_directive",
+    "sphinxcontrib.bibtex",
+    "sphinx-mathjax-offline",  # MathJax 3, copied into _static
+]
+exclude_patterns = ["examples", "figures", "_build"]
+nitpicky = True
+
+# -- Pages ---------------------------------------------------------------------------------------
+html_theme = "furo"
+html_title = f"quasistatic_ref {version}"
+html_static_path = ["_static"]
+viewcode_follow_imported_members = False
+html_css_files = ["page.css"]
+html_show_sphinx = False
+# Furo's button fonts are the system's; its icons are inline. There is nothing to fetch.
+html_theme_options = {"navigation_with_keys": True}
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+myst_links_external_new_tab = False
+
+# -- Equations -----------------------------------------------------------------------------------
+# The labels eq-1 .. eq-13 stand in one page and in order, so that Sphinx's own numbers (1) .. (13)
+# are the paper's. The traceability test holds that.
+math_numfig = False
+math_eqref_format = "({number})"
+
+# -- Docstrings ----------------------------------------------------------------------------------
+# Types of arguments are prose with shapes ("ndarray, shape (n_c, 3)"): shown, not looked up.
+napoleon_google_docstring = False
+napoleon_use_param = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+# Engines that are optional and differ in what they run on; only `validate` talks to them.
+autodoc_mock_imports = ["mujoco", "pydrake"]
+# There is no network at build time, hence no inventory to look third-party names up in.
+nitpick_ignore_regex = [
+    (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),
+    # Bases of classes in the standard library, for the same reason.
+    (r"py:.*", r"(argparse|collections|contextlib|enum|fractions|pathlib|typing|types|json)\..*"),
+    (r"py:(class|exc|obj)", r"(object|Exception|ValueError|TypeError|ImportError|RuntimeError)"),
+]
+
+# -- Figures and literature ----------------------------------------------------------------------
+plot_formats = [("png", 150)]
+plot_html_show_source_link = False
+plot_html_show_formats = False
+plot_rcparams = {"savefig.bbox": "tight"}  # as the package's own style saves them
+plot_apply_rcparams = True
+bibtex_bibfiles = ["references.bib"]
+bibtex_default_style = "plain"
+
+# -- Doctests ------------------------------------------------------------------------------------
+# Pages import what they use; docstrings of single functions are shown without their imports.
+doctest_global_setup = """
+from fractions import Fraction
+import numpy as np
+from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.certify.rounding import decimal_string
+from quasistatic_ref.step.cones import direction
+"""
+
+
+PACKAGE = ROOT / "quasistatic_ref"
+MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
+
+
+def setup(app):
+    """What pages say in one line and the site says at length."""
+    # It copies files when all is built, and says nothing about reading in parallel.
+    app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
+    app.connect("source-read", _expanded)
+    app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
+    app.connect("autodoc-process-docstring", _mended, priority=600)
+
+
+def _expanded(app, docname, source):
+    """Links that are right in the repository lead out of docs/; here they lead to their pages.
+
+    ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
+    """
+    up = "../" * docname.count("/")
+    text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
+    text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
+    source[0] = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
+
+
+def _modules(folder):
+    """An automodule directive for each module of a folder; of the package, only its own files."""
+    files = folder.glob("*.py") if folder == PACKAGE else folder.rglob("*.py")
+    names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
+    one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"
+    return "\n".join(
+        one.format(short=name.split(".", 1)[1].replace(".", "/") + ".py", name=name)
+        for name in names
+        if not name.endswith("__init__")
+    )
+
+
+def _example(name):
+    """One example in the gallery: what it says of itself, its figure, and its code folded away."""
+    path = PACKAGE / "examples" / f"{name}.py"
+    title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
+    text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
+    return f"""
+## {title.rstrip(".")}
+
+{text}
+
+```{{eval-rst}}
+.. plot::
+   :filename-prefix: gallery_{name}
+   :alt: {title}
+
+   from quasistatic_ref.examples.gallery import figure_of
+   figure_of("{name}")
+```
+
+:::{{admonition}} quasistatic_ref/examples/{name}.py
+:class: dropdown
+
+```{{literalinclude}} ../../quasistatic_ref/examples/{name}.py
+:language: python
+```
+:::
+"""
+
+
+# -- Docstrings are read in the source first: some habits of theirs are no markup ---------------
+UNDERLINE = re.compile(r"^-{3,}$", re.MULTILINE)
+LITERAL = re.compile(r"(``.*?``)")
+_one_liners = {}
+
+
+def _kept(app, what, name, obj, options, lines):
+    """A value's docstring is prose: what stands before its first colon is not its type."""
+    if what in ("data", "attribute", "property") and not UNDERLINE.search("\n".join(lines)):
+        _one_liners[name] = list(lines)
+
+
+def _mended(app, what, name, obj, options, lines):
+    """|x| is a magnitude; and types of attributes are prose, as those of parameters."""
+    lines[:] = _one_liners.pop(name, lines)
+    types = dict(m.groups() for line in lines if (m := re.match(r":vartype ([^:]+): (.*)", line)))
+    told = [line for line in lines if not line.startswith(":vartype ")]
+    in_math, mended = False, []
+    for line in told:
+        in_math = line.startswith(".. math::") or (in_math and (not line or line.startswith(" ")))
+        if (found := re.match(r":ivar ([^:]+):", line)) and (names := found.group(1)) in types:
+            # "a, b" without its space: the word before a space would be taken for a type.
+            line = f":ivar {names.replace(', ', ',')}: *{types[names]}* {line[found.end() :]}"
+        mended.append(line if in_math else _bars(line))
+    lines[:] = mended
+
+
+def _bars(line):
+    """Vertical bars escaped, except in literals."""
+    parts = LITERAL.split(line)
+    return "".join(p if p.startswith("``") else p.replace("|", "\\|") for p in parts)

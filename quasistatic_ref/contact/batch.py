@@ -1,0 +1,163 @@
+"""Short lists of several clouds, measured by few NumPy calls, and the proof that they suffice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.cloud import closest
+from quasistatic_ref.contact.poses import PairPoses
+from quasistatic_ref.contact.shortlist import Shortlist
+from quasistatic_ref.contact.solid_rows import SolidRows
+from quasistatic_ref.model.shapes import Shape
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import UNSEEN
+
+CORNERS = 8
+_SQRT_3 = float(np.nextafter(np.sqrt(3.0), 2.0))
+
+
+class Nearest(NamedTuple):
+    """The k closest points of each list, list after list, in ascending distance.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        [m].
+    normal : ndarray, shape (3, n)
+        In the frames of the solids.
+    local : ndarray, shape (3, n)
+        The points in the frames of their clouds [m].
+    point : ndarray of int, shape (n,)
+        Their indices.
+    proved : ndarray of bool, shape (rows,)
+        Of each list, whether no point outside it can be among them.
+    """
+
+    phi: Array
+    normal: Array
+    local: Array
+    point: NDArray[np.int64]
+    proved: NDArray[np.bool_]
+
+    def chosen(self, order: NDArray[np.int64]) -> Nearest:
+        """The same contacts in another order."""
+        return Nearest(
+            self.phi.take(order),
+            self.normal.take(order, axis=1),
+            self.local.take(order, axis=1),
+            self.point.take(order),
+            self.proved,
+        )
+
+
+class Batch:
+    """Lists that are measured at once: rows as long as the longest, filled up with NaN.
+
+    In memory, rows follow each other, x, y and z apart, after the corners of the boxes around the
+    clouds.
+
+    Parameters
+    ----------
+    rows : sequence of int, length r
+        Which of all pairs these are.
+    shapes : sequence of Shape
+        Their solids, in :func:`~quasistatic_ref.contact.solid_rows.kind_order`.
+    lists : sequence of Shortlist
+    points : sequence of ndarray, shape (m, 3)
+        The points of each list [m], cloud's frame.
+    boxes : sequence of ndarray, shape (8, 3)
+        Corners of the boxes around the clouds, in their frames [m].
+    n_c : sequence of int
+        How many of the closest points of each are kept.
+    """
+
+    def __init__(
+        self,
+        rows: Sequence[int],
+        shapes: Sequence[Shape],
+        lists: Sequence[Shortlist],
+        points: Sequence[Array],
+        boxes: Sequence[Array],
+        n_c: Sequence[int],
+    ) -> None:
+        self.r, W = len(rows), max(len(some) for some in points)
+        self.n_c = np.array(n_c)
+        filled, self.index = np.full((self.r, W, 3), np.nan), np.full((self.r, W), -1)
+        for i, (some, made) in enumerate(zip(points, lists, strict=True)):
+            filled[i, : len(some)], self.index[i, : len(some)] = some, made.index
+        self.local = np.ascontiguousarray(filled.reshape(-1, 3).T)
+        self.columns = np.ones((4, 3, self.r * W))
+        self.columns[:3] = self.local[:, None]
+        self.rows, self.of = np.array(rows), np.repeat(rows, W)
+        self.measured = SolidRows(shapes, W)
+        # Where in the sorted rows the contacts are: in each from its start, by rank.
+        self.start = np.repeat(np.arange(self.r) * W, n_c)
+        self.ranked = self.start + np.concatenate([np.arange(n) for n in n_c])
+        self.furthest = np.cumsum(n_c) - 1
+        bounds = [_bounds(made, box) for made, box in zip(lists, boxes, strict=True)]
+        self.slope = np.array([slope for slope, _ in bounds])
+        self.offset = np.array([offset for _, offset in bounds])
+
+    def nearest(self, poses: PairPoses) -> Nearest:
+        """The closest points at the poses of all pairs."""
+        pose = poses.relative
+        # The sums of `rotated`, without broadcasting, which takes longer than the sums.
+        term = pose.T.take(self.of, axis=2) * self.columns
+        x = term[0] + term[1] + term[2] + term[3]
+        phi, normal = self.measured(x.T)
+        if self.r == 1:  # its own order is the order
+            found = closest(phi, int(self.n_c[0]))
+        else:
+            order = phi.reshape(self.r, -1).argsort(axis=1, kind="stable")
+            found = order.ravel().take(self.ranked) + self.start
+        distance = phi.take(found)
+        proved = distance.take(self.furthest) < self.limit(pose)
+        return Nearest(
+            distance,
+            normal.T.take(found, axis=1),
+            self.local.take(found, axis=1),
+            self.index.take(found),
+            proved,
+        )
+
+    def reorder(self, order: NDArray[np.int64]) -> None:
+        """Give the contacts in another order from now on: entry i of it was number order[i]."""
+        self.ranked, self.start = self.ranked[order], self.start[order]
+        self.furthest = np.argsort(order)[self.furthest]
+
+    def limit(self, pose: Array) -> Array:
+        """Below which signed distances (r,) [m] no point outside the lists can have come.
+
+        Parameters
+        ----------
+        pose : ndarray, shape (P, 3, 4)
+            [R, t] of all pairs, from the cloud's frame to the solid's.
+        """
+        own = pose.reshape(-1, 12, 1)
+        if len(own) != self.r:
+            own = own[self.rows]
+        limit: Array = np.minimum.reduce((self.slope @ own)[..., 0] + self.offset, axis=1)
+        return limit
+
+
+def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
+    """Functions of the pose, slope . [R, t] + offset, of which the least is the limit of a list.
+
+    A point that moves by u has its height changed by n . u, its distance by |u| at most, and what
+    is rounded by UNSEEN |u|. All these are concave in u, and u is affine in the point: over the
+    box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
+    """
+    ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
+    slopes, offsets = [], []
+    for directions, bound in (
+        (made.n + UNSEEN * ways, made.by_height),
+        ((1 + UNSEEN) * ways, made.by_distance),
+    ):
+        here = np.column_stack([box, np.ones(CORNERS)])
+        slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
+        offsets.append(bound - (directions @ made.corners.T).ravel())
+    return np.concatenate(slopes), np.concatenate(offsets)

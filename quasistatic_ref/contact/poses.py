@@ -1,0 +1,75 @@
+"""Where the two sides of many pairs are, all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.model.shapes import PlacedShape
+from quasistatic_ref.step.data import Array
+
+
+class PairPoses(NamedTuple):
+    """Poses of the sides of P pairs: a solid, and points of another body.
+
+    Parameters
+    ----------
+    R, t : ndarray, shapes (2 P, 3, 3) and (2 P, 3)
+        From the shapes' frames to the world [-], [m]: those of the solids, then of the points.
+    relative : ndarray, shape (P, 3, 4)
+        [R, t] from the points' frame to the solid's.
+    """
+
+    R: Array
+    t: Array
+    relative: Array
+
+    @property
+    def R_rel(self) -> Array:
+        """Rotations from the points' frame to the solid's, shape (P, 3, 3)."""
+        return self.relative[..., :3]
+
+    @property
+    def t_rel(self) -> Array:
+        """Origins of the points' frame in the solid's, shape (P, 3) [m]."""
+        return self.relative[..., 3]
+
+
+class Placements:
+    """Where shapes are on their links: constants of a run.
+
+    Parameters
+    ----------
+    solids, clouds : sequence of PlacedShape, length P
+    """
+
+    def __init__(self, solids: Sequence[PlacedShape], clouds: Sequence[PlacedShape]) -> None:
+        sides = (*solids, *clouds)
+        self.P = len(solids)
+        self.link = np.array([side.link for side in sides], dtype=np.int64)
+        on_link = [np.column_stack([side.R, side.t]) for side in sides]
+        self.on_link = np.array(on_link).reshape(-1, 3, 4)
+
+    def poses(self, R: Array, t: Array) -> PairPoses:
+        """Poses from those of the links, shapes (L, 3, 3) and (L, 3).
+
+        Each product is one of 3 x 3 and 3 x 4 matrices, whatever the number of pairs, so that a
+        pair's pose does not depend on the others.
+        """
+        world = R.take(self.link, axis=0) @ self.on_link
+        world[..., 3] += t.take(self.link, axis=0)
+        solids, points = world[: self.P], world[self.P :].copy()
+        points[..., 3] -= solids[..., 3]
+        relative = solids[..., :3].transpose(0, 2, 1) @ points
+        return PairPoses(world[..., :3], world[..., 3], relative)
+
+
+def rotated(R: Array, points: Array) -> Array:
+    """Points (..., 3) turned by R, shape (3, 3), or one for each, shape (..., 3, 3)."""
+    # Not `@`: BLAS may sum in another order for another number of points, and a point's
+    # distance must not depend on its company.
+    return np.asarray(
+        points[..., :1] * R[..., 0] + points[..., 1:2] * R[..., 1] + points[..., 2:] * R[..., 2]
+    )

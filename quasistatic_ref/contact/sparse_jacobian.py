@@ -1,0 +1,89 @@
+"""Contact Jacobians of many bodies: of each contact only the columns that move it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.step.blocks import Blocks
+from quasistatic_ref.step.data import Contacts
+
+Indices = NDArray[np.int64]
+
+
+class BlockGeometry:
+    """As :class:`~quasistatic_ref.contact.jacobian.ContactGeometry`, J in blocks.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+    """
+
+    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+        self.layout = layout
+        # Joints' columns in the order of their coordinates; a mimic's is that of another.
+        owner = motion.coordinates.argmax(axis=1)
+        by_coordinate = np.argsort(owner, kind="stable")
+        owner, moves = owner[by_coordinate], motion.moves[:, 0, by_coordinate] > 0
+        a, b = moves[layout.link_alpha], moves[layout.link_beta]
+        contact, rank, joint_column = _ragged(a | b)
+        shape = (len(a), 1 + int(rank.max(initial=-1)))
+        self.joint_column, (self.alpha, self.beta) = (
+            np.zeros(shape, np.int64),
+            np.zeros((2, *shape)),
+        )
+        self.joint_column[contact, rank] = by_coordinate[joint_column]
+        self.alpha[contact, rank] = a[contact, joint_column]
+        self.beta[contact, rank] = b[contact, joint_column]
+        self.n_v = motion.coordinates.shape[1]
+        coordinate = np.zeros((len(a), self.n_v), dtype=bool)
+        coordinate[contact, owner[joint_column]] = True
+        at, place, column = _ragged(coordinate)
+        self.column = np.full((len(a), 1 + int(place.max(initial=-1))), self.n_v)
+        self.column[at, place] = column
+        self.sums = None
+        if motion.mimics:  # the columns of one coordinate add up
+            self.sums = np.zeros((*shape, self.column.shape[1]))
+            position = coordinate.cumsum(axis=1) - 1
+            self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0
+
+    def contacts(
+        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
+    ) -> Contacts:
+        """The contacts of one step, from the closest points of all pairs."""
+        layout, (d1, d2) = self.layout, tangents(points.n)
+
+        def name() -> tuple[str, ...]:
+            numbered = zip(layout.names, points.point.tolist(), strict=True)
+            return tuple([f"{pair}/{i}" for pair, i in numbered])
+
+        if like is None:
+            without = np.zeros((len(points.phi), 4, 0))
+            mu = layout.mu_v, layout.mu_omega, layout.rows
+            like = Contacts(name(), points.phi, points.n, d1, d2, without, *mu)
+        J = self.jacobian(kinematics, points)
+        return like.moved(name, blocks=J, phi=points.phi, n=points.n, d1=d1, d2=d2)
+
+    def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
+        """J of Eq. :eq:`eq-3`, those columns."""
+        twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
+        nu, omega = twist[:, :3], twist[:, 3:]
+        a, b = self.alpha[:, None], self.beta[:, None]
+        at_alpha = nu - cross_matrix(points.alpha) @ omega  # nu_origin + omega x r
+        at_beta = nu - cross_matrix(points.beta) @ omega
+        spin = points.n[:, None] @ (omega * (b - a))
+        J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
+        return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
+
+
+def _ragged(marked: NDArray[np.bool_]) -> tuple[Indices, Indices, Indices]:
+    """Row, rank in the row and column of each mark."""
+    row, column = np.nonzero(marked)
+    count = marked.sum(axis=1)
+    return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), column

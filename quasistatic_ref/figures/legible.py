@@ -1,0 +1,134 @@
+"""Whether a figure can be read on a page: units, size of text, lines told apart without colour."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Text
+
+from quasistatic_ref.figures.style import PAGE, STYLES, figure_style
+
+LEAST: Final = 7.0
+"""Least size of text where the figure is printed [pt]."""
+
+GREY: Final = 0.15
+"""Least difference in luminance of two fills that grey can tell apart [-]; black to white is 1."""
+
+DRAWING: Final = "drawing"
+"""Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
+
+UNIT = re.compile(r"\[[^\]]+\]$")
+NUMBER = re.compile(
+    r"^(\\mathdefault|\\times|[-+\u2212.$^{}e\s])*\d(\\times|[-+\u2212.$^{}e\d\s])*$"
+)
+
+
+def faults(figure: Figure, style: str = "paper") -> list[str]:
+    """What is wrong with a figure, a sentence each; none if it is legible.
+
+    Parameters
+    ----------
+    figure : Figure
+    style : str
+        The one that it was drawn in: printed at no more than the width of a page, or of a slide
+        of ``STYLES[style]`` times that width.
+    """
+    with figure_style(style):
+        figure.canvas.draw()
+        width = figure.get_tightbbox().width
+        shrunk = min(1.0, PAGE * STYLES[style] / width)
+        found = list(_small_text(figure, shrunk, LEAST * STYLES[style]))
+        for k, axes in enumerate(figure.axes):
+            where = axes.get_title() or axes.get_title("right") or axes.get_title("left")
+            where = f"axes {k} ({where})" if where else f"axes {k}"
+            found += [f"{where}: {fault}" for fault in (*_labels(axes), *_alike(axes))]
+    return found
+
+
+def _axis_map(axes: Any) -> list[tuple[str, Any]]:
+    names = "xyz" if axes.name == "3d" else "xy"
+    return [(name, getattr(axes, f"{name}axis")) for name in names]
+
+
+def _small_text(figure: Figure, shrunk: float, least: float) -> Iterator[str]:
+    for text in figure.findobj(Text):
+        size = float(text.get_fontsize()) * shrunk
+        if text.get_text().strip() and text.get_visible() and size < least - 0.01:
+            yield f"{text.get_text()!r} is printed at {size:.1f} pt, less than {least:g}"
+
+
+def _labels(axes: Axes) -> Iterator[str]:
+    """Axes whose ticks bear numbers, and whose label does not end with a unit."""
+    if not axes.axison:
+        return
+    for name, axis in _axis_map(axes):
+        ticks = [t.get_text() for t in axis.get_ticklabels() if t.get_visible()]
+        if not any(NUMBER.match(text) for text in ticks):
+            continue  # no ticks, or categories: names need no unit
+        if not UNIT.search(axis.get_label_text()) and not _labelled_by_sharing(axes, name):
+            yield f"the label {axis.get_label_text()!r} of {name} does not end with a [unit]"
+
+
+def _labelled_by_sharing(axes: Axes, name: str) -> bool:
+    """Whether axes that share this axis bear its label, and these do not show its ticks' text."""
+    if name == "z":
+        return False
+    group = getattr(axes, f"get_shared_{name}_axes")()
+    return any(
+        UNIT.search(getattr(other, f"get_{name}label")())
+        for other in group.get_siblings(axes)
+        if other is not axes
+    )
+
+
+def _alike(axes: Axes) -> Iterator[str]:
+    """Pairs that only their colour tells apart."""
+    lines = [line for line in axes.lines if line.get_visible() and line.get_gid() != DRAWING]
+    for one, other in combinations(lines, 2):
+        if _dress(one) == _dress(other) and to_rgb(one.get_color()) != to_rgb(other.get_color()):
+            yield f"the lines {one.get_label()!r} and {other.get_label()!r} differ in colour only"
+    for kind, members in _fills(axes).items():
+        for first, second in combinations(members, 2):
+            same = abs(first[1] - second[1]) < GREY and first[2] == second[2]
+            if same and first[3] != second[3]:
+                yield f"the {kind} {first[0]!r} and {second[0]!r} differ in colour only"
+
+
+def _dress(line: Line2D) -> tuple[Any, ...]:
+    """What a line looks like but for its colour."""
+    pattern = vars(line)["_unscaled_dash_pattern"]  # "--" and (0, (..)) alike
+    mark = None if line.get_marker() in ("", " ", "None", None) else str(line.get_marker())
+    shown = line.get_linestyle() not in ("", " ", "None", "none")
+    return (str(pattern) if shown else None), mark, (line.get_fillstyle() if mark else None)
+
+
+def _fills(axes: Axes) -> dict[str, list[tuple[str, float, Any, Any]]]:
+    """Labelled patches and scattered dots: label, luminance, other marks, colour."""
+    found: dict[str, list[tuple[str, float, Any, Any]]] = {"patches": [], "dots": []}
+    handles, labels = axes.get_legend_handles_labels()
+    for handle, label in zip(handles, labels, strict=True):
+        first = handle[0] if isinstance(handle, tuple | list) and len(handle) else handle
+        if isinstance(first, Patch):
+            colour = first.get_facecolor()
+            found["patches"].append((label, _luminance(colour), first.get_hatch(), colour))
+        elif isinstance(first, PathCollection):
+            colour = tuple(np.ravel(first.get_facecolor())[:3]) or (1.0, 1.0, 1.0)
+            shape = np.shape(first.get_paths()[0].vertices), tuple(first.get_sizes()[:1])
+            found["dots"].append((label, _luminance(colour), shape, colour))
+    return found
+
+
+def _luminance(colour: Any) -> float:
+    """How light a colour is in grey [-]."""
+    red, green, blue = to_rgb(colour)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue

@@ -1,0 +1,72 @@
+"""Objects, places and animations as three.js and meshcat's viewer read them, in plain JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.step.data import Array
+
+DIGITS = 9
+"""Decimals of lengths [m]: a nanometre is finer than float32, in which three.js keeps them."""
+
+
+def material(colour: int, opacity: float) -> dict[str, Any]:
+    """A surface that is lit, seen from both sides; its opacity is 0 to 1 [-]."""
+    both_sides = 2
+    return {
+        "type": "MeshPhongMaterial", "color": colour, "opacity": opacity,
+        "transparent": opacity < 1, "side": both_sides,
+    }  # fmt: skip
+
+
+def thing(points: Array, kind: str, look: dict[str, Any]) -> dict[str, Any]:
+    """An object of three.js: points, or triangles as triples of points [m]."""
+    position = {"itemSize": 3, "type": "Float32Array", "array": np.round(points, DIGITS).ravel()}
+    geometry = {"type": "BufferGeometry", "data": {"attributes": {"position": position}}}
+    return {
+        "metadata": {"version": 4.5, "type": "Object"},
+        "geometries": [geometry | {"uuid": "g"}],
+        "materials": [look | {"uuid": "m"}],
+        "object": {"uuid": "o", "type": kind, "geometry": "g", "material": "m"},
+    }
+
+
+def object_set(path: str, what: dict[str, Any]) -> dict[str, Any]:
+    """The command that puts an object at a path."""
+    return {"type": "set_object", "path": path, "object": what}
+
+
+def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
+    """The command that places what is at a path in its parent."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = R, t
+    return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel()}  # by columns
+
+
+def clip(path: str, fps: float, t: Array, R: Array, scale: Array | None = None) -> dict[str, Any]:
+    """The motion of what is at a path, at fps frames a second [1/s].
+
+    Positions t have the shape (N, 3) [m], rotations R (N, 3, 3), each scale (N, 3) [-].
+    """
+    quaternions = Rotation.from_matrix(R).as_quat()  # [x y z w], as three.js has them
+    tracks = [_track(".position", "vector3", t), _track(".quaternion", "quaternion", quaternions)]
+    if scale is not None:
+        tracks.append(_track(".scale", "vector3", scale))
+    return {"path": path, "clip": {"fps": fps, "name": "default", "tracks": tracks}}
+
+
+def _track(name: str, kind: str, values: Array) -> dict[str, Any]:
+    keys = [{"time": k, "value": value} for k, value in enumerate(np.round(values, DIGITS))]
+    return {"name": name, "type": kind, "keys": keys}
+
+
+def z_along(directions: Array) -> Array:
+    """Rotations that take z to each direction, shape (N, 3, 3); any for a direction of zero."""
+    length = np.linalg.norm(directions, axis=1, keepdims=True)
+    z = np.where(length > 0, directions / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
+    x = np.cross(np.eye(3)[np.abs(z).argmin(axis=1)], z)
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    return np.stack([x, np.cross(z, x), z], axis=2)

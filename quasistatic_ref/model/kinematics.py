@@ -1,0 +1,49 @@
+"""Where every link is at one configuration, and how it moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.model.motion import Motion, cross_matrix
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Kinematics:
+    """Where every link is, and how it moves with delta_q; link 0 is the world.
+
+    Parameters
+    ----------
+    R : ndarray, shape (L, 3, 3)
+        Rotation from each link's frame to the world's [-].
+    t : ndarray, shape (L, 3)
+        Origin of each link's frame in the world [m].
+    columns : ndarray, shape (6, n_x)
+        Of each joint's column, velocity of the point at the world's origin and angular velocity
+        of what the joint moves, in the world frame, per unit of its coordinate.
+    motion : Motion, optional
+        Which columns move a link; without it nothing moves.
+    """
+
+    R: Array
+    t: Array
+    columns: Array
+    motion: Motion | None = None
+
+    @cached_property
+    def J(self) -> Array:
+        """Jacobian of each link, shape (L, 6, n_v).
+
+        Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
+        frame, per unit of delta_q.
+        """
+        if self.motion is None:
+            return np.zeros((len(self.t), 6, 0))
+        J = self.motion.of_coordinates(self.columns * self.motion.moves)
+        J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
+        return J

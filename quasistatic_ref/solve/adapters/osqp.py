@@ -1,0 +1,46 @@
+"""OSQP, operator splitting: every entry of A and of H's blocks is kept, zeros included."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import osqp
+
+from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.adapters.sparse import full_columns, upper_triangle
+
+
+class Osqp:
+    """One OSQP solver; warm, it starts from x and the multipliers of the step before."""
+
+    ORDER = "F"
+    WARM = True
+    NEAR = True
+
+    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+        self.program = program
+        self.P, self.upper = upper_triangle(program.H)
+        m, n = program.A.shape
+        self.cold = np.zeros(n), np.zeros(m)
+        self.solver = osqp.OSQP()
+        unbounded = np.full(m, np.inf)
+        self.solver.setup(
+            P=self.P, q=program.f, A=full_columns(program.A), l=program.b, u=unbounded, **options
+        )
+
+    def reply(self, same_H: bool, warm: bool) -> Reply:
+        """Solve the program as it stands."""
+        p, solver = self.program, self.solver
+        matrices = {"Ax": p.A.ravel(order="F")}
+        if not same_H:
+            matrices["Px"] = p.H[self.upper]
+        solver.update(q=p.f, l=p.b, **matrices)
+        if not warm:
+            solver.warm_start(*self.cold)
+        result = solver.solve(raise_error=False)
+        info = result.info
+        solved = info.status == "solved"
+        return Reply(
+            np.array(result.x), 0.0 - result.y, solved, info.status, info.iter, info.run_time
+        )

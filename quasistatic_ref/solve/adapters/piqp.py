@@ -1,0 +1,37 @@
+"""PIQP, a proximal interior-point method, dense."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import piqp
+
+from quasistatic_ref.solve.adapters.program import Program, Reply
+
+
+class Piqp:
+    """One dense PIQP solver; it always starts cold."""
+
+    ORDER = "F"
+    WARM = False
+    NEAR = True
+
+    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+        self.program = program
+        self.solver = piqp.DenseSolver()
+        for name, value in options.items():
+            setattr(self.solver.settings, name, value)
+        p = program
+        self.solver.setup(p.H, p.f, None, None, p.A, p.b, None)
+
+    def reply(self, same_H: bool, warm: bool) -> Reply:
+        """Solve the program as it stands."""
+        del warm  # there is no such start
+        p, solver = self.program, self.solver
+        solver.update(P=None if same_H else p.H, c=p.f, G=p.A, h_l=p.b)
+        status = solver.solve()
+        result = solver.result
+        solved = status == piqp.PIQP_SOLVED
+        x, lam = np.array(result.x), np.array(result.z_l)
+        return Reply(x, lam, solved, status.name, result.info.iter, None)

@@ -1,0 +1,101 @@
+"""Eq. :eq:`eq-13` as sparse matrices, for steps whose contacts are in blocks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_matrix
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.blocks import Blocks
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import row_gaps, rows_along
+
+
+class Pattern:
+    """Where the entries of A and of H's upper triangle are: a constant of a run.
+
+    Parameters
+    ----------
+    step : StepData
+        A step whose contacts are in blocks, without rows of the user's own.
+
+    Attributes
+    ----------
+    A, P : scipy.sparse.csc_matrix
+        Of shapes (m, n_v) and (n_v, n_v); their data are written anew by :meth:`sparse_form`.
+    """
+
+    def __init__(self, step: StepData) -> None:
+        blocks = in_blocks(step)
+        m, n_v = int(step.offsets[-1]), step.n_v
+        column = blocks.column[step.row_contact]
+        row = np.broadcast_to(np.arange(m)[:, None], column.shape)
+        real = np.flatnonzero((column < n_v).ravel())
+        # Counting the entries shows where each of them ends up among the columns.
+        counted = csc_matrix(
+            (np.arange(len(real)) + 1.0, (row.ravel()[real], column.ravel()[real])), shape=(m, n_v)
+        )
+        self.entry = real[counted.data.astype(np.int64) - 1]
+        self.A = csc_matrix((np.zeros(len(real)), counted.indices, counted.indptr), shape=(m, n_v))
+        self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
+        self.P = csc_matrix(np.triu(step.H))
+        self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
+        self.blocks_column, self.M_u, self.K_q = blocks.column, step.M_u, step.K_q
+
+    def fits(self, step: StepData) -> bool:
+        """Whether a step has its entries where this pattern has them, and the same H."""
+        blocks = step.contacts.blocks
+        return (
+            blocks is not None
+            and not step.extra.names
+            and blocks.column is self.blocks_column
+            and step.M_u is self.M_u
+            and step.K_q is self.K_q
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class SparseForm:
+    """The quadratic program of one step, in float64.
+
+    Parameters
+    ----------
+    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
+        Upper triangle of H.
+    g : ndarray, shape (n_v,)
+    A : scipy.sparse.csc_matrix, shape (m, n_v)
+    b : ndarray, shape (m,)
+    """
+
+    P: csc_matrix
+    g: Array
+    A: csc_matrix
+    b: Array
+
+
+def in_blocks(step: StepData) -> Blocks:
+    """The blocks of a step.
+
+    Raises
+    ------
+    StepDataError
+        If its contacts are not in blocks, or it has rows of the user's own.
+    """
+    if step.contacts.blocks is None or step.extra.names:
+        raise StepDataError("must be in blocks, without rows of the user's own", field="contacts")
+    return step.contacts.blocks
+
+
+def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
+    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, as large as their entries only."""
+    blocks = in_blocks(step)
+    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
+    rows = rows_along(step.contacts, blocks.J, step.cone)  # Eq. (4), (n_c, R, w)
+    rows = rows.reshape(-1, rows.shape[2]).take(step.row_index, axis=0)  # Eq. (8)
+    A = csc_matrix(
+        (rows.ravel().take(pattern.entry), pattern.A.indices, pattern.A.indptr), pattern.A.shape
+    )
+    return SparseForm(pattern.P, g, A, -row_gaps(step.contacts, step.cone).take(step.row_index))

@@ -1,0 +1,63 @@
+"""Times that can be compared: taken in turn, in one process, and told by their medians."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+
+Job = Callable[[], Any]
+
+
+Clock = Callable[[], float]
+
+
+def seconds(job: Job, clock: Clock = time.perf_counter) -> float:
+    """Time of one call [s]."""
+    start = clock()
+    job()
+    return clock() - start
+
+
+def in_turn(
+    rounds: Sequence[Mapping[str, Job]], repeat: int = 1, clock: Clock = time.perf_counter
+) -> dict[str, Array]:
+    """Times of several jobs that take turns, each round in the order given.
+
+    Parameters
+    ----------
+    rounds : sequence of mapping of str to callable
+        The same names in every round.
+    repeat : int
+        How often all rounds are gone through; of each job and round the least time is kept, which
+        other processes have disturbed least.
+    clock : callable
+        Wall time, or the processor time of this thread, which means over many calls need on a
+        machine that has other things to do.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (rounds,)
+        [s].
+    """
+    best: dict[str, Array] = {}
+    for _ in range(repeat):
+        taken = [{name: seconds(job, clock) for name, job in jobs.items()} for jobs in rounds]
+        for name in rounds[0]:
+            times = np.array([row[name] for row in taken])
+            best[name] = np.minimum(best.get(name, times), times)
+    return best
+
+
+def microseconds(times: Array) -> float:
+    """The median [us]."""
+    return 1e6 * float(np.median(times))
+
+
+def ratio(one: Array, other: Array) -> float:
+    """The median of the ratios, pair by pair."""
+    return float(np.median(one / other))

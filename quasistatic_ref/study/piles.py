@@ -1,0 +1,127 @@
+"""Many free bodies: boxes in a row, or piled up, to show what large steps cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
+
+SIDE = 0.05
+"""Side of a box [m]."""
+
+GAP = 1e-4
+"""Between neighbours at the start [m]."""
+
+H, MU_V, MU_OMEGA = 0.01, 0.5, 0.01
+"""Time step [s]; friction [-], [m]."""
+
+PULL = 3.0
+"""Force on each body along x [N]; friction holds 2.45 N."""
+
+BOX = f"""<?xml version="1.0"?>
+<robot name="box"><link name="box">
+  <inertial><mass value="0.5"/>
+    <inertia ixx="2.1e-4" iyy="2.1e-4" izz="2.1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><box size="{SIDE} {SIDE} {SIDE}"/></geometry></collision>
+</link></robot>
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Pile:
+    """A simulator with something to do.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+        Where it starts.
+    force : ndarray, shape (n_v,)
+        A pull on each body along x, a little more than friction holds [N, N m].
+    bodies, contacts : int
+    """
+
+    simulator: Simulator
+    q: Array
+    force: Array
+    bodies: int
+    contacts: int
+
+
+def pile(
+    shape: tuple[int, int, int],
+    k: int = 4,
+    *,
+    backend: str = "clarabel",
+    certify: str = "off",
+    dense: int = 5,
+) -> Pile:
+    """Boxes in a grid of nx x ny x nz, each touching its neighbours and the lowest the floor.
+
+    A row is a chain: body i touches body i + 1. Bodies are clouds to what is below and before
+    them.
+
+    Parameters
+    ----------
+    shape : (int, int, int)
+    k : int
+        Contacts of each pair.
+    backend, certify : str
+        As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    dense : int
+        Points along each side of a cloud.
+    """
+    index = np.arange(np.prod(shape)).reshape(shape)
+    places = np.stack(np.unravel_index(index.ravel(), shape), axis=1)
+    xyz = (SIDE + GAP) * places + [0.0, 0.0, SIDE / 2]
+    with TemporaryDirectory() as folder:
+        urdf = Path(folder) / "box.urdf"
+        urdf.write_text(BOX)
+        system = System(
+            [
+                Body(name=f"box{i}", urdf=urdf, base="floating", xyz=tuple(at))
+                for i, at in enumerate(xyz.tolist())
+            ]
+        )
+    cloud = PointCloud(_surface(dense))
+    links = [system.link(f"box{i}") for i in range(index.size)]
+    boxes = {shape.link: shape for shape in system.shapes}
+    clouds = [
+        PlacedShape(f"box{i}", link, np.eye(3), np.zeros(3), cloud) for i, link in enumerate(links)
+    ]
+    floor = PlacedShape(
+        "floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+    )
+    pairs = [_pair(floor, clouds[i], k) for i in index[:, :, 0].ravel()]
+    for axis in range(3):
+        before = np.delete(index, -1, axis=axis).ravel()
+        after = np.delete(index, 0, axis=axis).ravel()
+        pairs += [_pair(boxes[links[i]], clouds[j], k) for i, j in zip(before, after, strict=True)]
+    simulator = Simulator(
+        system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
+    )
+    force = np.zeros(system.n_v)
+    force[::6] = PULL  # along x, in each body's own frame
+    contacts = sum(pair.n_c for pair in pairs)
+    return Pile(simulator, system.q_start, force, index.size, contacts)
+
+
+def _pair(alpha: PlacedShape, beta: PlacedShape, k: int) -> ContactPair:
+    return ContactPair(f"{alpha.name}-{beta.name}", alpha, beta, MU_V, MU_OMEGA, 6, k)
+
+
+def _surface(dense: int) -> Array:
+    """Points on the surface of a box, `dense` along each side, corners first."""
+    line = np.linspace(-SIDE / 2, SIDE / 2, dense)
+    grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    at_side = np.isclose(np.abs(grid), SIDE / 2).sum(axis=1)
+    order = np.argsort(-at_side, kind="stable")
+    return np.asarray(grid[order][at_side[order] > 0])

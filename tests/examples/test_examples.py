@@ -1,0 +1,188 @@
+"""What each example comes to: its numbers against formulas, and its figure against the rules.
+
+The runs of the grasp are those of ``demo``; what is slow is run in full by validation/notebooks.py.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.examples import grasp, grasp_rotation, solver_digits
+from quasistatic_ref.examples.gallery import EXAMPLES, example, figure_of
+from quasistatic_ref.examples.runs import ran
+from quasistatic_ref.figures import faults
+from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.tolerances import FITTED
+from quasistatic_ref.validate.paper import step_time
+from tests.tolerances import FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
+
+G = 9.81
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(autouse=True)
+def runs_of_the_demo(demo, monkeypatch):
+    def read(case):
+        path = demo.folder / f"bunny_grasp_{case.replace(' ', '_')}.npz"
+        return load_scenario("bunny_grasp", CASES[case]), trajectory_read(path)
+
+    for module in (grasp, grasp_rotation, solver_digits):
+        monkeypatch.setattr(module, "grasp", read)
+    monkeypatch.setattr(solver_digits, "EVERY", 75)
+    # A file has no times: a short run has.
+    monkeypatch.setattr(step_time, "grasp", lambda case: ran("bunny_grasp", "steps=10"))
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+def numbers(name):
+    found = example(name).main()
+    assert all(what.endswith("]") for what in found), found
+    return found
+
+
+def pairs(name, atol, rtol=0.0):
+    """Measured and expected stand beside each other in `main`: they must agree."""
+    found = list(numbers(name).values())
+    np.testing.assert_allclose(found[0::2], found[1::2], rtol=rtol, atol=atol)
+
+
+def test_there_is_an_example_for_every_subject():
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 18
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_figure_of_an_example_is_legible(name):
+    figure = figure_of(name)
+    assert figure.axes
+    assert faults(figure) == []
+
+
+def test_a_block_on_a_table_slides_beyond_mu_v_m_g_only():
+    found = numbers("block_on_a_table")
+    load, weight, below, beyond = found.values()
+    np.testing.assert_allclose(load, weight, rtol=ROUNDING)
+    assert below == 0.0
+    # To slide by x it rises by mu_v x: h^2 (F - mu_v m g) = m (1 + mu_v^2) x, F = 1.5 mu_v m g.
+    expected = 1e3 * 0.01**2 * 0.5 * 0.4 * G / (1 + 0.4**2)
+    np.testing.assert_allclose(beyond, expected, rtol=ROUNDING)
+
+
+def test_a_ball_that_slides_or_spins_stands_on_one_of_six_rows():
+    assert list(numbers("six_rows_of_a_contact").values()) == pytest.approx(
+        [6, 1, 1, 0.3 * G, 0.3 * G], rel=ROUNDING
+    )
+
+
+def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
+    found = numbers("cone_surfaces")
+    expected = [4 / 3, 2 * 2, 4 / 3 * np.pi]  # base 2, height 2 for the prism
+    np.testing.assert_allclose(list(found.values()), expected, rtol=ROUNDING)
+
+
+def test_the_drawn_contact_is_that_of_the_definitions():
+    phi, distance, *defects = numbers("contact_geometry").values()
+    np.testing.assert_allclose(phi, distance, rtol=ROUNDING)
+    np.testing.assert_array_less(defects, [ROUNDING, ROUNDING, FITTED])
+
+
+def test_the_smooth_block_slides_at_the_speed_of_the_formula_and_the_rough_one_stays():
+    rough, smooth, formula = numbers("block_on_an_incline").values()
+    assert abs(rough) < SCENARIO
+    np.testing.assert_allclose(smooth, formula, rtol=SCENARIO)
+
+
+def test_the_push_is_friction_and_drag():
+    push, friction, drag, _, layer = numbers("pushed_block").values()
+    np.testing.assert_allclose(push, friction + drag, rtol=SCENARIO)
+    np.testing.assert_allclose(layer, 1e6 * 0.4 * 0.01 * 0.01, rtol=SCENARIO)  # mu_v h v
+
+
+def test_a_slider_turns_as_lynch_says_when_it_is_slow():
+    found = np.reshape(list(numbers("planar_pushing").values()), (3, 3))
+    slow, fast, law = found.T
+    np.testing.assert_allclose(slow, 1.0, atol=2e-3)  # Pi (1 - (rho / c)^2), Pi = 1e-3
+    np.testing.assert_allclose(fast, law, rtol=ROUNDING)
+
+
+def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():
+    stuck, limit, spin, lift = numbers("boundary_layer").values()
+    np.testing.assert_allclose(stuck, limit, rtol=SCENARIO)
+    # phi = mu_omega h omega, in um.
+    np.testing.assert_allclose(lift, 1e6 * 0.01 * 0.01 * spin, rtol=SCENARIO)
+
+
+def test_the_laws_of_the_boundary_layer_are_h_and_h_squared():
+    np.testing.assert_allclose(list(numbers("boundary_layer_laws").values()), [1, 2], atol=FITTED)
+
+
+def test_a_pinch_holds_from_the_squeeze_of_the_formulas():
+    pairs("pinch_threshold", atol=100 * THRESHOLD)
+
+
+def test_the_grasp_lifts_and_every_step_is_exact():
+    with_torsion, exact, _, all_exact, variables, rows = numbers("grasp").values()
+    assert with_torsion > 30
+    assert (exact, all_exact, variables, rows) == (300, 300, 13, 80)
+
+
+def test_the_bunny_turns_without_torsion_only():
+    with_torsion, without = numbers("grasp_rotation").values()
+    assert with_torsion < 1 < 30 < without
+
+
+def test_the_shares_of_a_step_s_time_add_up_to_one():
+    milliseconds, *shares = numbers("time_of_a_step").values()
+    assert milliseconds > 0
+    np.testing.assert_allclose(sum(shares), 1.0, rtol=ROUNDING)
+
+
+def test_more_accuracy_means_more_digits_but_never_all():
+    digits = np.reshape(list(numbers("solver_digits").values()), (3, 4))
+    assert (np.diff(digits[:, [0, 1, 3]], axis=1) > 0).all(), digits
+    assert digits.max() < 16
+
+
+def test_the_door_is_where_the_tip_puts_it_and_stays():
+    angle, apart, last = numbers("door").values()
+    np.testing.assert_allclose(angle, 33.63, atol=0.005)  # as at h = 10 ms: geometry alone
+    assert max(apart, last) < SCENARIO
+
+
+def test_the_peg_slides_in_along_two_walls():
+    pairs("peg_in_a_hole", atol=SCENARIO)
+
+
+def test_the_joints_of_the_robot_yield_by_the_torques_of_the_push():
+    measured, formula, way = numbers("robot_push").values()
+    np.testing.assert_allclose(measured, formula, rtol=2 * FIRST_ORDER)
+    assert 8 < way < 12  # 12 mm less the 1.25 mm before it was met
+
+
+def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
+    turn, difference, smooth = numbers("hand_turns_a_drum").values()
+    np.testing.assert_allclose(turn, 0.945, atol=0.005)
+    assert difference < 2 * FIRST_ORDER
+    assert smooth < SCENARIO
+
+
+def test_an_example_is_a_script(tmp_path):
+    command = [sys.executable, "-W", "error", "-m", "quasistatic_ref.examples.cone_surfaces"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "volume of the pyramid [-]: 1.33333" in done.stdout
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["cone_surfaces.pdf", "cone_surfaces.png"]

@@ -1,0 +1,254 @@
+"""Contacts followed from step to step against the brute force: the same bits, whatever happens."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact import ball_tree, cloud_tracker, solid_rows
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.tracker import ContactTracker
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.convex_mesh import convex_hull
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.model.system import Kinematics
+from tests.tolerances import EXACT, ROUNDING
+
+WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
+SHAPES = {
+    "sphere": Sphere(0.1),
+    "box": Box(np.array([0.05, 0.125, 0.25])),
+    "capsule": Capsule(0.05, 0.1),
+    "cylinder": Cylinder(0.1, 0.05),
+    "cone": Cone(0.1, 0.1),
+    "ellipsoid": Ellipsoid(np.array([0.05, 0.1, 0.2])),
+    "half-space": HalfSpace(np.array([0.0, 0.0, 1.0]), -0.0625),
+    "tilted half-space": HalfSpace(np.array([1.0, 2.0, 2.0]), 0.1),
+    "hull": convex_hull(WEDGE),
+}
+FIELDS = ("phi", "alpha", "beta", "n", "point")
+
+
+def cloud(kind, N, rng):
+    """Points of which many are equally near to something: a grid, one point N times, a shell."""
+    match kind:
+        case "grid":  # exact in binary, so that ties are exact
+            side = int(np.ceil(N ** (1 / 3)))
+            return (np.stack(np.unravel_index(np.arange(N), (side,) * 3), axis=1) - side / 2) / 64
+        case "copies":
+            return np.repeat(rng.normal(size=(max(1, N // 8), 3)) / 16, 8, axis=0)[:N]
+        case "shell":
+            points = rng.normal(size=(N, 3))
+            return 0.1 * points / np.linalg.norm(points, axis=1, keepdims=True)
+        case "one place":
+            return np.tile([[0.03, 0.0, -0.03]], (N, 1))
+        case _:
+            return rng.uniform(-0.1, 0.1, size=(N, 3))
+
+
+CLOUDS = ["grid", "copies", "shell", "one place", "random"]
+MOVES = ["stay", "creep", "slide", "turn", "come and go", "run", "jump", "inside"]
+
+
+def moved(R, t, move, rng):
+    """The next pose of a body."""
+    small = {"creep": 1e-5, "turn": 1e-3, "run": 1e-2}.get(move, 0.0)
+    turn = Rotation.from_rotvec(small * rng.normal(size=3)).as_matrix()
+    match move:
+        case "stay":
+            return R, t
+        case "slide":
+            return R, t + np.array([rng.choice([1e-3, 8e-3]), 0.0, 0.0])
+        case "come and go":
+            return R, t + np.array([0.0, 0.0, rng.choice([-2e-3, 2e-3])])
+        case "jump":
+            return Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.5, 0.5, size=3)
+        case "inside":
+            return R, rng.uniform(-0.01, 0.01, size=3)
+        case _:
+            return R @ turn, t + small * rng.normal(size=3)
+
+
+def scene(names, kinds, rng, N, k):
+    """One cloud on each solid; the solids on links 1.., the clouds on the links after them."""
+    pairs = []
+    for i, (name, kind) in enumerate(zip(names, kinds, strict=True)):
+        R = Rotation.random(rng=rng).as_matrix() if i % 2 else np.eye(3)
+        solid = PlacedShape(name, 1 + i, R, rng.uniform(-0.1, 0.1, size=3) * (i % 2), SHAPES[name])
+        points = PointCloud(cloud(kind, N, rng))
+        some = PlacedShape(kind, 1 + len(names) + i, np.eye(3), np.zeros(3), points)
+        sides = (solid, some) if i % 3 else (some, solid)
+        pairs.append(ContactPair(f"p{i}", *sides, 0.5, 0.0, 4, k))
+    return pairs
+
+
+def same_bits(tracker, pairs, R, t):
+    expected = closest_points(pairs, Kinematics(R, t, np.zeros((len(R), 6, 0))))
+    found = tracker.closest_points(R, t)
+    for field in FIELDS:
+        np.testing.assert_allclose(
+            getattr(found, field), getattr(expected, field), rtol=EXACT, atol=EXACT, err_msg=field
+        )
+
+
+@settings(max_examples=40)
+@given(
+    names=st.lists(st.sampled_from(sorted(SHAPES)), min_size=1, max_size=4),
+    kinds=st.lists(st.sampled_from(CLOUDS), min_size=4, max_size=4),
+    moves=st.lists(st.sampled_from(MOVES), min_size=1, max_size=10),
+    N=st.sampled_from([1, 3, 30, 100, 500]),
+    k=st.sampled_from([1, 5, 12]),
+    levels=st.booleans(),
+    seed=st.integers(0, 1000),
+)
+def test_followed_contacts_are_those_of_brute_force(names, kinds, moves, N, k, levels, seed):
+    rng = np.random.default_rng(seed)
+    with pytest.MonkeyPatch.context() as patch:
+        if levels:  # trees of several levels already for these few points
+            patch.setattr(ball_tree, "SMALL", 16)
+            patch.setattr(ball_tree, "LEAF", 4)
+        patch.setattr(cloud_tracker, "WIDTH", 16)
+        patch.setattr(cloud_tracker, "WIDE", 40)
+        pairs = scene(names, kinds[: len(names)], rng, N, k)
+        tracker = ContactTracker(pairs)
+        L = 1 + 2 * len(names)
+        R, t = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3))
+        t[1 + len(names) :] = rng.uniform(-0.3, 0.3, size=(len(names), 3))
+        for move in moves:
+            for link in range(1, L):
+                R[link], t[link] = moved(R[link], t[link], move, rng)
+            same_bits(tracker, pairs, R, t)
+
+
+def poses(*t):
+    """Links 1.. at places t, none turned."""
+    t = np.array([(0.0, 0.0, 0.0), *t])
+    return np.tile(np.eye(3), (len(t), 1, 1)), t
+
+
+def sheet(side, spacing):
+    """A flat square of points about the origin, all equally high."""
+    x, y = np.meshgrid(np.arange(side) - side // 2, np.arange(side) - side // 2)
+    return spacing * np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+
+
+def one_pair(shape, points, k):
+    solid = PlacedShape("solid", 1, np.eye(3), np.zeros(3), shape)
+    some = PlacedShape("cloud", 2, np.eye(3), np.zeros(3), PointCloud(points))
+    return [ContactPair("p", solid, some, 0.5, 0.0, 4, k)]
+
+
+@pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cone", "ellipsoid", "hull"])
+def test_a_sheet_that_slides_over_a_solid_brings_new_points_under_the_same_height(name, rng):
+    pairs = one_pair(SHAPES[name], sheet(30, 1 / 128), 5)
+    tracker = ContactTracker(pairs)
+    for x in np.cumsum(rng.uniform(0, 4e-3, size=30)) - 0.03:
+        same_bits(tracker, pairs, *poses((0, 0, 0), (x, 0.3 * x, 0.26)))
+
+
+@pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cylinder"])
+def test_points_from_the_side_are_seen_when_they_have_come_nearer_than_those_above(name, rng):
+    points = rng.uniform(-0.01, 0.01, size=(300, 3))
+    above = cloud_tracker.WIDTH  # so that the first list is these, and the others are far
+    points[:above, 2] += 0.4
+    points[above:, 0] -= 0.6
+    pairs = one_pair(SHAPES[name], points, 5)
+    tracker, seen = ContactTracker(pairs), []
+    for x in np.linspace(0, 0.5, 26):
+        R, t = poses((0, 0, 0), (x, 0, 0))
+        same_bits(tracker, pairs, R, t)
+        seen.append(tracker.closest_points(R, t).point.min() >= above)
+    assert not seen[0]
+    assert seen[-1]
+    assert tracker.clouds.lists_made < 26
+
+
+def test_points_above_a_floor_are_seen_when_a_tilt_brings_them_down(rng):
+    points = sheet(30, 1 / 128)
+    points[:, 2] = rng.uniform(0, 0.01, size=len(points))
+    pairs = one_pair(HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), points, 5)
+    tracker = ContactTracker(pairs)
+    R, t = poses((0, 0, 0), (0, 0, 0))
+    for tilt in np.linspace(0, 0.2, 40):
+        R[2] = Rotation.from_rotvec([tilt, tilt / 2, 0]).as_matrix()
+        same_bits(tracker, pairs, R, t)
+    assert tracker.clouds.lists_made < 40
+
+
+def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
+    points = sheet(40, 1 / 256)
+    points[:, 2] = rng.uniform(0, 0.01, size=len(points))
+    pairs = one_pair(HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), points, 5)
+    tracker = ContactTracker(pairs)
+    for z in rng.uniform(-0.5, 0.5, size=50):
+        same_bits(tracker, pairs, *poses((0, 0, 0), (z, 0, z)))
+    assert tracker.clouds.lists_made == 1
+
+
+def test_a_sheet_that_lies_flat_is_a_list_of_all_its_points_and_the_first_are_kept():
+    pairs = one_pair(HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), sheet(40, 1 / 256), 5)
+    tracker = ContactTracker(pairs)
+    assert tracker.closest_points(*poses((0, 0, 0), (0, 0, 0.1))).point.tolist() == [0, 1, 2, 3, 4]
+    assert len(tracker.clouds.lists[0].index) == 1600
+
+
+def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
+    box, ball = SHAPES["box"], SHAPES["sphere"]
+    solid = [PlacedShape(f"s{i}", i, np.eye(3), np.zeros(3), box) for i in (1, 2)]
+    points = PlacedShape("c", 3, np.eye(3), np.zeros(3), PointCloud(cloud("random", 99, rng)))
+    other = PlacedShape("b", 3, np.eye(3), np.zeros(3), ball)
+    sides = [(solid[0], points), (solid[0], solid[1]), (points, solid[1]), (solid[1], other)]
+    pairs = [ContactPair(f"p{i}", a, b, 0.5, 0.0, 4, 3) for i, (a, b) in enumerate(sides)]
+    same_bits(ContactTracker(pairs), pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))
+    same_bits(ContactTracker(pairs[1::2]), pairs[1::2], *poses((0, 0, 0.4), (0, 0.3, 0), (0, 0, 0)))
+
+
+def test_no_pairs_have_no_contacts():
+    same_bits(ContactTracker([]), [], *poses((0, 0, 0)))
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_a_pose_that_is_not_finite_is_refused(first, rng):
+    pairs = one_pair(SHAPES["box"], cloud("random", 99, rng), 5)
+    tracker = ContactTracker(pairs)
+    if not first:
+        tracker.closest_points(*poses((0, 0, 0), (0, 0, 1)))
+    with pytest.raises(ContactError, match="poses: must be finite"):
+        tracker.closest_points(*poses((0, 0, 0), (0, 0, np.nan)))
+
+
+def test_distances_that_are_no_numbers_are_an_error_and_no_endless_search(monkeypatch, rng):
+    def unknown(self, x):
+        return np.full(len(x), np.nan), np.zeros_like(x)
+
+    pairs = one_pair(SHAPES["box"], cloud("random", 99, rng), 5)
+    monkeypatch.setattr(solid_rows.SolidRows, "__call__", unknown)
+    with pytest.raises(ContactError, match="p: has distances that are not numbers"):
+        ContactTracker(pairs).closest_points(*poses((0, 0, 0), (0, 0, 1)))
+
+
+def test_every_point_is_in_one_leaf_and_in_every_ball_and_box_above_it(rng):
+    points = cloud("shell", 3001, rng)
+    tree = ball_tree.ball_tree(points)
+    real = tree.index >= 0
+    assert sorted(tree.index[real].tolist()) == list(range(3001))
+    np.testing.assert_allclose(
+        tree.levels[-1].centre[real], points[tree.index[real]], rtol=EXACT, atol=EXACT
+    )
+    for balls in tree.levels[:-1]:
+        leaves = tree.levels[-1].centre.reshape(len(balls.centre), -1, 3)
+        away = leaves - balls.centre[:, None]
+        assert (np.linalg.norm(away, axis=2).max(axis=1) <= balls.radius + ROUNDING).all()
+        assert (np.abs(away).max(axis=1) <= balls.half_extents + ROUNDING).all()

@@ -1,0 +1,111 @@
+"""The benchmark runs, judges by its limits, and compares what gives the same answers."""
+
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.solve.adapters.bare import BareDaqp
+from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.study.bench.acceptance import promises
+from quasistatic_ref.study.bench.by_hand import hand_step
+from quasistatic_ref.study.bench.clouds import sampled, with_cloud
+from quasistatic_ref.study.bench.grasp import places
+from quasistatic_ref.study.bench.report import page, promise_rows
+from quasistatic_ref.study.bench.timing import in_turn, ratio
+from tests.helpers import error
+from tests.tolerances import ACTIVE_SET, OPTIMUM
+
+
+@pytest.fixture(scope="module")
+def at():
+    return places(3)
+
+
+def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
+    assert main(["bench", "--quick", "--json", "--out", str(tmp_path)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert json.loads((tmp_path / "bench.json").read_text()) == found
+    assert set(found["roads"]["microseconds"]) == {
+        "step, native", "DAQP alone", "step, through CVXPY", "step, CVXPY rebuilt each time",
+        "hand-written qpsolvers loop", "all distances, brute force",
+    }  # fmt: skip
+    asked = {(row["engine"], row["backend"]) for row in found["parts"]}
+    assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= asked
+    assert found["mujoco"].get("finite", True)
+    assert [row["points"] for row in found["clouds"]] == [992, 2000]
+    assert [row["bodies"] for row in found["chains"] + found["heaps"]] == [2, 4, 4]
+    text = (tmp_path / "bench.md").read_text()
+    for title in ("by every road", "By part", "certificate", "Points", "Rows of boxes", "Heaps"):
+        assert title in text
+    assert "the paper's 90 us" in text
+    assert (tmp_path / "step_times.png").is_file()
+
+
+def test_the_roads_lead_to_the_same_step(at):
+    native = at.scenario.simulator()
+    for q, goal in zip(at.q, at.goals, strict=True):
+        result = native.step(q, goal)
+        step, delta_q = result.step, result.solution.delta_q
+        assert error(step, hand_step(at.scenario, q, goal), delta_q) <= OPTIMUM
+        x = BareDaqp(native.problem.program)()[0]
+        alone, _ = from_natural(x, np.zeros(0), Scaled(step).units)
+        assert error(step, alone, delta_q) <= ACTIVE_SET
+
+
+def test_a_sampled_cloud_lies_on_the_bunny_and_is_grasped_like_it(at):
+    points = sampled(500)
+    assert points.shape == (500, 3)
+    other = with_cloud(at.scenario, points).simulator().step(at.q[0], at.goals[0])
+    own = at.scenario.simulator().step(at.q[0], at.goals[0])
+    np.testing.assert_allclose(other.points.phi, own.points.phi, rtol=0.0, atol=0.01)
+
+
+def test_times_are_taken_in_turn_and_the_least_is_kept():
+    calls = []
+    rounds = [{"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}] * 2
+    times = in_turn(rounds, repeat=2)
+    assert "".join(calls) == "abab" * 2
+    assert times["a"].shape == (2,)
+    assert (times["a"] > 0).all()
+
+
+def test_ratios_are_of_pairs():
+    # 2/1, 9/3, 8/2: the median is 3.
+    np.testing.assert_allclose(ratio(np.array([2.0, 9, 8]), np.array([1.0, 3, 2])), 3.0)
+
+
+ROADS = {
+    "microseconds": {"step, native": 180.0}, "over_solver": 12.5, "cvxpy_over_native": 9.0,
+    "rebuilt_over_native": 20.0, "by_hand_over_native": 1.5,
+}  # fmt: skip
+
+
+def test_each_promise_is_judged_by_its_limit():
+    clouds = [{"points": 1_000_000, "over_992": 5.0, "tree_seconds": 6.0}]
+    tables = {"roads": ROADS, "clouds": clouds, "exponents": {"bodies": 1.1, "contacts": None}}
+    judged = {p["what"]: p["holds"] for p in promises(tables)}
+    assert judged == {
+        "step over the bare solver": False,
+        "through CVXPY over native": True,
+        "rebuilt each step over native": False,
+        "hand-written loop over native": True,
+        "1e6 points over 992": True,
+        "tree of 1e6 points [s]": False,
+        "exponent in bodies, chains": True,
+    }
+    rows = promise_rows(promises(tables))
+    assert rows[1] == ("step over the bare solver", "12.5", "at most 12 (stretch 8)", "FAILS")
+
+
+def test_the_page_says_why_mujoco_was_not_run(tmp_path):
+    part = {"engine": "native", "backend": "daqp", "unsolved": 0, "distances": 1.0, "rows": 1.0,
+            "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
+    tables = {
+        "machine": {"system": "x", "python": "3", "numpy": "2"}, "roads": ROADS, "promises": [],
+        "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"}, "parts": [part],
+        "certification": {"off": 1.0}, "clouds": [], "chains": [], "contacts": [], "heaps": [],
+    }  # fmt: skip
+    assert "| not run | MuJoCo is not installed |" in page(tables)

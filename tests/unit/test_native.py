@@ -1,0 +1,218 @@
+"""The native engine: the program is CVXPY's, the answers are certified to the same bits."""
+
+from dataclasses import replace
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.engines import default_engine
+from quasistatic_ref.solve.extended import extension_rows, with_rows
+from quasistatic_ref.solve.native import ADAPTERS, NativeProblem, native_backends
+from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import changed, error, pinch, planted_step, random_step
+from tests.tolerances import ACTIVE_SET, EXACT, FOUR_ULP, OPTIMUM
+
+SHAPES = [
+    (7, 6, (6,) * 10 + (4,) * 5),
+    (3, 4, (6, 4)),
+    (0, 6, (4, 6, 4)),
+    (4, 0, (6, 6)),
+    (2, 2, ()),
+]
+every_backend = pytest.mark.parametrize("backend", [n for n in ADAPTERS if n in native_backends()])
+
+
+def some_limits(symbols):
+    """Two inequalities, of vectors and of a number, and an equation."""
+    return [
+        symbols.delta_q_a <= 1e-2,
+        cp.sum(symbols.delta_q_u) >= -0.5,
+        symbols.delta_q_a[0] == symbols.delta_q_bar_a[0],
+    ]
+
+
+def by_cvxpy(step, extension):
+    """H, g, and (A, b) of the inequalities, then of the equations, as CVXPY compiles them."""
+    problem = StepProblem(step, extension)
+    problem.fill(step)
+    data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
+    P = data["P"].toarray()
+    rows = -data["F"].toarray(), -data["G"], data["A"].toarray(), data["b"]
+    return np.triu(P) + np.triu(P, 1).T, -data["q"], *rows
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("shape", SHAPES[:2], ids=str)
+def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_included(shape, seed):
+    # CVXPY's rows go through i first, ours through the contacts; an equation is two rows of ours.
+    step = random_step(np.random.default_rng(seed), *shape)
+    extension = Extension(some_limits)
+    form = standard_form(with_rows(step, extension_rows(step, extension)))
+    H, g, A, b, E, e = by_cvxpy(step, extension)
+    order = [step.offsets[j] + i for i in range(6) for j in np.flatnonzero(step.counts > i)]
+    m, own = len(order), step.n_a + 1
+    ours = [*order, *range(m, m + own)]
+    for found, expected in (
+        (form.H, H), (form.A[ours], A), (form.b[ours], b),
+        (form.A[m + own], -E[0]), (form.b[m + own], -e[0]),
+        (form.A[m + own + 1], E[0]), (form.b[m + own + 1], e[0]),
+    ):  # fmt: skip
+        np.testing.assert_allclose(found, expected, rtol=FOUR_ULP, atol=0.0)
+    # g is a sum that may cancel, on either side in its own order: against its terms.
+    terms = np.concatenate([np.abs(step.K_q) @ np.abs(step.delta_q_bar_a), np.zeros(step.n_u)])
+    terms += np.abs(np.concatenate([step.tau_a, step.tau_u]))
+    assert (np.abs(form.g - g) <= FOUR_ULP * step.h * terms).all()
+
+
+@every_backend
+@pytest.mark.parametrize("far", [False, True])
+def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
+    # Written anew, it holds nothing of the step before.
+    problem = NativeProblem(random_step(rng), backend)
+    problem.answer(Scaled(random_step(rng)), 1e-9)
+    step = random_step(rng)
+    if far:
+        step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    problem.answer(Scaled(step), 1e-9)
+    natural = to_natural(step, natural_units(step))
+    expected = standard_form(within_reach(natural) if problem.adapter.NEAR else natural)
+    program = problem.program
+    for found, value in ((program.H, expected.H), (program.f, -expected.g),
+                         (program.A, expected.A), (program.b, expected.b)):  # fmt: skip
+        np.testing.assert_allclose(found, value, rtol=EXACT, atol=EXACT)
+
+
+@every_backend
+@pytest.mark.parametrize("shape", SHAPES, ids=str)
+def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
+    problem = None
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
+            problem = NativeProblem(step, backend) if problem is None else problem
+            truth = solve_step(step, "none").delta_q
+            answer = solve_step(step, backend, engine="native", certify="off", problem=problem)
+            assert error(step, answer.delta_q, truth) <= OPTIMUM
+
+
+@every_backend
+def test_certified_steps_have_the_bits_of_the_other_engine(backend, rng):
+    for step in (random_step(rng), pinch(), pinch(grip=0.5)):
+        one = solve_step(step, "none")
+        two = solve_step(step, backend, engine="native")
+        A = standard_form(step).A
+        np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
+        assert two.certificate.kind == "exact"
+        np.testing.assert_allclose(A.T @ two.lam, A.T @ one.lam, rtol=1e-12, atol=1e-15)
+
+
+def test_starting_warm_changes_no_answer_and_costs_fewer_iterations():
+    scenario = load_scenario("bunny_grasp", ["steps=75", "solver.backend=daqp"])
+    run = scenario.run(progress=False)
+    steps = [run.step_data(k) for k in range(55, 75)]
+    warm = NativeProblem(steps[0], "daqp")
+    cold = NativeProblem(steps[0], "daqp", warm=False)
+    iterations = np.zeros(2, dtype=int)
+    for step in steps:
+        one, two = (
+            solve_step(step, "daqp", engine="native", certify="off", problem=problem)
+            for problem in (warm, cold)
+        )
+        assert error(step, one.delta_q, two.delta_q) <= ACTIVE_SET
+        iterations += [one.statistics.iterations, two.statistics.iterations]
+    assert iterations[0] < iterations[1] / 2
+
+
+@pytest.mark.parametrize("backend", ["clarabel", "daqp"])
+def test_both_engines_take_the_bunny_the_same_way_bit_for_bit(backend):
+    runs = []
+    for engine in ("cvxpy", "native"):
+        settings = ["steps=72", f"solver.backend={backend}", f"solver.engine={engine}"]
+        scenario = load_scenario("bunny_grasp", settings)
+        assert scenario.engine == engine
+        runs.append(scenario.run(progress=False))
+    one, two = runs
+    assert (one["lam"] > 0).any()
+    for name in ("q", "delta_q", "A", "b", "phi"):
+        np.testing.assert_array_equal(one[name], two[name])
+    assert set(one["certificate"]) == set(two["certificate"]) == {"exact"}
+
+
+def test_a_step_in_sequence_is_one_that_passes_every_check():
+    scenario = load_scenario("bunny_grasp", ["solver.certify=off"])
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    for k in range(3):
+        result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
+        q = result.q
+    step = result.step
+    again = step.replace(contacts=changed(step.contacts))
+    assert again.same_as(step)
+    assert again.contacts.name == step.contacts.name
+    assert len(set(step.contacts.name)) == 15
+    for field in ("H", "counts", "mask", "offsets", "row_index", "row_contact"):
+        np.testing.assert_array_equal(getattr(again, field), getattr(step, field))
+
+
+REFUSED = {
+    "no native interface": ("highs", {}, "has no native interface here; use engine = 'cvxpy'"),
+    "another road": ("qpsolvers:daqp", {}, "has no native interface here"),
+    "unknown": ("dapq", {}, "is not a backend; did you mean 'daqp'"),
+}
+
+
+@pytest.mark.parametrize(("name", "options", "sentence"), REFUSED.values(), ids=REFUSED)
+def test_what_native_does_not_reach_is_refused_naming_what_it_does(name, options, sentence, rng):
+    with pytest.raises(BackendError, match="native' reaches clarabel, ") as caught:
+        solve_step(random_step(rng), name, engine="native", **options)
+    assert sentence in str(caught.value)
+
+
+def test_cones_and_extensions_that_are_more_than_rows_need_cvxpy(rng):
+    step = random_step(rng)
+    with pytest.raises(BackendError, match="cone = 'ellipsoid' needs engine = 'cvxpy'"):
+        solve_step(step.replace(cone="ellipsoid"), "clarabel", engine="native")
+    curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+    with pytest.raises(BackendError, match="more needs engine = 'cvxpy'"):
+        solve_step(step, "clarabel", engine="native", extension=curved)
+
+
+def test_an_engine_that_there_is_not_is_refused(rng):
+    with pytest.raises(BackendError, match="engine: must be one of cvxpy, native"):
+        solve_step(random_step(rng), engine="natve")
+    with pytest.raises(InputError, match=r"solver\.engine"):
+        load_scenario("sphere_spin", ["solver.engine=fast"])
+    with pytest.raises(InputError, match=r"solver\.backend: has no native interface"):
+        load_scenario("sphere_spin", ["solver.engine=native", "solver.backend=highs"])
+
+
+def test_the_default_is_native_where_it_reaches():
+    assert default_engine("clarabel", "pyramid") == "native"
+    assert default_engine("clarabel", "ellipsoid") == "cvxpy"
+    assert default_engine("highs", "pyramid") == "cvxpy"
+    assert default_engine("none", "pyramid") == "cvxpy"
+
+
+def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
+    scenario = load_scenario("sphere_spin", ["solver.certify=residual"])
+    curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+    settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual"}
+    q, goal = scenario.system.q_start, scenario.targets(scenario.h)
+    for engine, works in ((None, True), ("native", False)):
+        simulator = Simulator(
+            scenario.system, scenario.pairs, engine=engine, extension=lambda q: curved, **settings
+        )
+        if works:
+            assert simulator.step(q, goal).solution.certificate.kind == "residual"
+        else:
+            with pytest.raises(BackendError):
+                simulator.step(q, goal)
+    assert replace(scenario, engine=None).simulator().engine == "native"

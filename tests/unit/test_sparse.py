@@ -1,0 +1,192 @@
+"""Steps of many bodies: blocks, sparse form and sparse backends against the dense road."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
+from quasistatic_ref.errors import BackendError, StepDataError, StepNotSolved
+from quasistatic_ref.model import world
+from quasistatic_ref.simulate import simulator
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.simulator import simulate
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem
+from quasistatic_ref.step.sparse_form import Pattern, sparse_form
+from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.study.large import exponent, large_step, table
+from quasistatic_ref.study.piles import pile
+from tests.tolerances import EXACT, OPTIMUM, ROUNDING
+
+BOXES = (2, 1, 2)
+NO_TARGET = np.zeros(0)
+
+
+@pytest.fixture
+def always_sparse(monkeypatch):
+    monkeypatch.setattr(simulator, "SPARSE_FROM", 0)
+
+
+def step_after(some, count):
+    """The last of a few steps of a pile, and its solution."""
+    q = some.q
+    for _ in range(count):
+        result = some.simulator.step(q, NO_TARGET, some.force)
+        q = result.q
+    return result
+
+
+@pytest.mark.parametrize("scene", ["pile", "grasp"])
+def test_blocks_are_the_columns_of_the_dense_jacobian_and_the_others_are_zero(scene):
+    if scene == "pile":
+        made = pile(BOXES).simulator
+        system, pairs, layout = made.system, made.pairs, made.layout
+    else:  # a gripper with a base and a finger that mimics the other
+        loaded = load_scenario("bunny_grasp")
+        system, pairs, layout = loaded.system, loaded.pairs, loaded.simulator().layout
+    q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
+    kinematics = system.kinematics(q)
+    points = closest_points(pairs, kinematics)
+    dense = contacts(layout, points, kinematics)
+    sparse = BlockGeometry(layout, system.motion).contacts(points, kinematics)
+    assert sparse.n_v == system.n_v
+    np.testing.assert_allclose(sparse.J, dense.J, rtol=EXACT, atol=ROUNDING)
+    delta_q = np.sin(np.arange(system.n_v))
+    np.testing.assert_allclose(
+        sparse.motion(delta_q), dense.motion(delta_q), rtol=EXACT, atol=ROUNDING
+    )
+    assert sparse.name == dense.name
+
+
+def test_the_sparse_form_is_the_standard_form(always_sparse):
+    step = step_after(pile(BOXES), 2).step
+    form, dense = sparse_form(step, Pattern(step)), standard_form(step)
+    np.testing.assert_allclose(form.P.toarray(), np.triu(dense.H), rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(form.g, dense.g, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(form.A.toarray(), dense.A, rtol=EXACT, atol=ROUNDING)
+    np.testing.assert_allclose(form.b, dense.b, rtol=EXACT, atol=EXACT)
+    # Of 24 columns each row has those of its two bodies: 6 to the floor, 12 between boxes.
+    assert form.A.nnz == sum(
+        int(rows) * (6 if name.startswith("floor") else 12)
+        for name, rows in zip(step.contacts.name, step.counts, strict=True)
+    )
+
+
+@pytest.mark.parametrize("backend", sorted(ADAPTERS))
+def test_a_sparse_answer_is_the_certified_one_to_the_accuracy_of_its_backend(
+    always_sparse, backend
+):
+    result = step_after(pile(BOXES, backend=backend, certify="residual"), 3)
+    assert result.solution.certificate.kind == "residual"
+    exact = solve_step(result.step, certify="full")
+    wrong = np.linalg.norm(result.solution.delta_q - exact.delta_q)
+    assert 0 < wrong <= OPTIMUM * np.linalg.norm(exact.delta_q)
+    A = standard_form(result.step).A
+    np.testing.assert_allclose(
+        A.T @ result.solution.lam,
+        A.T @ exact.lam,
+        rtol=EXACT,
+        atol=OPTIMUM * np.abs(A.T @ exact.lam).max(),
+    )
+
+
+def test_the_size_of_a_step_and_its_certificate_decide_whether_it_is_sparse(monkeypatch):
+    # 2 x 1 x 2 boxes: 2 pairs with the floor, 2 side by side, 2 above each other, 4 contacts each
+    entries = 4 * 24 * 24
+    for limit, certify, sparse in (
+        (entries, "off", True),
+        (entries + 1, "off", False),
+        (entries, "full", False),
+    ):
+        monkeypatch.setattr(simulator, "SPARSE_FROM", limit)
+        some = pile(BOXES, certify=certify)
+        assert some.contacts == 24
+        step = step_after(some, 1).step
+        assert (step.contacts.blocks is not None) == sparse
+
+
+def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse):
+    some = pile(BOXES)
+    steps, taken = [], some.simulator.step
+
+    def noted(*given):
+        result = taken(*given)
+        steps.append(result.step)
+        return result
+
+    some.simulator.step = noted
+    run = simulate(
+        some.simulator,
+        some.q,
+        NO_TARGET,
+        3,
+        force=lambda t, q: some.force,
+        record="light",
+        progress=False,
+    )
+    assert run.steps == 3
+    assert not any("J" in step.contacts.__dict__ for step in steps)
+
+
+def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
+    step = step_after(pile(BOXES), 1).step
+    with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
+        SparseProblem(step, "daqp")
+
+
+def test_a_step_that_is_not_in_blocks_has_no_pattern():
+    step = step_after(pile(BOXES), 1).step
+    assert step.contacts.blocks is None
+    with pytest.raises(StepDataError, match="must be in blocks"):
+        Pattern(step)
+
+
+def test_a_large_step_without_solution_is_no_answer(always_sparse):
+    step = step_after(pile(BOXES), 1).step
+    problem = SparseProblem(step, "clarabel")
+    # Every second contact is the one before with its normal turned round, both 1 mm deep.
+    at, J = step.contacts, step.contacts.blocks.J.copy()
+    J[1::2] = J[::2]
+    n, d1, d2 = (np.repeat(vectors[::2], 2, axis=0) for vectors in (at.n, at.d1, at.d2))
+    n[1::2], d2[1::2] = -n[1::2], -d2[1::2]
+    blocks = replace(at.blocks, J=J)
+    torn = at.moved(lambda: at.name, blocks=blocks, phi=np.full(at.n_c, -1e-3), n=n, d1=d1, d2=d2)
+    stuck = step.moved(step.M_u, step.tau_a, step.tau_u, step.delta_q_bar_a, torn)
+    with pytest.raises(StepNotSolved, match="clarabel did not solve"):
+        problem.solution(stuck, 1e-12, "off")
+
+
+def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
+    def found(part):
+        monkeypatch.setattr(world, "PART", part)
+        system = load_scenario("bunny_grasp").system
+        q = system.integrate(system.q_start, 0.1 * np.cos(np.arange(system.n_v)))
+        kinematics = system.kinematics(q)
+        M_u, force = system.M_u(q), system.gravity_force(q, (1.0, 2.0, -9.81))
+        return len(system._workspace.parts), (kinematics.R, kinematics.t, kinematics.J, M_u, force)
+
+    (one, at_once), (two, in_parts) = found(100), found(1)
+    assert (one, two) == (1, 2)
+    for a, b in zip(at_once, in_parts, strict=True):
+        np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
+
+
+def test_the_exponent_is_that_of_a_power_law():
+    sizes = [10, 20, 40]
+    np.testing.assert_allclose(
+        exponent(sizes, [3e-4 * n**1.15 for n in sizes]), 1.15, rtol=ROUNDING
+    )
+
+
+def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
+    cost = large_step((3, 1, 1), steps=1)
+    # 3 on the floor and 2 between neighbours, 4 contacts of 6 rows each
+    assert (cost.bodies, cost.contacts, cost.coordinates, cost.rows) == (3, 20, 18, 120)
+    assert cost.sparse
+    assert 0 < sum(cost.parts.values()) <= cost.seconds * (1 + ROUNDING)
+    # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
+    assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
+    assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])

@@ -1,0 +1,196 @@
+"""Every committed result made anew, and what changed: ``python -m validation.release``.
+
+Each result is a command and the paths that it writes. The commands run one after the other (an hour
+or two on two cores in all; name results to make only those, ``--list`` shows them), and then git
+says what differs from the last commit: nothing, or only what depends on the machine (times), is
+what a release wants. Files are compared as bytes, pictures by their pixels.
+
+Exit status 1 if a command failed. What changed is for a person to judge, and is printed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib import image
+
+ROOT = Path(__file__).parent.parent
+CLI = "quasistatic_ref.cli.main"
+
+
+@dataclass(frozen=True)
+class Result:
+    """Something that is committed, and the command that makes it.
+
+    Parameters
+    ----------
+    name : str
+    command : tuple of str
+        Arguments of ``python -m``, run in the root of the repository; ``{temporary}`` is a folder.
+    writes : tuple of str
+        Committed files or folders that it makes, relative to the root.
+    copied : tuple of (str, str)
+        What is copied after it from the temporary folder: a pattern, and a committed folder.
+    output : str
+        The committed file that keeps the command's standard output, if one does.
+    """
+
+    name: str
+    command: tuple[str, ...]
+    writes: tuple[str, ...]
+    copied: tuple[tuple[str, str], ...] = ()
+    output: str = ""
+
+    @property
+    def available(self) -> bool:
+        """Whether its module, and for a sub-command that as well, exists in this checkout."""
+        module = self.command[0]
+        file = ROOT / Path(*module.split(".")).with_suffix(".py")
+        if module != CLI:
+            return file.exists()
+        return (ROOT / "quasistatic_ref" / "cli" / f"{self.command[1]}.py").exists()
+
+
+RESULTS = (
+    Result(
+        "vectors",
+        (CLI, "vectors", "generate", "--out", "validation/vectors"),
+        ("validation/vectors",),
+    ),
+    Result(
+        "claims",
+        (CLI, "validate", "--out", "{temporary}"),
+        ("validation/claims.md", "validation/figures"),
+        copied=(("claims.md", "validation"), ("figures/*.png", "validation/figures")),
+    ),
+    Result(
+        "figures",
+        (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
+         "--out", "{temporary}"),
+        ("docs/figures",),
+        copied=(("*.png", "docs/figures"),),
+    ),
+    Result(
+        "digits_of_backends",
+        ("validation.digits_of_backends",),
+        ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
+    ),
+    Result(
+        "pair_distances",
+        ("validation.pair_distances",),
+        ("validation/pair_distances.md",),
+        output="validation/pair_distances.md",
+    ),
+    Result(
+        "load_robots",
+        ("validation.load_robots",),
+        ("validation/load_robots.md",),
+        output="validation/load_robots.md",
+    ),
+    Result(
+        "exact_everywhere",
+        ("validation.exact_everywhere", "--out", "validation/results/exact_everywhere.txt"),
+        ("validation/results/exact_everywhere.txt",),
+    ),
+    *(
+        Result(
+            f"study_{study.stem}",
+            (CLI, "study", "run", str(study.relative_to(ROOT)),
+             "--out", str(study.with_suffix("").relative_to(ROOT))),
+            (str(study.with_suffix("").relative_to(ROOT)),),
+        )
+        for study in sorted((ROOT / "validation" / "studies").glob("*.toml"))
+    ),
+)  # fmt: skip
+
+
+def made(result: Result) -> bool:
+    """Run a result's command, and put what it made where it belongs; False if it failed."""
+    with tempfile.TemporaryDirectory() as temporary:
+        arguments = [argument.format(temporary=temporary) for argument in result.command]
+        command = [sys.executable, "-m", *arguments]
+        done = subprocess.run(
+            command, cwd=ROOT, stdout=subprocess.PIPE if result.output else None, check=False
+        )
+        if done.returncode:
+            return False  # what it would have written is left as it was
+        if result.output:
+            (ROOT / result.output).write_bytes(done.stdout)
+        for pattern, folder in result.copied:
+            for file in sorted(Path(temporary).glob(pattern)):
+                shutil.copy(file, ROOT / folder / file.name)
+    return True
+
+
+def git(*arguments: str) -> bytes:
+    """Standard output of a git command in the repository."""
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=True).stdout
+
+
+def changes(paths: tuple[str, ...]) -> list[str]:
+    """One line for each committed file among these paths that is now another, new or gone."""
+    said = git("status", "--porcelain", "-z", "--untracked-files=all", "--", *paths).decode()
+    lines = []
+    for entry in filter(None, said.split("\0")):
+        state, name = entry[:2].strip(), entry[3:]
+        if state == "??":
+            lines.append(f"{name}: new")
+        elif state == "D":
+            lines.append(f"{name}: gone")
+        elif name.endswith(".png"):
+            lines += [f"{name}: {said}"] if (said := picture_change(name)) else []
+        else:
+            added, removed, _ = git("diff", "--numstat", "HEAD", "--", name).decode().split("\t")
+            lines.append(f"{name}: {removed} lines are now {added} others")
+    return lines
+
+
+def picture_change(name: str) -> str:
+    """How a picture differs from the committed one; nothing if all its pixels are the same."""
+    before = image.imread(io.BytesIO(git("show", f"HEAD:{name}")), format="png")
+    after = image.imread(ROOT / name)
+    if before.shape != after.shape:
+        (old_height, old_width), (height, width) = before.shape[:2], after.shape[:2]
+        return f"{old_width} x {old_height} pixels are now {width} x {height}"
+    share = float((np.abs(before - after).max(axis=2) > 0).mean())
+    return f"{100 * share:.2f} % of its pixels differ" if share else ""
+
+
+def main() -> None:
+    """Make what is asked for, then print what changed."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help="all results by default")
+    parser.add_argument("--list", action="store_true", help="name the results and their files")
+    options = parser.parse_args()
+    known = {result.name: result for result in RESULTS if result.available}
+    if options.list:
+        for result in known.values():
+            print(f"{result.name}: {', '.join(result.writes)}")
+        return
+    unknown = [name for name in options.names if name not in known]
+    if unknown:
+        sys.exit(f"{unknown[0]} is no result of this checkout; there are {', '.join(known)}")
+    failed, report = [], []
+    for name in options.names or known:
+        print(f"== {name}", flush=True)
+        begun = time.perf_counter()
+        if not made(known[name]):
+            failed.append(name)
+        told = changes(known[name].writes) or ["as committed"]
+        report += [f"{name} ({time.perf_counter() - begun:.0f} s)", *(f"  {one}" for one in told)]
+    print("== what changed since the last commit", *report, sep="\n")
+    if failed:
+        sys.exit(f"failed: {', '.join(failed)}")
+
+
+if __name__ == "__main__":
+    main()
