@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from quasistatic_ref.figures.study_pens import pens, short
+from quasistatic_ref.figures.style import PAGE
 from quasistatic_ref.study.statistics import profile
 
-WIDTH: Final = 6.3
-"""Of a page's text [in]."""
 FURTHEST: Final = 1e4
 """Largest ratio of times that a profile shows."""
 DARK: Final = 0.6
@@ -30,7 +29,7 @@ def profiles(data: Mapping[str, Any]) -> Figure:
     names = list(dict.fromkeys(label for panel in panels for label in panel["labels"]))
     pen = pens(names)
     figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(WIDTH, 3.0), sharey=True, squeeze=False, layout="constrained"
+        1, len(panels), figsize=(PAGE, 3.0), sharey=True, squeeze=False, layout="constrained"
     )
     taus = np.geomspace(1, FURTHEST, 400)
     for axes, panel in zip(grid, panels, strict=True):
@@ -52,7 +51,7 @@ def success(data: Mapping[str, Any]) -> Figure:
     panels, levels = data["panels"], data["levels"]
     names = list(dict.fromkeys(label for panel in panels for label in panel["labels"]))[::-1]
     figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(WIDTH, 0.8 + 0.23 * len(names)), sharey=True, squeeze=False,
+        1, len(panels), figsize=(PAGE, 0.8 + 0.23 * len(names)), sharey=True, squeeze=False,
         layout="constrained",
     )  # fmt: skip
     for axes, panel in zip(grid, panels, strict=True):
@@ -79,7 +78,7 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
     names = list(dict.fromkeys(label for panel in panels for label in panel["lines"]))
     pen = pens(names)
     figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(WIDTH, 3.4), sharey=True, sharex=True, squeeze=False,
+        1, len(panels), figsize=(PAGE, 3.4), sharey=True, sharex=True, squeeze=False,
         layout="constrained",
     )  # fmt: skip
     for axes, panel in zip(grid, panels, strict=True):
@@ -106,7 +105,7 @@ def families(data: Mapping[str, Any]) -> Figure:
     panels = data["panels"]
     heights = [len(panel["labels"]) for panel in panels]
     figure, grid = plt.subplots(
-        len(panels), 1, figsize=(WIDTH, 1.3 + sum(0.45 + 0.21 * n for n in heights)),
+        len(panels), 1, figsize=(PAGE, 1.3 + sum(0.45 + 0.21 * n for n in heights)),
         squeeze=False, sharex=True, layout="constrained", height_ratios=heights,
     )  # fmt: skip
     for axes, panel in zip(grid[:, 0], panels, strict=True):

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.study import digits_time, families, profiles, success
 from quasistatic_ref.figures.study_sweep import sweep
-from quasistatic_ref.figures.style import paper_style
+from quasistatic_ref.figures.style import figure_style
 from quasistatic_ref.study.page import Picture
 
 KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
@@ -21,14 +21,14 @@ KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
 
 def drawn(picture: Picture) -> Figure:
     """The figure of a picture, in the common style."""
-    with paper_style():
+    with figure_style("paper"):
         return KINDS[picture.kind](picture.data)
 
 
 def images(picture: Picture) -> dict[str, bytes]:
     """``"png"`` and ``"svg"`` of a picture: equal bytes for equal data."""
     found = {}
-    with paper_style():
+    with figure_style("paper"):
         figure = drawn(picture)
         for kind, metadata in (("png", None), ("svg", {"Date": None})):
             stream = BytesIO()

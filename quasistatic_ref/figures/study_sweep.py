@@ -8,8 +8,8 @@ from typing import Any
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study import WIDTH
 from quasistatic_ref.figures.study_pens import pens
+from quasistatic_ref.figures.style import PAGE
 
 PANELS = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
 
@@ -18,7 +18,7 @@ def sweep(data: Mapping[str, Any]) -> Figure:
     """Two panels; a line a value of the second axis."""
     lines = data["lines"]
     pen = pens(list(lines))
-    figure, grid = plt.subplots(1, 2, figsize=(WIDTH, 2.7), layout="constrained")
+    figure, grid = plt.subplots(1, 2, figsize=(PAGE, 2.7), layout="constrained")
     first = [value for points in lines.values() for value, *_ in points]
     words = [v for v in dict.fromkeys(first) if isinstance(v, str)]
     for k, (axes, label) in enumerate(zip(grid, PANELS, strict=True)):

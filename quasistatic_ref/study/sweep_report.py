@@ -20,7 +20,8 @@ MEASURES = (
     ("exact", "exact steps [-]"),
 )
 UNITS = {"h": "s", "mu_omega": "m", "K_width": "N/m", "mu_v": "-", "k": "-"}
-"""Of axes that are well known by their names; those of others are the scenario's."""
+"""Of axes that are well known by their names."""
+OTHER = "the scenario's unit"
 
 WORDS = (
     "Each line is one run of the scenario with these values, every other number as its file says; "
@@ -67,7 +68,7 @@ def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[
     )  # fmt: skip
     where = f"sweep = {sweep['name']}"
     since = f"{sweep['link']} in {sweep['scenario']}, since {sweep['since']:g} s"
-    columns = (*(_axis(a) for a in axes), "outcome", *(words for _, words in names))
+    columns = (*(_axis(a, rows) for a in axes), "outcome", *(words for _, words in names))
     blocks: list[Block] = [Table(f"{since}.", where, columns, cells, left=len(axes) + 1)]
     whole = [row for row in ordered if row["outcome"] == "done"]
     if whole and len(axes) <= 2:
@@ -87,11 +88,14 @@ def _drawn(axes: Sequence[str], rows: Sequence[Row]) -> dict[str, Any]:
         lines.setdefault(key, []).append(
             (first, measures["rotation_deg"], measures["boundary_layer_um"])
         )
-    return {"axis": _axis(axes[0]), "lines": lines}
+    return {"axis": _axis(axes[0], rows), "lines": lines}
 
 
-def _axis(name: str) -> str:
-    return f"{name} [{UNITS[name]}]" if name in UNITS else name
+def _axis(name: str, rows: Sequence[Row]) -> str:
+    """An axis with its unit; one of words has none."""
+    if any(isinstance(row["values"][name], str) for row in rows):
+        return name
+    return f"{name} [{UNITS.get(name, OTHER)}]"
 
 
 def _sortable(value: object) -> tuple[int, float, str]:

@@ -6,10 +6,12 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.figures.study_images import images
+from quasistatic_ref.figures import faults
+from quasistatic_ref.figures.study_images import KINDS, drawn, images
 from quasistatic_ref.study.pack import shorter
 from quasistatic_ref.study.page_html import html_page
 from quasistatic_ref.study.page_markdown import markdown_page
@@ -209,6 +211,16 @@ def test_a_report_is_written_with_its_figures(store, tmp_path, capsys):
     assert (tmp_path / "report.html").read_text().count("data:image/svg+xml;base64,") == 4
 
 
+def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
+    made_store.sweep_written(tmp_path / "store")
+    every = (*report.pictures, *study_report(tmp_path / "store").pictures)
+    assert [picture.kind for picture in every] == list(KINDS)
+    for picture in every:
+        figure = drawn(picture)
+        assert faults(figure) == []
+        plt.close(figure)
+
+
 def test_a_report_is_the_same_when_it_is_made_again(store, report):
     again = study_report(store)
     assert markdown_page(again) == markdown_page(report)
@@ -255,7 +267,7 @@ def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
     report = study_report(tmp_path / "store")
     (_, where, columns, body), *_ = plain_report.parsed(markdown_page(report))
     assert where == "sweep = slide"
-    assert columns[:5] == ["mu", "h [s]", "outcome", "largest rotation [deg]",
+    assert columns[:5] == ["mu [the scenario's unit]", "h [s]", "outcome", "largest rotation [deg]",
                            "boundary layer [um]"]  # fmt: skip
     ordered = sorted(rows, key=lambda row: (row["values"]["mu"], row["values"]["h"]))
     for row, line in zip(ordered, body, strict=True):
