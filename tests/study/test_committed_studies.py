@@ -1,0 +1,33 @@
+"""The committed studies: each report is what the rows beside it give."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.study.page_markdown import markdown_page
+from quasistatic_ref.study.report import study_report
+from quasistatic_ref.study.store import rows_read, study_read
+
+STUDIES = Path(__file__).parents[2] / "validation" / "studies"
+MOST = 3 * 2**20
+"""Largest study that is kept in the repository [bytes]."""
+
+
+@pytest.mark.parametrize("name", ["default", "bunny_torsion"])
+def test_a_committed_report_is_what_the_rows_beside_it_give(name):
+    folder = STUDIES / name
+    report = study_report(folder)
+    assert (folder / "report.md").read_text("utf-8") == markdown_page(report)
+    drawn = {path.stem for path in (folder / "figures").glob("*.png")}
+    assert drawn == {picture.name for picture in report.pictures}
+    assert sum(path.stat().st_size for path in folder.rglob("*.*")) < MOST
+
+
+def test_the_committed_study_is_of_eight_solvers_and_two_thousand_problems():
+    rows, study = rows_read(STUDIES / "default"), study_read(STUDIES / "default")
+    facts = [json.loads(line) for line in (STUDIES / "default/problems.jsonl").open()]
+    assert len({fact["id"] for fact in facts}) == study["problems"]["count"] >= 2000
+    assert len({row["solver"] for row in rows}) >= 8
+    asked = {row["problem"] for row in rows}
+    assert asked == {fact["id"] for fact in facts}
