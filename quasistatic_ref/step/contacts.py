@@ -132,12 +132,20 @@ class Contacts(Lazy):
         blocks: Blocks | None = None,
         **geometry: Array,
     ) -> Contacts:
-        """The same contacts elsewhere: `geometry` (phi [m], n, d1, d2, J) anew, unchecked.
+        """The same contacts elsewhere: `geometry` anew, unchecked.
 
         With blocks in place of J, J is formed from them when somebody asks for it.
 
         For steps in sequence: what does not depend on where they are is not made again, and
         their names are not made before somebody asks for them.
+
+        Parameters
+        ----------
+        name : callable
+            The names of the contacts.
+        blocks : Blocks, optional
+        geometry : ndarray
+            phi of shape (n_c,) [m], and n, d1, d2 and J in the shapes of the class.
         """
         other = object.__new__(Contacts)
         other.__dict__.update(self.__dict__, **geometry, later={"name": name})
