@@ -182,7 +182,9 @@ BAD_OUTPUTS = {
 }
 
 
-@pytest.mark.parametrize(("spoil", "says"), BAD_OUTPUTS.items(), ids=lambda v: str(v)[:30])
+@pytest.mark.parametrize(
+    ("spoil", "says"), BAD_OUTPUTS.items(), ids=[spoil.__name__ for spoil in BAD_OUTPUTS]
+)
 def test_one_bad_output_fails_alone(folder, spoil, says):
     answers = right_answers("rows")
     name = next(name for name, output in answers.items() if len(output["b"]) > 3)
