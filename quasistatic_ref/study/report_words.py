@@ -38,8 +38,8 @@ LIMITATIONS = (
     "rounded ones.",
     "Calls are made from Python. For calls of microseconds the road takes longer than the solver; "
     "`seconds.solver` of a row is the solver's own account, where it gives one.",
-    "The settings of a solver are asked in a fixed order, and its first call on a problem finds cold "
-    "caches, which costs some hundredths of a millisecond: times of different solvers at one "
+    "The settings of a solver are asked in a fixed order, and its first call on a problem finds "
+    "cold caches, which costs some hundredths of a millisecond: times of different solvers at one "
     "setting can be compared, those of one solver at different settings only beyond that.",
     "Steps of one run resemble each other, so the number of problems overstates how much was seen. "
     "A profile shows who is near the fastest; the order of the others can change when the "

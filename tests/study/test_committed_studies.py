@@ -24,9 +24,18 @@ def test_a_committed_report_is_what_the_rows_beside_it_give(name):
     assert sum(path.stat().st_size for path in folder.rglob("*.*")) < MOST
 
 
+def test_the_page_on_which_solver_to_use_shows_the_table_of_the_report():
+    page = (STUDIES.parents[1] / "docs" / "solver_study.md").read_text("utf-8")
+    shown = [line for line in page.splitlines() if line.startswith("| qpsolvers:")]
+    report = (STUDIES / "default" / "report.md").read_text("utf-8").splitlines()
+    assert len(shown) >= 8
+    assert shown == [line for line in report if line.startswith("| qpsolvers:")][: len(shown)]
+
+
 def test_the_committed_study_is_of_eight_solvers_and_two_thousand_problems():
     rows, study = rows_read(STUDIES / "default"), study_read(STUDIES / "default")
-    facts = [json.loads(line) for line in (STUDIES / "default/problems.jsonl").open()]
+    text = (STUDIES / "default" / "problems.jsonl").read_text("utf-8")
+    facts = [json.loads(line) for line in text.splitlines()]
     assert len({fact["id"] for fact in facts}) == study["problems"]["count"] >= 2000
     assert len({row["solver"] for row in rows}) >= 8
     asked = {row["problem"] for row in rows}
