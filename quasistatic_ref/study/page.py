@@ -89,17 +89,32 @@ def _word(value: object) -> str:
 
 
 def percent(value: float) -> str:
-    """A share [%]."""
+    """A share, to a tenth.
+
+    Parameters
+    ----------
+    value : float [%]
+    """
     return f"{value:.1f}"
 
 
 def digits(value: float) -> str:
-    """Correct digits [-]."""
+    """Correct digits, to a tenth.
+
+    Parameters
+    ----------
+    value : float [-]
+    """
     return f"{value:.1f}"
 
 
 def milliseconds(seconds: float) -> str:
-    """A time [s] in milliseconds, to three figures."""
+    """A time in milliseconds, to three figures.
+
+    Parameters
+    ----------
+    seconds : float [s]
+    """
     return f"{1e3 * seconds:.3g}"
 
 

@@ -129,6 +129,8 @@ def _compared(
     for setting in main:
         own = common(chosen(columns, {**base, "setting": setting}))
         labels = [label for (label,), _ in groups(own, ["label"])]
+        if not labels:
+            continue
         good = matrix(own, "digits", labels)
         ratios = performance_ratios(matrix(own, "seconds", labels), good >= NEEDED.get(setting, 6))
         title = f"{setting}: right to {NEEDED.get(setting, 6):g} digits"
@@ -144,7 +146,14 @@ def _compared(
         _against_time(study, columns, settings, base),
     ]  # fmt: skip
     tables = [solver_table(columns, {**base, "setting": s}) for s in settings]
-    return [*blocks, *tables]
+    return [*map(_drawable, blocks), *tables]
+
+
+def _drawable(block: Block) -> Block:
+    """A picture, or a sentence in place of one that would be empty."""
+    if isinstance(block, Picture) and not block.data["panels"]:
+        return f"No problem was asked of all solvers: nothing to draw of `{block.name}`."
+    return block
 
 
 def _against_time(
@@ -201,6 +210,8 @@ def _by_family(
         where = {**base, "setting": setting}
         labels, found = family_digits(columns, where, families)
         more = same_problems(common(chosen(columns, where)))
+        if not labels:
+            continue
         panels.append(
             {"title": f"setting {setting}", "labels": labels, "families": families, "digits": found}
         )
@@ -208,7 +219,8 @@ def _by_family(
         said.append(f"setting = {setting}{more}")
     caption = "Median digits delivered, by problem family and solver."
     rows = f"{filter_words(base)}; {'; '.join(said)}"
-    return [Picture("families", "families", {"panels": panels}, caption, rows), *tables]
+    picture = Picture("families", "families", {"panels": panels}, caption, rows)
+    return [_drawable(picture), *tables]
 
 
 def _contrasts(

@@ -79,7 +79,16 @@ def false_claims(columns: Columns, settings: Sequence[str], where: Where) -> Tab
 
 
 def worst_claims(columns: Columns, promised: Mapping[str, float], most: int = 12) -> Table:
-    """The false claims that were furthest off, one a solver and setting."""
+    """The false claims that were furthest off, one of each solver, setting, units and warmth.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray
+    promised : mapping of str to float
+        Digits, by setting [-].
+    most : int
+        How many are shown.
+    """
     wrong = chosen(columns, {"wrong": True})
     worst = [
         {name: part[name][np.argmin(part["digits"])] for name in part}
@@ -153,7 +162,15 @@ def contrast(
 def family_digits(
     columns: Columns, where: Where, families: Iterable[str]
 ) -> tuple[list[str], np.ndarray]:
-    """Median digits delivered: solvers, and an array with a row each and a column a family."""
+    """Median digits delivered, of every solver on every family.
+
+    Returns
+    -------
+    list of str
+        The solvers.
+    ndarray, shape (solvers, families) [-]
+        NaN where there is no problem.
+    """
     own = common(chosen(columns, where))
     labels = [label for (label,), _ in groups(own, ["label"])]
     names = list(families)
@@ -166,7 +183,17 @@ def family_digits(
 def family_table(
     labels: Sequence[str], found: np.ndarray, where: Where, families: Sequence[str], more: str
 ) -> Table:
-    """The numbers of the heat map."""
+    """The numbers of the heat map.
+
+    Parameters
+    ----------
+    labels : sequence of str
+    found : ndarray, shape (solvers, families) [-]
+    where : mapping
+    families : sequence of str
+    more : str
+        The end of the filter.
+    """
     rows = tuple(
         (family, *("-" if np.isnan(v) else digits(float(v)) for v in column))
         for family, column in zip(families, found.T, strict=True)

@@ -16,7 +16,7 @@ def shifted_geometric_mean(seconds: np.ndarray, shift: float = SHIFT) -> float:
 
     Parameters
     ----------
-    seconds : ndarray [s]
+    seconds : ndarray, shape (n,) [s]
     shift : float [s]
 
     Returns

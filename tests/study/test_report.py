@@ -9,10 +9,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures import faults
 from quasistatic_ref.figures.study_images import KINDS, drawn, images
-from quasistatic_ref.study.pack import shorter
 from quasistatic_ref.study.page_html import html_page
 from quasistatic_ref.study.page_markdown import markdown_page
 from quasistatic_ref.study.report import study_report
@@ -21,7 +19,6 @@ from quasistatic_ref.study.statistics import (
     profile,
     shifted_geometric_mean,
 )
-from quasistatic_ref.study.store import rows_read
 from tests.study import made_store, plain_report
 from tests.study.plain_report import agrees, delivered, number, picked, quantile, rows_of_line
 
@@ -225,41 +222,6 @@ def test_a_report_is_the_same_when_it_is_made_again(store, report):
     again = study_report(store)
     assert markdown_page(again) == markdown_page(report)
     assert images(again.pictures[1]) == images(report.pictures[1])
-
-
-def test_a_packed_store_says_the_same_of_digits_and_claims(store, report, tmp_path, capsys):
-    assert main(["study", "pack", str(store), "--out", str(tmp_path)]) == 0
-    capsys.readouterr()
-    short = rows_read(tmp_path)
-    assert [shorter(row) for row in short] == short
-    for row, whole in zip(short, rows_read(store), strict=True):
-        assert row["wrong"] == whole["wrong"]
-        digits = whole["digits"]["delta_q"]
-        if digits is not None:
-            assert digits - 1.001e-3 < row["digits"]["delta_q"] <= digits
-    packed_tables = plain_report.parsed(markdown_page(study_report(tmp_path)))
-    for (title, _, columns, body), (_, _, _, whole) in zip(
-        packed_tables, plain_report.parsed(markdown_page(report)), strict=True
-    ):
-        for k, column in enumerate(columns):
-            if ">=" in column or "wrong" in title:
-                assert [line[k] for line in body] == [line[k] for line in whole], title
-
-
-def test_a_packed_store_that_was_cut_off_is_refused(store, tmp_path, capsys):
-    main(["study", "pack", str(store), "--out", str(tmp_path)])
-    capsys.readouterr()
-    path = tmp_path / "rows.jsonl.xz"
-    path.write_bytes(path.read_bytes()[:-40])
-    with pytest.raises(InputError, match="is no xz file, or was cut off"):
-        study_report(tmp_path)
-
-
-def test_a_store_without_rows_is_refused(store, tmp_path):
-    (tmp_path / "study.json").write_text((store / "study.json").read_text())
-    (tmp_path / "rows.jsonl").write_text("")
-    with pytest.raises(InputError, match="holds no rows yet"):
-        study_report(tmp_path)
 
 
 def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
