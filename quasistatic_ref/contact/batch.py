@@ -104,18 +104,42 @@ class Batch:
 
     def nearest(self, poses: PairPoses) -> Nearest:
         """The closest points at the poses of all pairs."""
+        return self.selection(*self.distances(poses))
+
+    def distances(self, poses: PairPoses) -> tuple[Array, Array, Array]:
+        """What is measured of all points of the lists; NaN where a row is shorter.
+
+        Returns
+        -------
+        phi : ndarray, shape (r W,)
+            Signed distances [m].
+        normal : ndarray, shape (r W, 3)
+            Unit normals in the frames of the solids [-].
+        limit : ndarray, shape (r,)
+            As :meth:`limit` has it [m].
+        """
         pose = poses.relative
         # The sums of `rotated`, without broadcasting, which takes longer than the sums.
         term = pose.T.take(self.of, axis=2) * self.columns
         x = term[0] + term[1] + term[2] + term[3]
         phi, normal = self.measured(x.T)
+        return phi, normal, self.limit(pose)
+
+    def selection(self, phi: Array, normal: Array, limit: Array) -> Nearest:
+        """The closest of the points whose :meth:`distances` these are.
+
+        Parameters
+        ----------
+        phi, normal, limit : ndarray, shapes (r W,), (r W, 3) and (r,)
+            [m], [-] and [m].
+        """
         if self.r == 1:  # its own order is the order
             found = closest(phi, int(self.n_c[0]))
         else:
             order = phi.reshape(self.r, -1).argsort(axis=1, kind="stable")
             found = order.ravel().take(self.ranked) + self.start
         distance = phi.take(found)
-        proved = distance.take(self.furthest) < self.limit(pose)
+        proved = distance.take(self.furthest) < limit
         return Nearest(
             distance,
             normal.T.take(found, axis=1),

@@ -18,6 +18,9 @@ CONTACTS = (2, 4, 8, 16, 32)
 """Contacts of each pair in a row of ROW bodies."""
 
 ROW = 16
+SHORT, FEW = 3, (1, 5, 25)
+"""A row of SHORT bodies has five pairs: 5 contacts and more."""
+
 PILES = ((2, 2, 2), (3, 3, 3), (5, 5, 4))
 WARM_UP, STEPS = 2, 5
 """Steps that are not timed, and that are."""
@@ -101,6 +104,11 @@ def chains(sizes: Sequence[int] = CHAINS, backend: str = "clarabel") -> list[Lar
 def contact_counts(counts: Sequence[int] = CONTACTS, backend: str = "clarabel") -> list[LargeStep]:
     """A row of ROW bodies with more and more contacts."""
     return [large_step((ROW, 1, 1), k, backend) for k in counts]
+
+
+def few_contacts(counts: Sequence[int] = FEW, backend: str = "clarabel") -> list[LargeStep]:
+    """A row of SHORT bodies with few contacts."""
+    return [large_step((SHORT, 1, 1), k, backend) for k in counts]
 
 
 def piles(

@@ -37,6 +37,8 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert found["mujoco"].get("finite", True)
     assert [row["points"] for row in found["clouds"]] == [992, 2000]
     assert [row["bodies"] for row in found["chains"] + found["heaps"]] == [2, 4, 4]
+    assert [row["contacts"] for row in found["contacts"]] == [5, 25]
+    assert all(row["selection"] > 0 for row in found["parts"])
     text = (tmp_path / "bench.md").read_text()
     for title in ("by every road", "By part", "certificate", "Points", "Rows of boxes", "Heaps"):
         assert title in text
@@ -102,10 +104,10 @@ def test_each_promise_is_judged_by_its_limit():
 
 def test_the_page_says_why_mujoco_was_not_run(tmp_path):
     part = {"engine": "native", "backend": "daqp", "unsolved": 0, "distances": 1.0, "rows": 1.0,
-            "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
+            "selection": 1.0, "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
     tables = {
-        "machine": {"system": "x", "python": "3", "numpy": "2"}, "roads": ROADS, "promises": [],
-        "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"}, "parts": [part],
-        "certification": {"off": 1.0}, "clouds": [], "chains": [], "contacts": [], "heaps": [],
+        "machine": {"system": "x", "python": "3", "numpy": "2", "load": "y"}, "roads": ROADS,
+        "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
+        "parts": [part], "certification": {"off": 1.0}, "clouds": [], "chains": [], "contacts": [], "heaps": [],
     }  # fmt: skip
     assert "| not run | MuJoCo is not installed |" in page(tables)

@@ -20,10 +20,10 @@ from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeProblem, native_backends
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.study.bench.by_hand import hand_step
-from quasistatic_ref.study.bench.timing import Job, in_turn, microseconds, ratio
+from quasistatic_ref.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
 
 SETTINGS = ["solver.certify=off", "record=light"]
-PARTS = ("distances", "rows", "solve", "integrate")
+PARTS = ("distances", "selection", "rows", "solve", "integrate")
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +59,13 @@ def places(steps: int, backend: str = "daqp") -> Places:
 
 def roads(at: Places, repeat: int) -> dict[str, Any]:
     """The step with DAQP natively, beside every other road and DAQP alone on the same program."""
-    native = at.scenario.simulator()
-    compiled = replace(at.scenario, engine=CVXPY).simulator()
-    native.step(at.q[0], at.goals[0])  # builds the program that both solve
+    run = _Run(at)
+    native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
+    run.step(0)  # builds the program that both solve
     assert isinstance(native.problem, NativeProblem)
     alone_call = BareDaqp(native.problem.program)
-    # Each in turn with the native step alone, and that after another one: it then finds the caches
-    # as a step of a run does, and not as CVXPY left them.
+    # Each in turn with a step of a native run, and that after another step: it then finds the
+    # caches as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(compiled.step, q, goal),
@@ -76,14 +76,13 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     told: dict[str, float] = {}
     ratios: dict[str, float] = {}
     for name, other in others.items():
-        few = slice(None, None, FEWER.get(name, 1))
         rounds: list[dict[str, Job]] = [
             {
-                "before": partial(native.step, q, goal),
-                "native": partial(native.step, q, goal),
-                name: other(q, goal),
+                "before": partial(run.step, k - 1),
+                "native": partial(run.step, k),
+                name: other(at.q[k], at.goals[k]),
             }
-            for q, goal in zip(at.q[few], at.goals[few], strict=True)
+            for k in range(1, len(at.q), 2 * FEWER.get(name, 1))
         ]
         # The slow ones wait for their turn on a busy machine, and that is not their time.
         clock = time.perf_counter if name == "DAQP alone" else time.thread_time
@@ -99,8 +98,20 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     }
 
 
-FEWER = {"step, CVXPY rebuilt each time": 5, "step, through CVXPY": 2}
-"""Every how many steps the slow roads are taken."""
+FEWER = {"step, CVXPY rebuilt each time": 3}
+"""Every how many rounds the slow roads are taken."""
+
+
+class _Run:
+    """A native run along the same targets: each step starts where the one before ended."""
+
+    def __init__(self, at: Places) -> None:
+        self.at, self.simulator, self.q, self.k = at, at.scenario.simulator(), at.q[0], 0
+
+    def step(self, k: int) -> None:
+        """Step k; from the place recorded there, if the last one was not the one before."""
+        q = self.q if k == self.k else self.at.q[k]
+        self.q, self.k = self.simulator.step(q, self.at.goals[k]).q, k + 1
 
 
 def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
@@ -122,9 +133,21 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
                 except StepNotSolved:
                     failed[key] += 1
                     continue
+                # Told apart by selecting once more.
+                lap["selection"] = _selection(simulator, q)
+                lap["distances"] -= lap["selection"]
                 row = np.array([lap[part] for part in PARTS])
                 taken[key][k] = np.minimum(taken[key][k], row)
     return [_row(key, taken[key], failed[key]) for key in simulators]
+
+
+def _selection(simulator: Simulator, q: Array) -> float:
+    """Time of finding the closest points among those that are measured [s]."""
+    clouds, at = simulator.tracker.clouds, simulator.system.kinematics(q)
+    assert clouds is not None
+    poses = clouds.placements.poses(at.R, at.t)
+    measured = [(batch, batch.distances(poses)) for batch in clouds.batches]
+    return seconds(lambda: [batch.selection(*found) for batch, found in measured])
 
 
 UNFIT = ("highs",)

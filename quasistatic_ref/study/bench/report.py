@@ -38,8 +38,9 @@ def page(tables: Mapping[str, Any]) -> str:
         "# What a step costs",
         "",
         "Written by `quasistatic-ref bench`; the numbers are those of one machine "
-        f"({m['system']}, Python {m['python']}, NumPy {m['numpy']}), medians, what is compared "
-        "taking turns in one process. Nothing is certified unless it says so, records are light.",
+        f"({m['system']}, Python {m['python']}, NumPy {m['numpy']}, {m['load']}), medians, what is "
+        "compared taking turns in one process. Nothing is certified unless it says so, records are "
+        "light.",
         "",
         f"In short: {paper_sentence(tables)}.",
         "",
@@ -68,7 +69,7 @@ def _roads(tables: Mapping[str, Any]) -> Rows:
 
 
 def _parts(parts: Sequence[Mapping[str, Any]]) -> Rows:
-    names = ("distances", "rows", "solve", "integrate", "step")
+    names = ("distances", "selection", "rows", "solve", "integrate", "step")
     rows: Rows = [("engine", "backend", *names, "unsolved")]
     for row in parts:
         times = [f"{row[name]:.1f}" for name in names]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -18,10 +19,12 @@ from quasistatic_ref.study.bench.grasp import certification, parts, places, road
 from quasistatic_ref.study.bench.mujoco_grasp import mujoco_grasp
 from quasistatic_ref.study.large import (
     CHAINS,
+    FEW,
     LargeStep,
     chains,
     contact_counts,
     exponent,
+    few_contacts,
     piles,
 )
 
@@ -46,6 +49,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
         raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
     steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
+    load = f"{os.cpu_count()} processors, load before the run {_load()}"
     at = places(steps)
     tell("roads")
     found["roads"] = roads(at, repeat)
@@ -61,12 +65,15 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     tell("sizes")
     rows = chains((2, 4) if quick else (1, 5, *CHAINS))
     counts = [] if quick else contact_counts()
+    few = few_contacts(FEW[:2] if quick else FEW)
     heaps = piles(((2, 1, 2),)) if quick else piles()
-    found["chains"], found["contacts"], found["heaps"] = map(_records, (rows, counts, heaps))
+    sizes = rows, [*few, *counts], heaps
+    found["chains"], found["contacts"], found["heaps"] = map(_records, sizes)
     found["exponents"] = {
         "bodies": _fitted([row for row in rows if row.bodies >= CHAINS[0]], "bodies"),
         "contacts": _fitted(counts, "contacts"),
     }
+    found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"], found["times_paper"] = promises(found), from_paper(found)
     return found
 
@@ -79,6 +86,11 @@ def machine() -> dict[str, str]:
         "numpy": np.__version__,
         "system": f"{platform.system()} {platform.machine()}",
     }
+
+
+def _load() -> str:
+    """How many processes wanted to run in the last minute, where the system says so."""
+    return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
 
 
 def _records(steps: Sequence[LargeStep]) -> list[dict[str, Any]]:
