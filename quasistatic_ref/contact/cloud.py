@@ -121,10 +121,10 @@ def distance_to_rounded_box(
     beyond = np.maximum(excess, 0.0)
     outside = _norm(beyond)
     inside = np.maximum.reduce(excess, axis=-1)
-    is_outside = outside > 0
+    is_inside = outside == 0
     nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
-    away = np.where(is_outside[..., None], beyond, nearest_face)
-    away /= np.where(is_outside, outside, 1.0)[..., None]
+    away = np.where(is_inside[..., None], nearest_face, beyond)
+    away /= (outside + is_inside)[..., None]
     # Zero has the positive sign, whichever zero it is.
     normal = np.copysign(away, points + 0.0)
     return outside + np.minimum(inside, 0.0) - radius, normal

@@ -19,11 +19,13 @@ Vector = list[float]
 
 def position(joint: Joint, q: Vector, delta_q: Vector) -> Vector:
     """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
-    R, own, at = _rotation(joint, q), delta_q[joint.v], q[place(joint)]
+    own, at = delta_q[joint.v], q[joint.q]
     if joint.kind == "planar":
         own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
     x, y, z = translation(own[:3], own[3:])
-    return [x_i + (a * x + b * y + c * z) for x_i, (a, b, c) in zip(at, R, strict=False)]
+    (a, b, c), (d, e, f), (g, h, i) = _rotation(joint, q)
+    moved = [at[0] + (a * x + b * y + c * z), at[1] + (d * x + e * y + f * z)]
+    return moved if joint.kind == "planar" else [*moved, at[2] + (g * x + h * y + i * z)]
 
 
 def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:
@@ -39,10 +41,11 @@ def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:
     """
     if joint.kind == "continuous":
         return [_turn(q[joint.q], q_next[joint.q])]
-    R, where = _rotation(joint, q), place(joint)
-    x, y, z = [*(b - a for a, b in zip(q[where], q_next[where], strict=True)), 0.0][:3]
-    moved = [a * x + b * y + c * z for a, b, c in zip(*R, strict=True)]
-    if joint.kind == "planar":
+    planar, here, there = joint.kind == "planar", q[joint.q], q_next[joint.q]
+    x, y, z = there[0] - here[0], there[1] - here[1], 0.0 if planar else there[2] - here[2]
+    (a, b, c), (d, e, f), (g, h, i) = _rotation(joint, q)
+    moved = [a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + i * z]
+    if planar:
         angle = _turn(q[joint.q][2:], q_next[joint.q][2:])
         return [*linear_part([*moved[:2], 0.0], [0.0, 0.0, angle])[:2], angle]
     angular = delta_q[joint.v][3:]

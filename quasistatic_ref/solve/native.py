@@ -98,10 +98,11 @@ class NativeProblem:
         if step is self.fitting:  # asked by a simulator, and again when it is solved
             return True
         like = self.like
-        fits = (
+        # A step that was moved from another shares its counts, and all shapes.
+        fits = step.counts is like.counts or (
             (step.n_a, step.n_u) == (like.n_a, like.n_u)
             and step.cone == like.cone
-            and (step.counts is like.counts or np.array_equal(step.counts, like.counts))
+            and np.array_equal(step.counts, like.counts)
             and len(step.extra.names) == len(like.extra.names)
         )
         self.fitting = step if fits else None

@@ -108,6 +108,7 @@ def test_the_page_says_why_mujoco_was_not_run(tmp_path):
     tables = {
         "machine": {"system": "x", "python": "3", "numpy": "2", "load": "y"}, "roads": ROADS,
         "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
-        "parts": [part], "certification": {"off": 1.0}, "clouds": [], "chains": [], "contacts": [], "heaps": [],
+        "parts": [part], "certification": {"off": 1.0}, "clouds": [],
+        "chains": [], "contacts": [], "heaps": [],
     }  # fmt: skip
     assert "| not run | MuJoCo is not installed |" in page(tables)
