@@ -140,6 +140,7 @@ class CloudTracker:
         self.order = np.argsort(np.array(self.pair)[owner], kind="stable")
         row = owner[self.order]
         self.side, self.sign = np.concatenate([row, len(self.solids) + row]), self.signs[row, None]
+        self.cloud_side = self.side[len(row) :]
         self.swaps = bool((self.sign < 0).any())
         n_c = np.array([self.n_c[row] for row in self.rows])
         self.last = np.cumsum(n_c) - 1
@@ -168,7 +169,7 @@ class CloudTracker:
         turned = term[0] + term[1] + term[2]
         count = len(self.order)
         n, centre = turned[:, :count], turned[:, count:]
-        centre += poses.t.T.take(self.side[count:], axis=1)
+        centre += poses.t.T.take(self.cloud_side, axis=1)
         phi = nearest.phi
         foot = centre - phi * n
         n, foot, centre = np.ascontiguousarray(n.T), foot.T, centre.T

@@ -137,21 +137,22 @@ class Order:
         return q if self.same else q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
-        """Configuration in pinocchio's order, from the paper's; both of shape (n_q,)."""
-        return self._back(np.asarray(q, dtype=np.float64), self.q_back)
+        """Configuration in pinocchio's order, from the paper's; ValueError unless (n_q,)."""
+        q = np.asarray(q, dtype=np.float64)
+        if q.shape != self.q.shape:
+            raise ValueError(f"expected shape {self.q.shape}, not {q.shape}")
+        return q if self.same else q.take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
         """Last axis, shape (..., n_v), from pinocchio's order to the paper's; of delta_q, J."""
         return v if self.same else v.take(self.v, axis=-1)
 
     def model_v(self, v: Array) -> Array:
-        """Vector of delta_q in pinocchio's order, from the paper's; both of shape (n_v,)."""
-        return self._back(np.asarray(v, dtype=np.float64), self.v_back)
-
-    def _back(self, values: Array, at: Indices) -> Array:
-        if values.shape != at.shape:
-            raise ValueError(f"expected shape {at.shape}, not {values.shape}")
-        return values if self.same else values.take(at)
+        """Vector of delta_q in pinocchio's order, from the paper's; ValueError unless (n_v,)."""
+        v = np.asarray(v, dtype=np.float64)
+        if v.shape != self.v.shape:
+            raise ValueError(f"expected shape {self.v.shape}, not {v.shape}")
+        return v if self.same else v.take(self.v_back)
 
 
 def joint_key(joint: str) -> str:

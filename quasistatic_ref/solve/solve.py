@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextvars import copy_context
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -244,7 +244,7 @@ def _attempt(question: _Question) -> tuple[Answer | None, SolverStatistics]:
     try:
         answer = question.answer()
     except StepNotSolved as failure:
-        return None, replace(statistics, status=f"failed: {failure.status}", digits=0.0)
+        return None, statistics._replace(status=f"failed: {failure.status}", digits=0.0)
     return answer, answer.statistics
 
 
@@ -254,7 +254,7 @@ def _graded(
     """The statistics of a backend with the correct digits of its answer."""
     said, lam_said = from_natural(answer.delta_q, answer.lam, units)
     digits = correct_digits(step, said, delta_q, lam_said, net)
-    return replace(answer.statistics, digits=digits.delta_q)
+    return answer.statistics._replace(digits=digits.delta_q)
 
 
 def _natural_residuals(scaled: Scaled, delta_q: Array, lam: Array) -> dict[str, float]:

@@ -51,10 +51,10 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
     ndarray, shape (n_c, 4, 4)
         Contact, direction i, component of (2).
     """
-    d_tilde = np.zeros((len(mu_v), 4, 4))
-    d_tilde[:, 0, :3] = mu_v[:, None] * d1  # Eq. (5)
-    d_tilde[:, 1, :3] = mu_v[:, None] * d2  # Eq. (5)
-    d_tilde[:, 2:] = -d_tilde[:, :2]  # Eq. (6)
+    d_tilde, mu_v = np.zeros((len(mu_v), 4, 4)), mu_v[:, None]
+    np.multiply(mu_v, d1, out=d_tilde[:, 0, :3])  # Eq. (5)
+    np.multiply(mu_v, d2, out=d_tilde[:, 1, :3])  # Eq. (5)
+    np.negative(d_tilde[:, :2], out=d_tilde[:, 2:])  # Eq. (6)
     return d_tilde
 
 

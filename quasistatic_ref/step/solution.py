@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.lazy import Lazy
@@ -49,8 +49,7 @@ class Certificate:
     error_bound: float | None = None
 
 
-@dataclass(frozen=True)
-class SolverStatistics:
+class SolverStatistics(NamedTuple):
     """What the solver said and what it cost; never evidence, never written to a solution file.
 
     Parameters
