@@ -61,6 +61,7 @@ CONTACT = (
     "equations/test_eq02_relative_velocity.py",
     "equations/test_eq03_contact_jacobian.py",
 )
+FOLLOWED = ("properties/test_tracker.py",)
 
 
 def ordered(own: str) -> tuple[str, ...]:
@@ -95,6 +96,14 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/jacobian.py": ("unit/test_jacobian.py", *CONTACT),
     "contact/cloud.py": ("unit/test_cloud.py",),
     "contact/pairs.py": ("unit/test_pairs.py", "unit/test_jacobian.py"),
+    "contact/tracker.py": FOLLOWED,
+    "contact/cloud_tracker.py": FOLLOWED,
+    "contact/batch.py": FOLLOWED,
+    "contact/shortlist.py": FOLLOWED,
+    "contact/ball_tree.py": FOLLOWED,
+    "solve/native.py": ("unit/test_native.py",),
+    "step/blocks.py": ("unit/test_sparse.py",),
+    "step/sparse_form.py": ("unit/test_sparse.py",),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""
 

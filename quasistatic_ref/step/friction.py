@@ -51,10 +51,10 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
     ndarray, shape (n_c, 4, 4)
         Contact, direction i, component of (2).
     """
-    d_tilde, mu_v = np.zeros((len(mu_v), 4, 4)), mu_v[:, None]
-    np.multiply(mu_v, d1, out=d_tilde[:, 0, :3])  # Eq. (5)
-    np.multiply(mu_v, d2, out=d_tilde[:, 1, :3])  # Eq. (5)
-    np.negative(d_tilde[:, :2], out=d_tilde[:, 2:])  # Eq. (6)
+    d_tilde = np.zeros((len(mu_v), 4, 4))
+    d_tilde[:, 0, :3] = mu_v[:, None] * d1  # Eq. (5)
+    d_tilde[:, 1, :3] = mu_v[:, None] * d2  # Eq. (5)
+    d_tilde[:, 2:] = -d_tilde[:, :2]  # Eq. (6)
     return d_tilde
 
 
@@ -157,7 +157,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
-    """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
+    """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
     if name == ELLIPSOID:
         return np.asarray(_frames(contacts) @ J)
     n_tilde, d_tilde = normal_direction(contacts.n), cone_directions(contacts, name)

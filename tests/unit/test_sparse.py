@@ -13,8 +13,9 @@ from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import simulate
+from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem
+from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem, reachable
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.study import piles
@@ -181,6 +182,15 @@ def test_piqp_solves_a_step_whose_duality_gap_is_lost_in_rounding():
     some = pile((16, 1, 1), 32, backend="piqp", certify="residual")
     residuals = step_after(some, 1).solution.certificate.residuals
     assert max(residuals.values()) <= OPTIMUM
+
+
+def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
+    tight = BACKENDS["clarabel"].attempts(1e-12)[0]
+    assert tight["tol_gap_abs"] == 1e-14
+    large = reachable(tight, 1000)
+    assert large["tol_gap_abs"] == large["tol_gap_rel"] == 1000 * 2.0**-52
+    assert {name for name in tight if tight[name] != large[name]} == {"tol_gap_abs", "tol_gap_rel"}
+    assert reachable(tight, 10) == tight
 
 
 def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
