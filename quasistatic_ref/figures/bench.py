@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.style import figure_style
@@ -19,25 +20,35 @@ PARTS = {
 
 
 def step_times(tables: Mapping[str, Any]) -> Figure:
-    """Stacked bars of the parts, shortest step first, and the paper's time."""
-    rows = sorted(tables["parts"], key=lambda row: -row["step"])
-    rows = [row for row in rows if np.isfinite(row["step"])]
+    """Stacked bars of the parts, one panel for each engine, and the paper's time.
+
+    Lengths are to be compared, so the axes begin at zero; the engines differ too much for one.
+    """
+    rows = [row for row in tables["parts"] if np.isfinite(row["step"])]
+    engines = [[row for row in rows if row["engine"] == name] for name in ("native", "cvxpy")]
+    engines = [sorted(some, key=lambda row: -row["step"]) for some in engines if some]
     with figure_style():
-        figure, axes = plt.subplots(figsize=(5.6, 0.5 + 0.22 * len(rows)))
-        left = np.zeros(len(rows))
-        for part, grey in PARTS.items():
-            width = np.array([row[part] for row in rows])
-            axes.barh(range(len(rows)), width, left=left, color=grey, label=part, edgecolor="0.2",
-                      linewidth=0.4)  # fmt: skip
-            left += width
-        axes.axvline(PAPER, color="black", linestyle=":", linewidth=1)
-        axes.annotate("the paper", (PAPER, len(rows) - 0.4), fontsize=6, ha="center")
-        axes.set_xscale("log")
-        axes.set_xlim(left=10)
-        axes.set_yticks(
-            range(len(rows)), [f"{row['backend']}, {row['engine']}" for row in rows], fontsize=6
-        )
+        figure, panels = plt.subplots(
+            len(engines), figsize=(5.6, 1.6 + 0.22 * len(rows)), squeeze=False,
+            height_ratios=[1 + len(some) for some in engines], layout="constrained",
+        )  # fmt: skip
+        for axes, some in zip(panels[:, 0], engines, strict=True):
+            _bars(axes, some)
+            axes.set_title(f"engine = {some[0]['engine']}", fontsize=7, loc="left")
         axes.set_xlabel("time of a 13 x 80 step [us], nothing certified")
-        axes.legend(fontsize=6, loc="lower right")
-        figure.tight_layout()
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(handles, labels, fontsize=6, loc="outside upper center", ncols=len(labels))
     return figure
+
+
+def _bars(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
+    left = np.zeros(len(rows))
+    for part, grey in PARTS.items():
+        width = np.array([row[part] for row in rows])
+        axes.barh(range(len(rows)), width, left=left, color=grey, label=part, edgecolor="0.2",
+                  linewidth=0.4)  # fmt: skip
+        left += width
+    axes.axvline(PAPER, color="black", linestyle=":", linewidth=1, label="the paper's 90 us")
+    axes.set_axisbelow(True)
+    axes.grid(False, axis="y")
+    axes.set_yticks(range(len(rows)), [row["backend"] for row in rows], fontsize=6)

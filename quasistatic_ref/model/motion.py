@@ -67,7 +67,7 @@ class Motion:
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)
-        flat = columns.reshape(-1, columns.shape[-1]).dot(self.coordinates)
+        flat: Array = columns.reshape(-1, columns.shape[-1]).dot(self.coordinates)
         return flat.reshape(*columns.shape[:-1], flat.shape[1])
 
 

@@ -46,7 +46,9 @@ def page(tables: Mapping[str, Any]) -> str:
         "",
         *_table(promise_rows(tables["promises"])),
         *_section("The step of the bunny by every road", _roads(tables)),
-        *_section("By part, engine and backend [us]", _parts(tables["parts"])),
+        *_section(
+            "By part, engine and backend [us], all in turn, caches cold", _parts(tables["parts"])
+        ),
         *_section("With a certificate, DAQP, native [us]", _pairs(tables["certification"])),
         *_section("Points of the cloud", _clouds(tables["clouds"])),
         *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
