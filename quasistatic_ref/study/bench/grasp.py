@@ -128,7 +128,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
 
 
 UNFIT = ("highs",)
-"""Solves a third of these steps, and can take seconds over one (docs/conventions.md)."""
+"""At the accuracy asked for it leaves a third of the grasp unsolved (docs/conventions.md)."""
 
 
 def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
