@@ -102,6 +102,8 @@ KEPT = re.compile(
     r"(^```.*?^```$|\$\$.+?\$\$|\$[^$]+\$|`[^`\n]+`|\[[^\]]*\]\{#r\d+\})", re.MULTILINE | re.DOTALL
 )
 """What of a page is no prose: fences, literals, formulas, results where they begin."""
+INCLUDED = {"validation/claims.md": "claims.md", "validation/vectors/README.md": "vectors.md"}
+"""Pages of the repository that are pages of the site too: where they are, and where here."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
 MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
@@ -123,7 +125,9 @@ def _expanded(app, docname, source):
     ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
     """
     up = "../" * docname.count("/")
-    text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
+    text = source[0]
+    for file, page in INCLUDED.items():
+        text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
     text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
     if docname in CLOSED_FORMS:
