@@ -106,6 +106,7 @@ INCLUDED = {"validation/claims.md": "claims.md", "validation/vectors/README.md":
 """Pages of the repository that are pages of the site too: where they are, and where here."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
+CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
 MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
 
 
@@ -145,9 +146,9 @@ def _results_linked(text):
 
 
 def _plain_listings(app, doctree):
-    """In quoted source an equation is cited as a reader reads it: (4), not the markup of it."""
+    """In quoted source, references read as on a page: (4) for an equation, a name for a class."""
     for listing in doctree.findall(nodes.literal_block):
-        text = CITED_EQUATION.sub(r"(\1)", listing.astext())
+        text = CITED_NAME.sub(r"\1", CITED_EQUATION.sub(r"(\1)", listing.astext()))
         listing.rawsource, listing.children = text, [nodes.Text(text)]
 
 

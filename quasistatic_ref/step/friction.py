@@ -157,7 +157,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
-    """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
+    """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
     if name == ELLIPSOID:
         return np.asarray(_frames(contacts) @ J)
     n_tilde, d_tilde = normal_direction(contacts.n), cone_directions(contacts, name)
