@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.conditioning import Errors, bounds
+from quasistatic_ref.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.vectors.exact.rational import digits, exact, rounded, tolerance
 from quasistatic_ref.vectors.layers import qp, rows, selection, wrench
-from quasistatic_ref.vectors.rational import digits, exact, rounded, tolerance
 
 EPS = Fraction(1, 2**53)
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.families.distance import distance_cases
-from quasistatic_ref.vectors.families.distance_corners import CORNERS
+from quasistatic_ref.vectors.families.distance import CORNERS, distance_cases
 from quasistatic_ref.vectors.families.shapes import (
     ON_SIDE,
     SHAPES,

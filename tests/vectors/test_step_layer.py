@@ -5,14 +5,14 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.vectors.candidates import chosen
-from quasistatic_ref.vectors.difference import difference
+from quasistatic_ref.vectors.distances.candidates import chosen
+from quasistatic_ref.vectors.exact.difference import difference
+from quasistatic_ref.vectors.exact.integration import integrated
+from quasistatic_ref.vectors.exact.mechanism import mechanism
+from quasistatic_ref.vectors.exact.precision import rounded
 from quasistatic_ref.vectors.families.mechanisms import link, random_q, random_step
-from quasistatic_ref.vectors.integration import integrated
+from quasistatic_ref.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.vectors.layers import layer
-from quasistatic_ref.vectors.mechanism import mechanism
-from quasistatic_ref.vectors.precision import rounded
-from quasistatic_ref.vectors.scenario_mechanism import mechanism_of, pairs_of
 from tests.tolerances import ROUNDING
 from tests.vectors.material import cases, expected
 

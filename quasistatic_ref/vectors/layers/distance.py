@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Final
 
+from quasistatic_ref.vectors.distances.shapes import placed
+from quasistatic_ref.vectors.distances.solid_pair import witnesses
+from quasistatic_ref.vectors.distances.witness import Witness
+from quasistatic_ref.vectors.exact.precision import Real, number, rounded
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.precision import Real, number, rounded
-from quasistatic_ref.vectors.shapes import placed
-from quasistatic_ref.vectors.solid_pair import witnesses
-from quasistatic_ref.vectors.witness import Witness
 
 CURVED: Final = ("cylinder", "cone", "ellipsoid")
 SIMPLE: Final = ("sphere", "halfspace", "cloud")
@@ -154,6 +154,6 @@ def _leaves(value: Any) -> list[float]:
 
 def own(case_input: Json) -> Json:
     """The package's closest points."""
-    from quasistatic_ref.vectors.own_shapes import own_closest_points
+    from quasistatic_ref.vectors.own.shapes import own_closest_points
 
     return own_closest_points(case_input)
