@@ -98,7 +98,7 @@ class EnclosedAnswer:
     Parameters
     ----------
     delta_q, net : ndarray, shape (n_v,)
-        Displacement and net impulse A'lam, near the optimal ones.
+        Displacement [m, rad] and net impulse A'lam [N s, N m s], near the optimal ones.
     error : float
         ||delta_q - delta_q*||_H / ||H^-1 g||_H <= error [-]; rounding to float64 is included.
     """

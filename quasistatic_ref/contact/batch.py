@@ -44,7 +44,7 @@ class Nearest(NamedTuple):
     proved: NDArray[np.bool_]
 
     def chosen(self, order: NDArray[np.int64]) -> Nearest:
-        """The same contacts in another order."""
+        """The same contacts in another order, shape (k,)."""
         return Nearest(
             self.phi.take(order),
             self.normal.take(order, axis=1),
@@ -125,7 +125,7 @@ class Batch:
         )
 
     def reorder(self, order: NDArray[np.int64]) -> None:
-        """Give the contacts in another order from now on: entry i of it was number order[i]."""
+        """Give the contacts in another order (r,) from now on: entry i was number order[i]."""
         self.ranked, self.start = self.ranked[order], self.start[order]
         self.furthest = np.argsort(order)[self.furthest]
 

@@ -77,7 +77,7 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 
 
 def check_finite(R: Array, t: Array) -> None:
-    """Refuse poses that are not finite."""
+    """Raise ContactError unless all poses are finite."""
     if not (np.isfinite(R).all() and np.isfinite(t).all()):
         raise ContactError("must be finite", field="poses")
 

@@ -71,7 +71,7 @@ class ContactGeometry:
         Parameters
         ----------
         columns : ndarray, shape (6, n_x)
-            As in :class:`~quasistatic_ref.model.system.Kinematics`.
+            As in :class:`~quasistatic_ref.model.kinematics.Kinematics` [m, rad].
         alpha, beta : ndarray, shape (n_c, 3)
             Material points of the two bodies [m], world frame.
         n : ndarray, shape (n_c, 3)
@@ -130,7 +130,7 @@ def contact_jacobian(
     beta: Array,
     n: Array,
 ) -> Array:
-    """J of Eq. :eq:`eq-3` of contacts between any links, for once; links in arrays (n_c,)."""
+    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,)."""
     nothing = np.zeros(len(n))
     names = ("",) * len(n)
     layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)

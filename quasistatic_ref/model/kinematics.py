@@ -25,7 +25,7 @@ class Kinematics:
         Origin of each link's frame in the world [m].
     columns : ndarray, shape (6, n_x)
         Of each joint's column, velocity of the point at the world's origin and angular velocity
-        of what the joint moves, in the world frame, per unit of its coordinate.
+        of what the joint moves [m, rad], in the world frame, per unit of its coordinate.
     motion : Motion, optional
         Which columns move a link; without it nothing moves.
     """

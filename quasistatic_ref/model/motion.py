@@ -63,7 +63,7 @@ class Motion:
         self.mimics = model.nvExtended > model.nv
 
     def of_coordinates(self, columns: Array) -> Array:
-        """Per unit of delta_q, shape (..., n_v), from per unit of each joint's column."""
+        """Per unit of delta_q, shape (..., n_v), from `columns` [m, rad]."""
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)

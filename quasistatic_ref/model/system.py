@@ -156,7 +156,13 @@ class System:
         return delta_q
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
-        """Change of the actuated coordinates q_a (-) q, shape (n_a,); q_a has shape (n_q_a,)."""
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
+
+        Raises
+        ------
+        ModelError
+            Unless q_a has shape (n_q_a,).
+        """
         order, n = self._order, self.n_q_a
         if np.shape(q_a) != (n,):
             raise ModelError(f"must have shape ({n},)", field="q_a", value=np.shape(q_a))

@@ -28,7 +28,7 @@ def direct_reply(
     options : dict
         In the solver's own names.
     start : ndarray, shape (n,), optional
-        Where a warm start begins.
+        Where a warm start begins [m, rad].
 
     Returns
     -------

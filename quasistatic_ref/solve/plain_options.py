@@ -95,5 +95,5 @@ def tuned_options(solver: str, accuracy: float) -> Options:
 
 
 def time_option(solver: str, seconds: float) -> Options:
-    """The option by which a solver stops itself after some seconds, if it has one."""
+    """The option by which a solver stops itself after `seconds` [s], if it has one."""
     return {TIME_LIMIT[solver]: seconds} if solver in TIME_LIMIT else {}

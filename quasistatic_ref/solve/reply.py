@@ -45,7 +45,7 @@ class Reply:
 
 
 def raised(error: Exception, seconds: float) -> Reply:
-    """The reply of a call that raised."""
+    """The reply of a call that raised after some `seconds` [s]."""
     words = " ".join(f"{type(error).__name__}: {error}".split())[:200]
     return Reply(None, None, words, False, None, seconds, None)
 

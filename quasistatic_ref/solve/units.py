@@ -56,9 +56,9 @@ class Metric:
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m, rad].
     inverse : ndarray, shape (n_v, n_v)
-        Of H.
+        Of H [m^2/(N m s)].
     squared : ndarray, shape (n_v,)
-        Squares of `coordinate`.
+        Squares of `coordinate` [m^2, rad^2].
     usable : bool
         Whether all units are finite and positive.
     """
@@ -79,7 +79,7 @@ def metric(H: Array) -> Metric:
 
 
 def coordinate_units(diagonal: Array) -> Array:
-    """Diagonal of S [m, rad], from that of H."""
+    """Diagonal of S [m, rad], shape (n_v,), from the `diagonal` of H."""
     return _powers_of_two(1 / np.sqrt(diagonal))
 
 
@@ -109,7 +109,18 @@ def units_of(form: StandardForm, of_H: Metric) -> Units:
 
 
 def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
-    """Natural units from the rows' squared lengths, ascending, and the unconstrained step's."""
+    """Natural units from their parts.
+
+    Parameters
+    ----------
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S [m, rad].
+    squares : ndarray, shape (m,)
+        Squared lengths of the rows of A S [m^2], ascending.
+    energy : float
+        Length of the unconstrained step in the norm of H, ||H^-1 g||_H [(N m s)^0.5].
+    b : ndarray, shape (m,)
+    """
     length = _power_of_two(_typical(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
     size = max(energy, push_out)

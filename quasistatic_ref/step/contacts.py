@@ -103,7 +103,7 @@ class Contacts(Lazy):
 
     @cached_property
     def mu(self) -> Array:
-        """(mu_v, mu_v, mu_omega) of each contact, mu_omega being 0 where it is not used."""
+        """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
         mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
         return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
 
@@ -132,12 +132,20 @@ class Contacts(Lazy):
         blocks: Blocks | None = None,
         **geometry: Array,
     ) -> Contacts:
-        """The same contacts elsewhere: phi, n, d1, d2 and J anew, and nothing is checked.
+        """The same contacts elsewhere: `geometry` anew, unchecked.
 
         With blocks in place of J, J is formed from them when somebody asks for it.
 
         For steps in sequence: what does not depend on where they are is not made again, and
         their names are not made before somebody asks for them.
+
+        Parameters
+        ----------
+        name : callable
+            The names of the contacts.
+        blocks : Blocks, optional
+        geometry : ndarray
+            phi of shape (n_c,) [m], and n, d1, d2 and J in the shapes of the class.
         """
         other = object.__new__(Contacts)
         other.__dict__.update(self.__dict__, **geometry, later={"name": name})

@@ -178,7 +178,7 @@ def _running(command: tuple[str, ...], folder: str) -> Ask:
 
 
 class Crashed(Exception):
-    """An executable was ended by a signal."""
+    """An executable was ended by a signal, after some `seconds` [s]."""
 
     def __init__(self, words: str, seconds: float) -> None:
         self.seconds = seconds

@@ -37,7 +37,7 @@ def conduct_on_cluster(
     Parameters
     ----------
     store, todo, problems, limit, budget, progress
-        As in :func:`~quasistatic_ref.study.conduct.conduct`.
+        As in :func:`~quasistatic_ref.study.conduct.conduct`; limit and budget in [s].
     address : str
         Such as ``tcp://127.0.0.1:8786``.
     folder : str

@@ -141,7 +141,7 @@ def conduct_here(
     Parameters
     ----------
     store, todo, problems, limit, budget, progress
-        As in :func:`conduct`.
+        As in :func:`conduct`; limit and budget in [s].
     jobs : int
         Solvers that are asked at once.
     folder : str

@@ -38,7 +38,7 @@ class Exam:
     norm : EnergyNorm
         Of the problem in natural units.
     free : float
-        ||H^-1 g||_H in natural units.
+        ||H^-1 g||_H in natural units [-].
     """
 
     forms: dict[str, StandardForm]
@@ -71,7 +71,7 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
         ``"raw"`` or ``"natural"``.
     reply : Reply
     promised : float
-        Digits of delta_q below which "optimal" is a false claim.
+        Digits [-] of delta_q below which "optimal" is a false claim.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
 
 
 def ungraded(outcome: str, claimed: str, seconds: float) -> dict[str, Any]:
-    """The same fields of a call that never came back, or never was made."""
+    """The same fields of a call that never came back, after `seconds` [s], or never was made."""
     return {
         "outcome": outcome,
         "claimed": claimed,

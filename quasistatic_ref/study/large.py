@@ -39,7 +39,7 @@ class LargeStep:
     parts : dict of str to float
         Of its parts [s]: distances, rows, solve, integrate.
     megabytes : float
-        Most that Python and NumPy held at once during a step, beyond what they keep.
+        Most that Python and NumPy held at once in a step, beyond what they keep [MB].
     """
 
     shape: tuple[int, int, int]
@@ -89,7 +89,7 @@ def large_step(
 
 
 def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
-    """Slope of the straight line through the logarithms: seconds grow as size to this power."""
+    """The power [-] of `sizes` as which `seconds` [s] grow: a line through the logarithms."""
     return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
 
 

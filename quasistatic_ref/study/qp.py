@@ -58,9 +58,9 @@ class Answer:
     ----------
     delta_q : ndarray, shape (n,)
     net : ndarray, shape (n,)
-        A'lam.
+        A'lam [N s, N m s].
     bound : float
-        ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that; 0.0 where only the rounding of
+        ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where only the rounding of
         each entry is between.
     """
 

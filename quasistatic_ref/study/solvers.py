@@ -21,7 +21,7 @@ class Setting:
     accuracy : float or None
         Asked of residuals and gap, in the units of the problem as asked [-]; None: the default.
     promised : float
-        Correct digits of delta_q that an "optimal" promises.
+        Correct digits [-] of delta_q that an "optimal" promises.
     tuned : bool
         The options that the simulator uses in place of the plain ones.
     """

@@ -16,7 +16,7 @@ class Program:
     ----------
     H : ndarray, shape (n_v, n_v)
     f : ndarray, shape (n_v,)
-        -g of :class:`~quasistatic_ref.step.standard_form.StandardForm`.
+        -g of :class:`~quasistatic_ref.step.standard_form.StandardForm` [N m s].
     A : ndarray, shape (m, n_v)
         In the memory order that the adapter asks for.
     b : ndarray, shape (m,)

@@ -37,6 +37,7 @@ def upper_triangle(H: Array) -> tuple[Any, tuple[NDArray[np.int64], NDArray[np.i
     Returns
     -------
     scipy.sparse.csc_matrix, tuple of ndarray
+        Of shape (n, n); rows and columns, shape (n (n + 1) / 2,) each.
     """
     n = len(H)
     columns, rows = np.tril_indices(n)  # column by column, each from its first row

@@ -44,5 +44,5 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def from_paper(tables: Mapping[str, Any]) -> float:
-    """How many times the paper's 90 us the step takes on this machine."""
+    """How many times the paper's 90 us the step takes on this machine [-]."""
     return float(tables["roads"]["microseconds"]["step, native"]) / PAPER

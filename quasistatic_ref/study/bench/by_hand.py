@@ -17,7 +17,17 @@ from quasistatic_ref.step.data import Array
 
 
 def hand_rows(scenario: Scenario, kinematics: Kinematics) -> tuple[Array, Array]:
-    """A and b of the k closest points of each pair, alpha being a solid and beta a cloud."""
+    """A and b of the k closest points of each pair, alpha being a solid and beta a cloud.
+
+    Returns
+    -------
+    ndarray, shape (m, n_v), and ndarray, shape (m,)
+
+    Raises
+    ------
+    TypeError
+        If a beta is no cloud.
+    """
     rows, gaps = [], []
     for pair in scenario.pairs:
         a, b = pair.alpha.link, pair.beta.link
@@ -46,7 +56,18 @@ def hand_rows(scenario: Scenario, kinematics: Kinematics) -> tuple[Array, Array]
 
 
 def hand_step(scenario: Scenario, q: Array, q_bar_a: Array) -> Array:
-    """delta_q of one step, of a scenario without wrenches whose joints are compensated."""
+    """delta_q of one step, of a scenario without wrenches whose joints are compensated.
+
+    Returns
+    -------
+    ndarray, shape (n_v,)
+        [m, rad].
+
+    Raises
+    ------
+    RuntimeError
+        If the solver finds nothing.
+    """
     system, h, n_a = scenario.system, scenario.h, scenario.system.n_a
     A, b = hand_rows(scenario, system.kinematics(q))
     tau = system.gravity_force(q, scenario.gravity)

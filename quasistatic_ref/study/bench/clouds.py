@@ -24,7 +24,7 @@ BRUTE = 100_000
 
 
 def sampled(count: int) -> Array:
-    """Points spread evenly over the bunny's surface, at random but the same each time."""
+    """Points (count, 3) [m] spread evenly over the bunny, at random but the same each time."""
     lines = (models_folder() / "bunny_grasp" / "bunny.obj").read_text().splitlines()
     words = [line.split() for line in lines]
     points = np.array([[float(x) for x in w[1:4]] for w in words if w[:1] == ["v"]])

@@ -33,8 +33,8 @@ class Places:
     Parameters
     ----------
     scenario : Scenario
-    q, goals : list of ndarray
-        Configurations, and the targets of the steps that start there.
+    q, goals : list of ndarray, shapes (n_q,) and (n_q_a,)
+        Configurations, and the targets of the steps that start there [m, rad].
     """
 
     scenario: Scenario

@@ -46,6 +46,11 @@ def mujoco_grasp(steps: int, repeat: int) -> dict[str, Any]:
 
     Its step is a dynamic one, of the same size but of another model: bodies have velocities, and
     contacts are soft. It finds its contacts on the bunny's convex hull.
+
+    Raises
+    ------
+    InputError
+        If the bunny's mesh is missing.
     """
     try:
         mujoco: Any = import_module("mujoco")

@@ -33,6 +33,6 @@ class Made:
 
 
 def mass_ratio(step: StepData) -> float:
-    """Largest over smallest diagonal entry of M_u; 1 where nothing is un-actuated."""
+    """Largest over smallest diagonal entry of M_u; 1 where nothing is un-actuated [-]."""
     masses = np.diag(step.M_u)
     return float(masses.max() / masses.min()) if masses.size else 1.0

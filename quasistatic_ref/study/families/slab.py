@@ -107,7 +107,7 @@ def tangent(n: Array) -> Array:
 
 
 def moving_point(r: Array, n: Array) -> Array:
-    """Velocity of a body's points at r, and its spin about n, per unit of its twist."""
+    """Velocity of a body's points at r, and its spin about n, per unit of its twist, (n, 4, 6)."""
     n = n / np.linalg.norm(n, axis=1, keepdims=True)
     J = np.zeros((len(r), 4, 6))
     J[:, :3, :3] = np.eye(3)
@@ -127,8 +127,8 @@ def scaled(family: str, field: str, values: Array, seed: int) -> Iterator[Made]:
     family : str
     field : str
         ``contacts``, ``ratio`` or ``h``.
-    values : ndarray
-        One step for each.
+    values : ndarray, shape (n,)
+        One step for each; of contacts and ratio [-], of h [s].
     seed : int
     """
     for i, value in enumerate(values):
