@@ -6,7 +6,8 @@ r = [g; b_w]. Data and elimination that are rounded componentwise leave
 .. math:: |z - z^*| \le c\,2^{-53}\,|K^{-1}|\,(|K|\,|z^*| + |r|),
 
 the bound of Oettli and Prager (1964) with the condition of Skeel (1979): scaling rows or columns
-does not change it. c counts the roundings of one entry of an elimination, generously.
+does not change it. c counts the roundings of one entry of an elimination, generously. No answer is
+asked to be nearer than :mod:`quasistatic_ref.vectors.exact.floor` says.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.vectors.exact.floor import floors
 from quasistatic_ref.vectors.exact.rational import UNIT
 
 ROUNDINGS: Final = 8
@@ -96,16 +98,16 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     net_shift = _rational(errors.H) * x_sum * form.x_unit + _rational(errors.g)
     net = _largest(_image(form.H, form.g, moved[:n], solution, share), form.net_unit)
     net += _largest([net_shift], fmpq(1))
+    x_floor, net_floor, slack_floor = floors(form)
+    net = max(net, net_floor)
+    slacks = [v + shift for v in _image(form.A, form.b, moved[:n], solution, share)]
     # Multipliers that change A'lam by no more than that are as good.
     steepest = _largest(form.A.entries(), form.slack_unit / form.x_unit)
     return Bounds(
-        x=_largest(moved[:n], form.x_unit),
+        x=max(_largest(moved[:n], form.x_unit), x_floor),
         lam=max(_largest(moved[n:], form.lam_unit), net / steepest if steepest else Fraction(0)),
         net=net,
-        slack=_largest(
-            [v + shift for v in _image(form.A, form.b, moved[:n], solution, share)],
-            form.slack_unit,
-        ),
+        slack=max(_largest(slacks, form.slack_unit), slack_floor),
     )
 
 

@@ -129,7 +129,10 @@ def claimed(case_input: Json, output: Json) -> Certificate:
 
 def tolerances(bound: Bounds) -> dict[str, Tolerance]:
     """Tolerances of the fields of an optimum."""
-    why = "rounding of the data and of the KKT system, times its componentwise condition"
+    why = (
+        "rounding of the data and of the KKT system, times its componentwise condition; "
+        "at least 8 roundings of the unconstrained step, in the H norm"
+    )
     return {
         "delta_q": tolerance(bound.x, why),
         "lam": tolerance(bound.lam, why),
