@@ -51,6 +51,13 @@ def test_a_box_on_a_floor_keeps_its_lower_corners_in_the_order_of_their_index():
     assert found.unique
 
 
+def test_a_closest_pair_between_corners_that_are_as_near_but_for_rounding_comes_after_them():
+    nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
+    found = chosen(FLOOR, BOX, HERE, nearly_level, 4)  # the lower edge is 4e-11 m nearer
+    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
+    assert found.clear
+
+
 def test_where_rounding_decides_what_is_kept_it_is_said():
     level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.0, 0.0, 0.0, 1.0]}
     assert chosen(FLOOR, BOX, HERE, level, 4).clear  # exact ties: by index

@@ -2,8 +2,9 @@
 
 Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
 and the closest pair, in that order; where one contact is asked for, the closest pair alone. The k
-of least signed distance are kept, those that repeat an earlier one after all others. Everything is
-decided on distances, points and normals that are rounded to float64.
+of least signed distance are kept, those that repeat an earlier one after all others, and so the
+closest pair where k corners are as near. Everything is decided on distances, points and normals
+that are rounded to float64.
 """
 
 from __future__ import annotations
@@ -120,13 +121,16 @@ def _candidates(case: Json) -> list[_Candidate]:
 def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
     phi = [one.numbers["phi"] for one in candidates]
     late = [solids and _repeats(candidates, i) for i in range(len(candidates))]
+    level = [x <= phi[-1] + REPEATED and not again for x, again in zip(phi, late, strict=True)]
+    spare = solids and sum(level[:-1]) >= k
+    late[-1] = late[-1] or spare
     order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
     kept, rest = sorted(order[:k]), order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
     if solids and len(candidates) > k and not candidates[-1].unique:
         # The closest pair may then be any point of an edge or a face, and no corner again.
-        clear = clear and phi[-1] == phi[last]
+        clear = clear and spare
     answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],
