@@ -37,6 +37,21 @@ def changed(value, keys, number):
 
 
 @pytest.mark.parametrize("layer", LAYERS)
+def test_no_tolerance_is_so_wide_that_anything_passes_or_so_tight_that_nothing_does(layer):
+    """At most 1e-5 of what a field holds, or of one; 0 only of copies and of sums of zeros."""
+    for name, record in expected(layer).items():
+        for field, tolerance in record["tolerance"].items():
+            outer, _, inner = field.partition(".")
+            value = record["output"][outer]
+            within = [contact[inner] for contact in value] if inner else [value]
+            sizes = [abs(v) for _, v in numbers_in(within)]
+            assert tolerance["absolute"] <= 1e-5 * max([1.0, *sizes]), (name, field)
+            copied = field in ("b", "indices") or not sizes
+            zeros = layer in ("rows", "wrench") and not any(sizes)
+            assert tolerance["absolute"] > 0 or copied or zeros, (name, field)
+
+
+@pytest.mark.parametrize("layer", LAYERS)
 def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
     """Three numbers of every case, each by two tolerances.
 
