@@ -100,11 +100,16 @@ def _unwritable(error: Exception, path: Path) -> InputError:
 
 def text_written(path: str | Path, text: str) -> Path:
     """Write a text file whole, in UTF-8."""
-    return written_whole(path, lambda file: _write_text(file, text))
+    return bytes_written(path, text.encode("utf-8"))
 
 
-def _write_text(file: IO[bytes], text: str) -> None:
-    file.write(text.encode("utf-8"))
+def bytes_written(path: str | Path, content: bytes) -> Path:
+    """Write a file whole."""
+    return written_whole(path, lambda file: _write(file, content))
+
+
+def _write(file: IO[bytes], content: bytes) -> None:
+    file.write(content)
 
 
 def bytes_read(

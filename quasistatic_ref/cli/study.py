@@ -1,4 +1,4 @@
-"""``study run STUDY.toml``: compare solvers, or sweep the parameters of scenarios."""
+"""``study``: compare solvers, sweep the parameters of scenarios, report what was found."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.study_report import add_report, run_pack, run_report
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.study.run import run_study
 from quasistatic_ref.study.spec import solver_study, study_kind, study_path, study_tables
@@ -40,11 +41,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     export.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
     shared.add_out(export, "qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    add_report(actions)
 
 
 def run(options: argparse.Namespace) -> int:
     """Do what was asked for."""
-    actions: dict[str, Callable[[argparse.Namespace], int]] = {"run": _run, "export": _export}
+    actions: dict[str, Callable[[argparse.Namespace], int]] = {
+        "run": _run,
+        "export": _export,
+        "report": run_report,
+        "pack": run_pack,
+    }
     return actions[options.action](options)
 
 

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.tolerances import ORTHONORMAL
 
@@ -106,15 +105,6 @@ class Contacts(Lazy):
         """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
         mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
         return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
-
-    def combinations(self, cone_name: str) -> Array:
-        """Coefficients of n~, d1, d2 and spin in each n~ + d~_i of a cone, shape (n_c, R, 4)."""
-        kept: dict[str, Array] = self.__dict__.setdefault("kept", {})
-        if cone_name not in kept:
-            table = cone(cone_name).table
-            one = np.ones((self.n_c, len(table), 1))
-            kept[cone_name] = np.concatenate([one, self.mu[:, None] * table], axis=2)
-        return kept[cone_name]
 
     @property
     def n_v(self) -> int:

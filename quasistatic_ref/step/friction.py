@@ -31,7 +31,9 @@ def normal_direction(n: Array) -> Array:
     -------
     ndarray, shape (n_c, 4)
     """
-    return np.concatenate([n, np.zeros((len(n), 1))], axis=1)
+    n_tilde = np.zeros((len(n), 4))
+    n_tilde[:, :3] = n
+    return n_tilde
 
 
 def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
@@ -49,9 +51,11 @@ def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
     ndarray, shape (n_c, 4, 4)
         Contact, direction i, component of (2).
     """
-    d_tilde_1 = normal_direction(mu_v[:, None] * d1)  # Eq. (5)
-    d_tilde_2 = normal_direction(mu_v[:, None] * d2)  # Eq. (5)
-    return np.stack([d_tilde_1, d_tilde_2, -d_tilde_1, -d_tilde_2], axis=1)  # Eq. (6)
+    d_tilde = np.zeros((len(mu_v), 4, 4))
+    d_tilde[:, 0, :3] = mu_v[:, None] * d1  # Eq. (5)
+    d_tilde[:, 1, :3] = mu_v[:, None] * d2  # Eq. (5)
+    d_tilde[:, 2:] = -d_tilde[:, :2]  # Eq. (6)
+    return d_tilde
 
 
 def torsional_directions(mu_omega: Array) -> Array:
@@ -66,8 +70,9 @@ def torsional_directions(mu_omega: Array) -> Array:
     -------
     ndarray, shape (n_c, 2, 4)
     """
-    d_tilde_5 = np.concatenate([np.zeros((len(mu_omega), 3)), mu_omega[:, None]], axis=1)
-    return np.stack([d_tilde_5, -d_tilde_5], axis=1)  # Eq. (7)
+    d_tilde = np.zeros((len(mu_omega), 2, 4))
+    d_tilde[:, 0, 3], d_tilde[:, 1, 3] = mu_omega, -mu_omega  # Eq. (7)
+    return d_tilde
 
 
 def pyramid(contacts: Contacts) -> Array:
@@ -153,11 +158,10 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """The same of any columns of J, shape (n_c, 4, w): all of them, or the blocks."""
-    along: Array = _frames(contacts) @ J  # n~, d1, d2 and spin
     if name == ELLIPSOID:
-        return np.asarray(along)
-    # n~ + d~_i is a combination of these that does not change with where the contact is.
-    return np.asarray(contacts.combinations(name) @ along)  # Eq. (4)
+        return np.asarray(_frames(contacts) @ J)
+    n_tilde, d_tilde = normal_direction(contacts.n), cone_directions(contacts, name)
+    return np.asarray((n_tilde[:, None] + d_tilde) @ J)  # Eq. (4)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:

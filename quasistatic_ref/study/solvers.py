@@ -100,5 +100,5 @@ class Solver:
             return {}
         name = str(self.target)
         if setting.tuned and setting.accuracy is not None:
-            return time_option(name, seconds) | tuned_options(name, setting.accuracy)
+            return tuned_options(name, setting.accuracy) | time_option(name, seconds)
         return time_option(name, seconds) | plain_options(name, setting.accuracy)

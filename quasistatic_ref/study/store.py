@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import lzma
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -18,6 +19,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
 
 ROWS, STUDY = "rows.jsonl", "study.json"
+PACKED = "rows.jsonl.xz"
+"""The rows of a store that was packed to be kept, not to be continued."""
 KEY = ("problem", "solver", "road", "setting", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 SWEEP_KEY = ("sweep", "values")
@@ -102,14 +105,17 @@ class Store:
 
 
 def rows_read(folder: str | Path) -> list[Row]:
-    """The rows of a store, sorted by their keys; a torn last line is left out.
+    """The rows of a store, packed or not, sorted by their keys; a torn last line is left out.
 
     Raises
     ------
     InputError
         If there is no store, or a line before the last does not parse.
     """
-    rows, _ = _parsed(Path(folder) / ROWS)
+    path = Path(folder) / ROWS
+    if not path.exists() and path.with_name(PACKED).exists():
+        path = path.with_name(PACKED)
+    rows, _ = _parsed(path)
     return sorted(rows, key=key_of)
 
 
@@ -136,6 +142,11 @@ def table(rows: Iterable[Row]) -> list[Row]:
 def _parsed(path: Path) -> tuple[list[Row], int]:
     """Return the rows of a file, and the length of what parses [bytes]."""
     content = bytes_read(path)
+    if path.name == PACKED:
+        try:
+            content = lzma.decompress(content)
+        except lzma.LZMAError:
+            raise InputError("is no xz file, or was cut off; take it anew", file=path) from None
     rows: list[Row] = []
     whole = 0
     lines = content.split(b"\n")

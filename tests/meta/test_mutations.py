@@ -14,12 +14,11 @@ RATIONAL, KKT = "certify/rational.py", "certify/kkt.py"
 DEPENDENCE, BALLS, WALK = "certify/dependence.py", "certify/balls.py", "certify/active_set.py"
 POINT, ROUNDING, EXACT = "certify/point.py", "certify/rounding.py", "certify/exact.py"
 FARKAS, CLAIMS = "certify/farkas.py", "certify/certificate.py"
-TANGENTS = "d_tilde_1, d_tilde_2, -d_tilde_1, -d_tilde_2"
 
 SAMPLE = (
-    f"{PAGE} tangential_directions: -d_tilde_1 -> d_tilde_1",
-    f"{PAGE} tangential_directions: [{TANGENTS}] -> [d_tilde_1, -d_tilde_1, d_tilde_2, -d_tilde_2]",
-    f"{PAGE} torsional_directions: [d_tilde_5, -d_tilde_5] -> [-d_tilde_5, d_tilde_5]",
+    f"{PAGE} tangential_directions: -d_tilde[:, :2] -> d_tilde[:, :2]",
+    f"{PAGE} torsional_directions: -mu_omega -> mu_omega",
+    f"{PAGE} rows_along: n_tilde[:, None] + d_tilde -> n_tilde[:, None] - d_tilde",
     f"{PAGE} contact_wrenches: [f_d1, f_d2, impulses.sum(axis=1), tau_n] -> "
     "[f_d2, f_d1, impulses.sum(axis=1), tau_n]",
     f"{PAGE} contact_wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",

@@ -1,0 +1,109 @@
+"""A store that nobody ran: rows at random, of every outcome, so that a report has all there is."""
+
+import json
+import random
+
+SOLVERS = ("qpsolvers:ant", "qpsolvers:bee", "qpsolvers:cat", "cvxpy:ant")
+SETTINGS = {"default": (None, 3.0), "mid": (1e-6, 2.5), "high": (1e-9, 4.0)}
+FAMILIES = ("stack", "door")
+OUTCOMES = ("solved",) * 8 + ("failed", "crashed", "timeout", "nan", "wrong_shape")
+LIMIT = 0.5
+
+
+def measurement(chance, problem, solver, setting, units, warm):
+    """One row; a budget ends for cat after problem 8."""
+    road, name = solver.split(":")
+    late = name == "cat" and problem > 8
+    outcome = "not_run_budget" if late else chance.choice(OUTCOMES)
+    solved = outcome == "solved"
+    told = solved or outcome == "failed"
+    digits = chance.uniform(0, 16) if told else None
+    return {
+        "problem": f"{FAMILIES[problem % 2]}/{problem}",
+        "family": FAMILIES[problem % 2],
+        "solver": name,
+        "road": road,
+        "setting": setting,
+        "warm": warm,
+        "units": units,
+        "repetition": 0,
+        "outcome": outcome,
+        "claimed": "fine" if solved else "sorry",
+        "said_optimal": solved or outcome == "nan",
+        "wrong": outcome == "nan" or (solved and digits < SETTINGS[setting][1]),
+        "digits": {"delta_q": digits, "net_wrench": digits and digits * 0.9},
+        "residuals": {"primal": 1.23456e-9, "dual": None, "gap": 0.0},
+        "seconds": {"solver": None, "call": 10 ** chance.uniform(-5, -1), "spent": 1.0},
+        "iterations": chance.choice([None, 7, 12]),
+    }
+
+
+def written(folder, problems=12, seed=3):
+    """Write the store; returns its rows."""
+    chance = random.Random(seed)
+    rows = []
+    for problem in range(problems):
+        for solver in SOLVERS:
+            for setting in SETTINGS:
+                for units in ("raw", "natural"):
+                    for warm in (False, True):
+                        # Warm starts are asked on a part of the problems only.
+                        if not warm or problem % 3 == 0:
+                            rows.append(measurement(chance, problem, solver, setting, units, warm))
+    study = {
+        "format": "quasistatic-ref/study-store",
+        "version": 1,
+        "kind": "solvers",
+        "time_limit": LIMIT,
+        "settings": [
+            {"name": name, "accuracy": accuracy, "promised": promised, "tuned": False}
+            for name, (accuracy, promised) in SETTINGS.items()
+        ],
+        "solvers": [
+            {
+                "name": s.split(":")[1],
+                "road": s.split(":")[0],
+                "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in
+                            SETTINGS.items()},
+            }
+            for s in SOLVERS
+        ],
+        "machine": {"processor": "slide rule"},
+        "versions": {"ant": "1.0"},
+    }  # fmt: skip
+    facts = [
+        {"id": f"{FAMILIES[p % 2]}/{p}", "family": FAMILIES[p % 2], "contacts": p + 1, "h": 0.01,
+         "mass_ratio": 1.0, "k": 1, "n": 6, "m": 4 * p + 4, "condition": 10.0 * p + 1,
+         "condition_natural": 1.5, "kind": "exact" if p % 2 else "enclosure", "bound": 0.0}
+        for p in range(problems)
+    ]  # fmt: skip
+    folder.mkdir()
+    (folder / "study.json").write_text(json.dumps(study))
+    (folder / "problems.jsonl").write_text("".join(json.dumps(f) + "\n" for f in facts))
+    (folder / "rows.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
+    return rows
+
+
+SWEEP_AXES = {"mu": (0.0, 0.3, 0.1), "h": (0.02, 0.01)}
+
+
+def sweep_written(folder):
+    """Write a store of one sweep, one of whose runs ended early; returns its rows."""
+    rows = [
+        {"sweep": "slide", "scenario": "block", "values": {"mu": mu, "h": h},
+         "outcome": "ended_early" if (mu, h) == (0.1, 0.01) else "done",
+         "reason": "it fell" if (mu, h) == (0.1, 0.01) else None,
+         "measures": {"rotation_deg": 10 * mu + h, "boundary_layer_um": 100 * h,
+                      "quasi_dynamic_number": None},
+         "seconds": {"call": 1.0}}
+        for mu in SWEEP_AXES["mu"] for h in SWEEP_AXES["h"]
+    ]  # fmt: skip
+    study = {
+        "format": "quasistatic-ref/study-store", "version": 1, "kind": "sweep",
+        "sweeps": [{"name": "slide", "scenario": "block", "link": "block", "since": 0.0}],
+        "machine": {}, "versions": {},
+    }  # fmt: skip
+    folder.mkdir()
+    (folder / "study.json").write_text(json.dumps(study))
+    (folder / "rows.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
+    return rows

@@ -1,0 +1,122 @@
+"""The numbers of a report again, from ``rows.jsonl``, by plain loops; shares no code with it."""
+
+import math
+import re
+
+
+def parsed(markdown):
+    """(title, filter, columns, rows) of every table of a page."""
+    found, title, where, lines = [], None, None, []
+    for line in [*markdown.splitlines(), ""]:
+        if head := re.fullmatch(r"\*\*(.*?)\*\* \*Rows:\* (.*)\.", line):
+            title, where = head.groups()
+        elif line.startswith("|"):
+            lines.append([cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]])
+        elif lines:
+            found.append((title, where, lines[0], lines[2:]))
+            lines = []
+    return found
+
+
+def picked(rows, words):
+    """The rows that a filter names, `road = cvxpy, warm = false; ...`."""
+    kept = rows
+    if words.startswith("all rows"):
+        return kept
+    for part in words.split(";")[0].split(", "):
+        name, value = part.split(" = ")
+        kept = [r for r in kept if said(r, name) == value]
+    return kept
+
+
+def said(row, name):
+    if name == "label":
+        return row["road"] + ":" + row["solver"]
+    value = row[name]
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def shared(rows, names):
+    """Rows that were asked, on the problems on which everybody was, by the fields `names`."""
+    asked = [r for r in rows if r["outcome"] != "not_run_budget"]
+    everybody = {tuple(said(r, n) for n in names) for r in asked}
+    on = {}
+    for r in asked:
+        on.setdefault((r["problem"], r["repetition"]), set()).add(tuple(said(r, n) for n in names))
+    return [r for r in asked if on[r["problem"], r["repetition"]] == everybody]
+
+
+def quantile(values, share):
+    """Linear between order statistics; 0.5 is the median."""
+    ordered = sorted(values)
+    at = share * (len(ordered) - 1)
+    low, high = ordered[math.floor(at)], ordered[math.ceil(at)]
+    return low + (at - math.floor(at)) * (high - low)
+
+
+def delivered(row, what="delta_q"):
+    value = row["digits"][what]
+    return value if row["outcome"] == "solved" and value is not None else 0.0
+
+
+def seconds(row, limit):
+    return row["seconds"]["call"] if row["outcome"] == "solved" else limit
+
+
+def number(column, rows, limit):
+    """What stands in a column of that name, made of these rows; None for a column of text."""
+    if narrowed := re.fullmatch(r"(.*), (\w+ = \w+)", column):
+        return number(narrowed[1], picked(rows, narrowed[2]), limit)
+    if least := re.match(r">= (\d) digits", column):
+        return 100 * sum(delivered(r) >= float(least[1]) for r in rows) / len(rows)
+    told = [r["iterations"] for r in rows if r["iterations"] is not None]
+    times = [seconds(r, limit) for r in rows]
+    logs = sum(math.log(t + 1e-3) for t in times) / len(times)
+    counted = column.removesuffix(" (budget)").replace(" ", "_")
+    counts = {
+        "calls": len(rows),
+        "problems": len({(r["problem"], r["repetition"]) for r in rows}),
+        "solved [%]": 100 * sum(r["outcome"] == "solved" for r in rows) / len(rows),
+        "digits, 1st percentile": quantile([delivered(r) for r in rows], 0.01),
+        "digits, median": quantile([delivered(r) for r in rows], 0.5),
+        "digits of the net wrench, median": quantile(
+            [delivered(r, "net_wrench") for r in rows], 0.5
+        ),
+        "time, median [ms]": 1e3 * quantile(times, 0.5),
+        "time, shifted geometric mean [ms]": 1e3 * (math.exp(logs) - 1e-3),
+        "iterations, median": quantile(told, 0.5) if told else None,
+        "said optimal, was wrong": sum(r["wrong"] for r in rows),
+    }
+    if column in counts:
+        return counts[column]
+    ended = {"not_run": "not_run_budget"}.get(counted, counted)
+    return sum(r["outcome"] == ended for r in rows)
+
+
+def agrees(cell, value):
+    """Whether a cell shows a value, as far as it shows figures."""
+    if value is None:
+        return cell == "-"
+    mantissa = cell.lower().partition("e")[0]
+    decimals = len(mantissa.partition(".")[2])
+    power = int(cell.lower().partition("e")[2] or 0)
+    # Whole numbers of three figures may stand for more, as 123 ms does for 122.6 ms.
+    return abs(float(cell) - value) <= 0.5001 * 10.0 ** (power - decimals)
+
+
+def rows_of_line(title, where, columns, line, rows):
+    """The rows that one line of a table is about."""
+    kept = picked(rows, where)
+    names = ["label", "setting"]
+    if "all of them were asked on" in where:
+        kept = shared(kept, names)
+        told = re.search(r"on the ([\d,]+) problems", where)[1].replace(",", "")
+        assert int(told) == len({(r["problem"], r["repetition"]) for r in kept}), title
+    for name, cell in zip(columns, line, strict=True):
+        if name == "solver":
+            kept = [r for r in kept if cell in (said(r, "label"), r["solver"])]
+        elif name in ("setting", "family"):
+            kept = [r for r in kept if r[name] == cell]
+    if both := re.search(r"that both have, (\w+) aside", where):
+        kept = shared(kept, [both[1]])
+    return kept

@@ -1,0 +1,246 @@
+"""The report: each number of it is made again from the rows that it names, by plain loops."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.figures import faults
+from quasistatic_ref.figures.study_images import KINDS, drawn, images
+from quasistatic_ref.study.page_html import html_page
+from quasistatic_ref.study.page_markdown import markdown_page
+from quasistatic_ref.study.report import study_report
+from quasistatic_ref.study.statistics import (
+    performance_ratios,
+    profile,
+    shifted_geometric_mean,
+)
+from tests.study import made_store, plain_report
+from tests.study.plain_report import agrees, delivered, number, picked, quantile, rows_of_line
+
+TEXT = {"solver", "setting", "its own options", "family"}
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("report") / "store"
+    made_store.written(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def rows(store):
+    return [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
+
+
+@pytest.fixture(scope="module")
+def report(store):
+    return study_report(store)
+
+
+@pytest.fixture(scope="module")
+def tables(report):
+    return plain_report.parsed(markdown_page(report))
+
+
+def of_store(tables):
+    return [t for t in tables if not t[1].startswith(("study.json", "problems.jsonl"))]
+
+
+def lines(tables, *, titled):
+    return [
+        (title, where, columns, line)
+        for title, where, columns, body in tables
+        if re.match(titled, title)
+        for line in body
+    ]
+
+
+def test_a_report_has_every_table(tables):
+    assert len(of_store(tables)) == 1 + 3 + 4 + 1 + 2 + 3 + 1
+
+
+def test_every_number_of_columns_named_by_what_they_count_is_that_of_the_rows(tables, rows):
+    checked = 0
+    titles = "The setting to use|Setting|Raw units|Cold|Directly|How the calls"
+    for title, where, columns, line in lines(tables, titled=titles):
+        own = rows_of_line(title, where, columns, line, rows)
+        for column, cell in zip(columns, line, strict=True):
+            if column not in TEXT:
+                value = number(column, own, made_store.LIMIT)
+                assert agrees(cell, value), (title, line[0], column, cell, value)
+                checked += 1
+    assert checked > 250
+
+
+def test_false_claims_are_those_of_the_rows(tables, rows):
+    found = lines(tables, titled="Said optimal")
+    assert len(found) == 16
+    for _, where, columns, (solver, *cells) in found:
+        for setting, cell in zip(columns[1:], cells, strict=True):
+            words = f"{where}, label = {solver}, setting = {setting}"
+            own = picked(rows, words)
+            wrong = sum(row["wrong"] for row in own)
+            assert cell == (f"{wrong} / {len(own)}" if own else "-")
+
+
+def test_digits_by_family_are_those_of_the_rows(tables, rows):
+    found = lines(tables, titled="Median digits by family")
+    for title, where, columns, (family, *cells) in found:
+        for solver, cell in zip(columns[1:], cells, strict=True):
+            own = rows_of_line(title, where, ["solver", "family"], [solver, family], rows)
+            assert agrees(cell, quantile([delivered(r) for r in own], 0.5))
+    assert len(found) == 2 * len(made_store.FAMILIES)
+
+
+def test_each_false_claim_that_is_shown_is_a_row_and_the_worst_of_its_kind(tables, rows):
+    found = lines(tables, titled="The false claims")
+    for *_, (solver, setting, units, warm, problem, claimed, promised, digits) in found:
+        words = f"label = {solver}, setting = {setting}, units = {units}, warm = {warm}"
+        own = [r for r in picked(rows, words) if r["wrong"]]
+        (row,) = (r for r in own if r["problem"] == problem)
+        assert row["claimed"] == claimed
+        assert float(promised) == made_store.SETTINGS[setting][1]
+        assert agrees(digits, min(delivered(r) for r in own))
+    assert len(found) == 12
+
+
+def test_the_setting_advised_is_the_fastest_of_those_near_the_best(tables, rows):
+    found = lines(tables, titled="The setting to use")
+    assert [line[0] for *_, line in found]
+    share, mean = ">= 6 digits [%]", "time, shifted geometric mean [ms]"
+    for title, where, columns, line in found:
+        options = {}
+        for setting in made_store.SETTINGS:
+            own = rows_of_line(title, where, columns[:2], [line[0], setting], rows)
+            options[setting] = [number(c, own, made_store.LIMIT) for c in (share, mean)]
+        best = max(s for s, _ in options.values())
+        near = {name: t for name, (s, t) in options.items() if s >= best - 1}
+        assert line[1] == min(near, key=near.get)
+
+
+def test_profiles_are_shares_of_problems_right_in_time(report, rows):
+    """rho_s(tau): how many problems s has right within tau times the least time, over all."""
+    (picture,) = (p for p in report.pictures if p.kind == "profiles")
+    for panel, setting, least in zip(
+        picture.data["panels"], ("default", "mid"), (3.0, 3.0), strict=True
+    ):
+        base = picked(rows, picture.where.split(";")[0] + f", setting = {setting}")
+        base = plain_report.shared(base, ["label"])
+        for label, ratios in zip(panel["labels"], panel["ratios"], strict=True):
+            for tau in (1.0, 3.0, 50.0):
+                right = 0
+                problems = {r["problem"] for r in base}
+                for problem in problems:
+                    here = [r for r in base if r["problem"] == problem]
+                    times = {
+                        plain_report.said(r, "label"): r["seconds"]["call"]
+                        for r in here
+                        if delivered(r) >= least
+                    }
+                    right += label in times and times[label] <= tau * min(times.values())
+                shown = profile(ratios, np.array([tau]))[0]
+                assert shown == pytest.approx(100 * right / len(problems), rel=1e-12)
+
+
+def test_a_problem_that_nobody_gets_right_counts_for_nobody():
+    ratios = performance_ratios(
+        np.array([[1.0, 2.0], [4.0, 1.0]]), np.array([[True, False], [True, False]])
+    )
+    np.testing.assert_array_equal(ratios, [[1, np.inf], [4, np.inf]])
+
+
+def test_the_shifted_geometric_mean_is_its_formula():
+    """sqrt((t1 + s) (t2 + s)) - s."""
+    expected = np.sqrt((0.003 + 0.001) * (0.008 + 0.001)) - 0.001
+    assert shifted_geometric_mean(np.array([0.003, 0.008])) == pytest.approx(expected, rel=1e-12)
+
+
+class Page(HTMLParser):
+    """The cells, links and tags of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.cells, self.links, self.tags, self._open = [], [], set(), None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):  # noqa: D102 as the parser calls it
+        self.tags.add(tag)
+        self.links += [value for name, value in attrs if name in ("src", "href")]
+        if tag in ("td", "th"):
+            self._open = ""
+
+    def handle_data(self, data):  # noqa: D102 the same
+        if self._open is not None:
+            self._open += data
+
+    def handle_endtag(self, tag):  # noqa: D102 the same
+        if tag in ("td", "th"):
+            self.cells.append(self._open)
+            self._open = None
+
+
+def test_the_html_page_shows_the_same_tables_and_needs_nothing_from_elsewhere(report, tables):
+    text = html_page(report, {picture.name: b"<svg/>" for picture in report.pictures})
+    page = Page(text)
+    cells = [
+        c.replace("`", "") for _, _, head, body in tables for row in (head, *body) for c in row
+    ]
+    assert page.cells == cells
+    assert not page.tags & {"script", "link", "iframe", "object"}
+    assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in page.links)
+    assert "url(" not in text
+    assert "@import" not in text
+
+
+def test_a_report_is_written_with_its_figures(store, tmp_path, capsys):
+    assert main(["study", "report", str(store), "--out", str(tmp_path)]) == 0
+    capsys.readouterr()
+    files = sorted(p.relative_to(tmp_path).as_posix() for p in tmp_path.rglob("*.*"))
+    figures = ["digits_time", "families", "profiles", "success"]
+    assert files == [*(f"figures/{f}.png" for f in figures), "report.html", "report.md"]
+    text = (tmp_path / "report.md").read_text()
+    assert sorted(re.findall(r"\]\((.*?)\)", text)) == files[:4]
+    assert (tmp_path / "report.html").read_text().count("data:image/svg+xml;base64,") == 4
+
+
+def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
+    made_store.sweep_written(tmp_path / "store")
+    every = (*report.pictures, *study_report(tmp_path / "store").pictures)
+    assert [picture.kind for picture in every] == list(KINDS)
+    for picture in every:
+        figure = drawn(picture)
+        assert faults(figure) == []
+        plt.close(figure)
+
+
+def test_a_report_is_the_same_when_it_is_made_again(store, report):
+    again = study_report(store)
+    assert markdown_page(again) == markdown_page(report)
+    assert images(again.pictures[1]) == images(report.pictures[1])
+
+
+def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
+    rows = made_store.sweep_written(tmp_path / "store")
+    report = study_report(tmp_path / "store")
+    (_, where, columns, body), *_ = plain_report.parsed(markdown_page(report))
+    assert where == "sweep = slide"
+    assert columns[:5] == ["mu [the scenario's unit]", "h [s]", "outcome", "largest rotation [deg]",
+                           "boundary layer [um]"]  # fmt: skip
+    ordered = sorted(rows, key=lambda row: (row["values"]["mu"], row["values"]["h"]))
+    for row, line in zip(ordered, body, strict=True):
+        told = [*row["values"].values(), *row["measures"].values()]
+        shown = line[:2] + line[3:]
+        assert [c if c == "-" else float(c) for c in shown] == [
+            "-" if v is None else v for v in told
+        ]
+        assert line[2] == (row["reason"] or "done")
+    (picture,) = report.pictures
+    assert {name: len(points) for name, points in picture.data["lines"].items()} == {
+        "h = 0.01 s": 2,
+        "h = 0.02 s": 3,
+    }
