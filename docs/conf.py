@@ -9,6 +9,8 @@ import re
 import sys
 from pathlib import Path
 
+from docutils import nodes
+
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
@@ -43,7 +45,7 @@ html_show_sphinx = False
 # Furo's button fonts are the system's; its icons are inline. There is nothing to fetch.
 html_theme_options = {"navigation_with_keys": True}
 
-myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_links_external_new_tab = False
 
@@ -93,6 +95,18 @@ from quasistatic_ref.step.cones import direction
 
 
 PACKAGE = ROOT / "quasistatic_ref"
+CLOSED_FORMS = ("derivations", "cones", "sensitivity")
+"""The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
+RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
+KEPT = re.compile(
+    r"(^```.*?^```$|\$\$.+?\$\$|\$[^$]+\$|`[^`\n]+`|\[[^\]]*\]\{#r\d+\})", re.MULTILINE | re.DOTALL
+)
+"""What of a page is no prose: fences, literals, formulas, results where they begin."""
+INCLUDED = {"validation/claims.md": "claims.md", "validation/vectors/README.md": "vectors.md"}
+"""Pages of the repository that are pages of the site too: where they are, and where here."""
+CITED_RESULT = re.compile(r"\((R\d+)\)")
+CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
+CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
 MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
 
 
@@ -101,6 +115,7 @@ def setup(app):
     # It copies files when all is built, and says nothing about reading in parallel.
     app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
     app.connect("source-read", _expanded)
+    app.connect("doctree-read", _plain_listings)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
 
@@ -111,9 +126,30 @@ def _expanded(app, docname, source):
     ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
     """
     up = "../" * docname.count("/")
-    text = source[0].replace("](../validation/claims.md)", f"]({up}claims.md)")
+    text = source[0]
+    for file, page in INCLUDED.items():
+        text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
-    source[0] = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
+    text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
+    if docname in CLOSED_FORMS:
+        text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)
+    source[0] = _results_linked(text)
+
+
+def _results_linked(text):
+    """(R7) in prose leads to where it is derived; fences, literals and formulas stay."""
+    parts = KEPT.split(text)
+    parts[::2] = (
+        CITED_RESULT.sub(lambda r: f"[({r[1]})](#{r[1].lower()})", part) for part in parts[::2]
+    )
+    return "".join(parts)
+
+
+def _plain_listings(app, doctree):
+    """In quoted source, references read as on a page: (4) for an equation, a name for a class."""
+    for listing in doctree.findall(nodes.literal_block):
+        text = CITED_NAME.sub(r"\1", CITED_EQUATION.sub(r"(\1)", listing.astext()))
+        listing.rawsource, listing.children = text, [nodes.Text(text)]
 
 
 def _modules(folder):
@@ -133,6 +169,7 @@ def _example(name):
     path = PACKAGE / "examples" / f"{name}.py"
     title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
     text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
+    text = _results_linked(text)
     return f"""
 ## {title.rstrip(".")}
 
@@ -148,7 +185,7 @@ def _example(name):
 ```
 
 :::{{admonition}} quasistatic_ref/examples/{name}.py
-:class: dropdown
+:collapsible: closed
 
 ```{{literalinclude}} ../../quasistatic_ref/examples/{name}.py
 :language: python
@@ -185,6 +222,11 @@ def _mended(app, what, name, obj, options, lines):
 
 
 def _bars(line):
-    """Vertical bars escaped, except in literals."""
+    """Vertical bars escaped, and results linked, except in literals."""
     parts = LITERAL.split(line)
-    return "".join(p if p.startswith("``") else p.replace("|", "\\|") for p in parts)
+    return "".join(p if p.startswith("``") else _prose(p) for p in parts)
+
+
+def _prose(text):
+    linked = CITED_RESULT.sub(lambda r: f":ref:`({r[1]}) <{r[1].lower()}>`", text)
+    return linked.replace("|", "\\|")

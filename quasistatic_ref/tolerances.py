@@ -120,6 +120,8 @@ which its answer is taken at once [-]. What is right to rounding is at 1e-12 and
 REPEATED: Final = 1e-9
 """Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
 
+Where as many corners are wanted as are that near to the closest pair, it is kept after them.
+
 Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
 
 CLOSED_FORM: Final = 1e-12

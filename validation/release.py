@@ -101,6 +101,11 @@ RESULTS = (
         ("validation.exact_everywhere", "--out", "validation/results/exact_everywhere.txt"),
         ("validation/results/exact_everywhere.txt",),
     ),
+    Result(
+        "bench",
+        (CLI, "bench", "--out", "validation/benchmarks"),
+        ("validation/benchmarks",),
+    ),
     *(
         Result(
             f"study_{name}",

@@ -8,8 +8,8 @@ import sys
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
-from quasistatic_ref.simulate.grasp import CASES, CLOSED, INSTANTS, grasp_report
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.grasp import CLOSED, INSTANTS, TOP, grasp_report, grasp_scenarios
+from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 
@@ -17,15 +17,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     shared.add_out(parser, "demo")
     shared.add_solver(parser)
+    shared.add_set(parser)
     shared.add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run both cases, print a table, write the figures and both trajectories."""
-    settings = shared.scenario_settings(options)
-    scenarios = {
-        case: load_scenario("bunny_grasp", [*settings, *own]) for case, own in CASES.items()
-    }
+    scenarios = grasp_scenarios(shared.scenario_settings(options))
     writable_folder(options.out)
     runs: dict[str, Trajectory] = {}
     report: dict[str, dict[str, object]] = {}
@@ -69,8 +67,11 @@ def _figures(
 
 def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
     labels = {
-        "rotation_deg": ("rotation of the bunny during the lift [deg]", "{:.3f}"),
-        "lift_mm": ("lift height [mm]", "{:.2f}"),
+        "rotation_deg": (
+            f"rotation of the bunny, t = {CLOSED:g} to {TOP:g} s, at most [deg]",
+            "{:.3f}",
+        ),
+        "lift_mm": (f"lift height, t = {CLOSED:g} to {TOP:g} s [mm]", "{:.2f}"),
         "certified": ("certified", "{}"),
         "worst_residual": ("worst residual [natural units]", "{:.1e}"),
         "variables": ("variables", "{}"),

@@ -11,6 +11,7 @@ import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
+from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.cli.shape_words import shape_words
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
@@ -93,6 +94,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record |= {"engine": scenario.engine, "cone": scenario.cone}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
+    record["fields"] = named_fields(scenario.path)
     return record
 
 
@@ -139,6 +141,10 @@ def _print(record: dict[str, Any]) -> None:
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         print(f"- {sentence}")
+    if "fields" in record:
+        print("\nthe fields of its file; --set NAME=VALUE changes one:")
+        for line in field_lines(record["fields"]):
+            print(f"  {line}")
     if record["notes"]:
         print("\nit takes otherwise than written:")
     for sentence in record["notes"]:

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator, Mapping
 from typing import Any
+
+import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
+from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified, worst_residual
 from quasistatic_ref.step.cones import cone
+
+TOLD = 4
+"""Free bodies whose motion is printed; all of them are in the JSON object."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -57,6 +64,13 @@ def run(options: argparse.Namespace) -> int:
         "worst_residual": worst_residual(trajectory),
         "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
+        "free_bodies": {
+            body: {
+                "largest_rotation_deg": float(np.degrees(motion.largest_rotation)),
+                "largest_rise_mm": 1e3 * motion.largest_rise,
+            }
+            for body, motion in free_body_motions(scenario.system, trajectory).items()
+        },
         "milliseconds_per_step": milliseconds,
     }
     if view is not None:
@@ -69,6 +83,8 @@ def run(options: argparse.Namespace) -> int:
     asked = f"{summary['backend']} ({summary['engine']})"
     print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
     print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
+    for line in _moved(summary["free_bodies"]):
+        print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     print(f"wrote {path}{'' if view is None else f' and {view}'}")
@@ -82,3 +98,11 @@ def _worst(x: object) -> str:
 def _artifacts(Pi: float | None, layer: float) -> str:
     number = "not defined" if Pi is None else f"{Pi:.2g}"
     return f"largest quasi-dynamic number {number}, largest boundary layer {1e6 * layer:.3g} um"
+
+
+def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
+    for body, told in list(bodies.items())[:TOLD]:
+        turned, rose = told["largest_rotation_deg"], told["largest_rise_mm"]
+        yield f"{body}: turned by at most {turned:.3g} deg and rose by at most {rose:.3g} mm"
+    if len(bodies) > TOLD:
+        yield f"{len(bodies) - TOLD} more free bodies: see --json"

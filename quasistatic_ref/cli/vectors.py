@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from quasistatic_ref.vectors.check import check_answers
+    from quasistatic_ref.vectors.check.folder import check_answers
 
     report = check_answers(options.answers, _source(options), options.layers)
     if options.json:

@@ -2,8 +2,8 @@
 
 Of a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
 on beta, beta's corners on alpha, and the closest pair, in that order, and the k of least signed
-distance are kept, those that repeat an earlier one after all others. None is nearer than the
-closest pair, so k = 1 asks for that one alone.
+distance are kept, those that repeat an earlier one after all others, and so the closest pair where
+k corners are as near. None is nearer than the closest pair, so k = 1 asks for that one alone.
 """
 
 from __future__ import annotations
@@ -121,19 +121,23 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
             nearest,
         ]
     )
-    order = closest(np.where(_repeated(candidates), np.inf, candidates.phi), pair.k)
+    order = closest(np.where(_late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
 
 
-def _repeated(candidates: ClosestPoints) -> NDArray[np.bool_]:
-    """Which candidates are an earlier one again: they are kept after all others.
+def _late(candidates: ClosestPoints, k: int) -> NDArray[np.bool_]:
+    """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
 
-    The closest pair mostly is a corner; without this it would take the place of another, and
-    four contacts under a box would be three.
+    The closest pair mostly is a corner, and on parallel faces anything between corners that are
+    as near but for rounding; without this it would take the place of another, and four contacts
+    under a box would be three.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
-    return np.asarray(np.tril(same, -1).any(axis=1))
+    late = np.tril(same, -1).any(axis=1)
+    level = ~late & (candidates.phi <= candidates.phi[-1] + REPEATED)
+    late[-1] |= np.count_nonzero(level[:-1]) >= k
+    return np.asarray(late)
 
 
 def _points_on_solid(

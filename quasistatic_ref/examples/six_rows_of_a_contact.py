@@ -1,9 +1,10 @@
 """The six rows of one contact, and which of them hold back a ball that slides and spins.
 
-Each row i of Eq. (4) is a distance that must not become negative: how far the ball has risen, less
-mu_v times its slip along +d1, +d2, -d1 or -d2, or less mu_omega times its turn about n, one way or
-the other. A ball that only slides along d1 stands on one of the six; one that slides and spins so
-that both cost the same stands on two. The rows that it stands on push back, all others are open.
+Each row i of Eq. (4) is an opening that must not become negative: how far the ball has risen, plus
+mu_v times its slip along +d1, +d2, -d1 or -d2, or plus mu_omega times its turn about n, one way or
+the other. So the row named -d1 closes when the ball slides along +d1, and pushes it back along -d1.
+A ball that only slides along d1 stands on one of the six; one that slides and spins so that both
+cost the same stands on two. The rows that it stands on push back, all others are open.
 """
 
 from __future__ import annotations

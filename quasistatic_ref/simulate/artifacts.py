@@ -56,5 +56,5 @@ def warning(header: Mapping[str, Any]) -> str | None:
     return (
         f"the quasi-dynamic number of this run reaches {Pi:.2g}: the spurious drag m v / h is that "
         "many times friction at the fastest moment; move more slowly or take larger steps "
-        "(docs/artifacts.md)"
+        "(the documentation's page 'Where the model is wrong')"
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.simulate.measures import link_motion
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
 
 CASES: Final[dict[str, list[str]]] = {
@@ -21,6 +23,31 @@ CLOSED, TOP = 0.7, 2.9
 
 INSTANTS = (0.3, CLOSED, 1.4, 2.1, TOP)
 """Columns of Figure 1 [s]."""
+
+
+def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
+    """Both cases with settings of the user's own, as ``key=value``.
+
+    What makes a case comes last, so that no setting undoes it.
+
+    Raises
+    ------
+    ScenarioError
+        If a setting is refused, or a run would end before the lift does.
+    """
+    scenarios = {
+        case: load_scenario("bunny_grasp", [*settings, *own]) for case, own in CASES.items()
+    }
+    for scenario in scenarios.values():
+        end = scenario.steps * scenario.h
+        if end < TOP - scenario.h / 2:
+            raise ScenarioError(
+                f"end at t = {end:g} s, before the lift does (t = {TOP:g} s), which is what is "
+                "compared: set more of them",
+                field="steps",
+                value=scenario.steps,
+            )
+    return scenarios
 
 
 def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,13 +39,31 @@ class LinkMotion:
         """Index of the instant nearest to `time` [s]."""
         return int(np.abs(self.times - time).argmin())
 
+    @property
+    def largest_rotation(self) -> float:
+        """Largest angle [rad] from the orientation at the start."""
+        return float(self.rotation_since(0.0).max())
+
+    @property
+    def largest_rise(self) -> float:
+        """How far the origin was above its start at most, along the world's z [m]; 0 at least."""
+        return float((self.t[:, 2] - self.t[0, 2]).max())
+
 
 def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion:
     """Poses of a link (or of a body's root link) along a trajectory."""
-    i = system.link(link)
+    return _motions(system, trajectory, (link,))[link]
+
+
+def free_body_motions(system: System, trajectory: Trajectory) -> dict[str, LinkMotion]:
+    """Motion of each body that nothing drives: whose base is floating or planar and free."""
+    bases = [j for j in system.joints if j.kind in ("floating", "planar") and not j.actuated]
+    return _motions(system, trajectory, [joint.name.removesuffix("/base") for joint in bases])
+
+
+def _motions(system: System, trajectory: Trajectory, links: Sequence[str]) -> dict[str, LinkMotion]:
     poses = [system.kinematics(q) for q in trajectory["q"]]
-    return LinkMotion(
-        times=np.concatenate([[0.0], trajectory["t"]]),
-        R=np.array([pose.R[i] for pose in poses]),
-        t=np.array([pose.t[i] for pose in poses]),
-    )
+    R, t = np.array([pose.R for pose in poses]), np.array([pose.t for pose in poses])
+    times = np.concatenate([[0.0], trajectory["t"]])
+    at = {link: system.link(link) for link in links}
+    return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in at.items()}

@@ -19,7 +19,7 @@ class Blocks:
     column : ndarray of int, shape (n_c, w)
         Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w.
     J : ndarray, shape (n_c, 4, w)
-        As :attr:`~quasistatic_ref.step.data.Contacts.J`, those columns; zero where there are fewer.
+        As J of ``Contacts``, those columns; zero where there are fewer.
     n_v : int
         Number of coordinates.
     """

@@ -13,8 +13,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.vectors.check.joints import base_rotations, places, quaternion_places
 from quasistatic_ref.vectors.expected import Json
-from quasistatic_ref.vectors.joints import base_rotations, places, quaternion_places
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from quasistatic_ref.vectors.files import Case, answers_written, expected_text, 
 from quasistatic_ref.vectors.layers import LAYERS, layer
 from quasistatic_ref.vectors.manifest import MANIFEST, manifest_text
 
-COPIED: Final = ("README.md", "LICENSE.md", "inputs/*.json", "schemas/*.json")
+COPIED: Final = ("README.md", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
 
 

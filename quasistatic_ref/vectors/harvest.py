@@ -11,8 +11,8 @@ from pathlib import Path
 
 from quasistatic_ref.files import text_written, writable_folder
 from quasistatic_ref.vectors.expected import Json
+from quasistatic_ref.vectors.families.scenarios import scenario_cases
 from quasistatic_ref.vectors.files import Case, inputs_text
-from quasistatic_ref.vectors.harvest_scenarios import scenario_cases
 from quasistatic_ref.vectors.layers import LAYERS
 
 

@@ -16,7 +16,7 @@ BY_HAND = {"validation/results/fuzzing.md", "validation/mutation_survivors.md"}
 
 def committed():
     folders = ("validation/results/*", "validation/figures/*.png", "docs/figures/*.png")
-    folders = (*folders, "validation/*.md")
+    folders = (*folders, "validation/*.md", "validation/benchmarks/*")
     return {str(p.relative_to(ROOT)) for folder in folders for p in ROOT.glob(folder)}
 
 

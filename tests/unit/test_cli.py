@@ -217,6 +217,21 @@ def test_inspect_shows_a_scenario(scene, capsys):
     assert "2.5 N m/rad" in text
 
 
+def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
+    assert main(["inspect", scene, "--json"]) == 0
+    fields = json.loads(capsys.readouterr().out)["fields"]
+    assert fields["h"] == 0.01
+    numbers = {
+        name: x for name, x in fields.items() if type(x) in (int, float) and name != "version"
+    }
+    assert any(name.startswith("contacts.floor.") for name in numbers)
+    for name, value in numbers.items():
+        assert main(["inspect", scene, "--json", "--set", f"{name}={value}"]) == 0
+        capsys.readouterr()
+    assert main(["inspect", scene]) == 0
+    assert "  h = 0.01\n" in capsys.readouterr().out
+
+
 def test_backends_lists_what_is_installed(capsys):
     assert main(["backends", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

@@ -114,6 +114,25 @@ def test_candidates_are_alphas_corners_betas_corners_and_the_closest_pair() -> N
     assert sorted(four.point.tolist()) == [0, 1, 2, 3]
 
 
+def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place() -> None:
+    # The lower corners are level but for rounding, and so is the middle of their edge, where the
+    # support point lies when an edge is parallel to the slope.
+    for degrees in range(1, 45):
+        R = Rotation.from_rotvec([0, np.deg2rad(degrees), 0]).as_matrix()
+        slope = HalfSpace(R[:, 2], 0.0)
+        points = found(slope, CUBE, R, R @ [0.3, 0.2, 0.05], 4)
+        assert sorted(points.point.tolist()) == [0, 1, 2, 3]
+        np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_a_closest_pair_that_is_no_corner_is_kept_where_corners_are_farther() -> None:
+    # Two beams crossed at right angles, 0.01 m apart: no corner faces the other beam.
+    beam, across = Box(np.array([0.5, 0.02, 0.02])), Box(np.array([0.02, 0.5, 0.02]))
+    points = found(beam, across, np.eye(3), np.array([0.0, 0.0, 0.05]), 4)
+    assert points.point[0] == 16
+    np.testing.assert_allclose(points.phi[0], 0.01, rtol=EXACT, atol=CLOSED_FORM)
+
+
 def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
     floor = HalfSpace(np.eye(3)[2], 0.0)
     lying = Rotation.from_rotvec([0, np.pi / 2, 0]).as_matrix()

@@ -5,8 +5,8 @@ import importlib
 import sys
 from pathlib import Path
 
-from quasistatic_ref.vectors.answers import Answers
-from quasistatic_ref.vectors.check import layer_report
+from quasistatic_ref.vectors.check.answers import Answers
+from quasistatic_ref.vectors.check.folder import layer_report
 from quasistatic_ref.vectors.files import expected_read, inputs_read
 from quasistatic_ref.vectors.layers import LAYERS
 

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.conditioning import Errors, bounds
+from quasistatic_ref.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.vectors.exact.floor import floors
+from quasistatic_ref.vectors.exact.rational import digits, exact, rounded, tolerance
 from quasistatic_ref.vectors.layers import qp, rows, selection, wrench
-from quasistatic_ref.vectors.rational import digits, exact, rounded, tolerance
+from tests.tolerances import ROUNDING
 
 EPS = Fraction(1, 2**53)
 
@@ -139,3 +141,26 @@ def test_fractions_are_rounded_to_even_and_never_to_minus_zero():
     assert str(rounded(exact([-0.0]))) == "[0.0]"
     assert digits(x=values)["x"][0] == "3.33333333333333333333333333333e-01"
     assert digits(x=exact(np.zeros(201))) == {}
+
+
+def test_a_body_held_fast_is_asked_for_eight_roundings_of_the_step_it_would_make():
+    # H = 100: ||H^-1 g||_H = |g| / 10, an entry of x is off by a tenth of the error in that norm,
+    # one of A'lam by ten times it, and the rows (+-1/2, 1) by sqrt(5/4) as much as x.
+    case = {
+        "H": [[100.0, 0.0], [0.0, 100.0]],
+        "g": [0.03, -0.1],
+        "A": [[0.5, 1.0], [-0.5, 1.0]],
+        "b": [0.0, 0.0],
+    }
+    error = 8 * float(EPS) * np.hypot(0.03, 0.1) / 10
+    x, net, slack = floors(qp.form_of(case))
+    np.testing.assert_allclose(float(x), error / 10, rtol=ROUNDING)
+    np.testing.assert_allclose(float(net), error * 10, rtol=ROUNDING)
+    np.testing.assert_allclose(float(slack), error / 10 * np.sqrt(1.25), rtol=ROUNDING)
+    answer = qp.expected(case)
+    assert answer.output["delta_q"] == [0.0, 0.0]
+    assert float(x) <= answer.tolerance["delta_q"].absolute <= 2 * float(x)
+
+
+def test_without_forces_and_rows_nothing_is_rounded():
+    assert floors(qp.form_of({"H": [[2.0]], "g": [0.0], "A": [], "b": []})) == (0, 0, 0)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.families.distance import distance_cases
-from quasistatic_ref.vectors.families.distance_corners import CORNERS
+from quasistatic_ref.vectors.families.distance import CORNERS, distance_cases
 from quasistatic_ref.vectors.families.shapes import (
+    FLOOR,
     ON_SIDE,
     SHAPES,
     at,
@@ -186,6 +186,17 @@ def test_exchanging_the_sides_exchanges_the_answer(id_):
 def test_the_corners_that_are_not_unique_are_known():
     flags = {name: all(distance.answer(CASES[f"distance/corner/{name}"])[2]) for name in CORNERS}
     assert {name for name, unique in flags.items() if not unique} == NOT_UNIQUE
+
+
+def test_a_corner_that_rounding_chooses_is_not_called_unique():
+    # Tilted by 1e-17 rad a cube stands on one corner, and by four units of rounding on another.
+    tilted = at(0.0, 0.0, 0.5, [5e-18, 3e-18, 0.0, 1.0])
+    given = case(FLOOR, ORIGIN, box(1, 1, 1), tilted)
+    _, _, unique = distance.answer(given)
+    found = distance.expected(given)
+    assert unique == [True]
+    assert found.flags == {"unique": False}
+    assert found.tolerance["alpha"].absolute < 1e-13
 
 
 @pytest.mark.parametrize("id_", list(CASES)[::4])

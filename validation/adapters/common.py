@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.resources import vectors_folder
-from quasistatic_ref.vectors.answers import Answers
-from quasistatic_ref.vectors.check import layer_report
+from quasistatic_ref.vectors.check.answers import Answers
+from quasistatic_ref.vectors.check.folder import layer_report
+from quasistatic_ref.vectors.check.report import LayerReport
 from quasistatic_ref.vectors.files import expected_read, inputs_read
-from quasistatic_ref.vectors.report import LayerReport
 
 
 class Unsupported(Exception):

@@ -14,11 +14,11 @@ import numpy as np
 from common import plain
 
 from quasistatic_ref.validate.engines.mujoco_scenes import heap
-from quasistatic_ref.vectors.answers import Answers
-from quasistatic_ref.vectors.check import layer_report
+from quasistatic_ref.vectors.check.answers import Answers
+from quasistatic_ref.vectors.check.folder import layer_report
+from quasistatic_ref.vectors.check.report import LayerReport
 from quasistatic_ref.vectors.files import Case
 from quasistatic_ref.vectors.layers import layer
-from quasistatic_ref.vectors.report import LayerReport
 
 NAME = f"mujoco {mujoco.__version__}"
 ORDER = [0, 2, 1, 3, 4, 5]

@@ -121,7 +121,7 @@ def corners(shape):
 
 
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
-    """phi, alpha, beta, n of all candidates, and which repeat an earlier one."""
+    """phi, alpha, beta, n of all candidates, and which come after all others."""
     clouds = "cloud" in (alpha["kind"], beta["kind"])
     parts = []
     if k > 1 and not clouds:
@@ -139,6 +139,7 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     if k > 1 and not clouds:
         near = np.abs(every[:, None] - every).max(axis=2) <= 1e-9
         late = np.tril(near, -1).any(axis=1)
+        late[-1] |= np.sum(~late[:-1] & (phi[:-1] <= phi[-1] + 1e-9)) >= k
     return phi, a, b, n, late
 
 

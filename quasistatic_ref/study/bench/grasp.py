@@ -151,7 +151,7 @@ def _selection(simulator: Simulator, q: Array) -> float:
 
 
 UNFIT = ("highs",)
-"""Solves a third of these steps, and can take seconds over one (docs/conventions.md)."""
+"""At the accuracy asked for it leaves a third of the grasp unsolved (docs/conventions.md)."""
 
 
 def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""Inputs written by rule: closed forms, seeded random numbers and degenerate corners."""
+"""Inputs written by rule (closed forms, seeded random numbers, corners) and from scenarios."""

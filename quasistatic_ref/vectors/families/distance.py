@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.families.distance_corners import CORNERS
+from quasistatic_ref.vectors.families.curved_corners import CURVED_CORNERS
 from quasistatic_ref.vectors.families.mechanisms import Rng, Table, random_pose
+from quasistatic_ref.vectors.families.polytope_corners import POLYTOPE_CORNERS
 from quasistatic_ref.vectors.families.shapes import SHAPES, cloud, mixed_points
 from quasistatic_ref.vectors.layers.distance import answer
 
@@ -19,6 +20,9 @@ CLOSE = 1e-9
 
 POSES = 40
 """Random poses that are tried for each kind of gap."""
+
+CORNERS = POLYTOPE_CORNERS | CURVED_CORNERS
+"""Name, provenance, alpha, its pose, beta, its pose."""
 
 
 def distance_cases() -> Iterator[Case]:

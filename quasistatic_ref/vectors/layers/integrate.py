@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Final
 
+from quasistatic_ref.vectors.exact.integration import integrated
+from quasistatic_ref.vectors.exact.mechanism import mechanism
+from quasistatic_ref.vectors.exact.precision import rounded
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.integration import integrated
-from quasistatic_ref.vectors.mechanism import mechanism
-from quasistatic_ref.vectors.precision import rounded
 
 EPS: Final = 2.0**-52
 ROUNDINGS: Final = 8.0
@@ -28,7 +28,7 @@ def expected(case_input: Json) -> Expected:
 
 def own(case_input: Json) -> Json:
     """The package's next configuration."""
-    from quasistatic_ref.vectors.own_system import own_system
+    from quasistatic_ref.vectors.own.system import own_system
 
     mine = own_system(case_input["mechanism"])
     q = mine.model_q(case_input["q"])

@@ -6,10 +6,10 @@ from typing import Any, Final
 
 from flint import fmpq
 
-from quasistatic_ref.vectors.algebra import dot
+from quasistatic_ref.vectors.exact.algebra import dot
+from quasistatic_ref.vectors.exact.mechanism import Mechanism, mechanism, poses
+from quasistatic_ref.vectors.exact.precision import numbers, rounded
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.mechanism import Mechanism, mechanism, poses
-from quasistatic_ref.vectors.precision import numbers, rounded
 
 EPS: Final = 2.0**-52
 PER_BODY: Final = 8.0
@@ -63,7 +63,7 @@ def own(case_input: Json) -> Json:
     import numpy as np
 
     from quasistatic_ref.contact.jacobian import contact_jacobian
-    from quasistatic_ref.vectors.own_system import own_system
+    from quasistatic_ref.vectors.own.system import own_system
 
     contacts = case_input["contacts"]
     if not contacts:

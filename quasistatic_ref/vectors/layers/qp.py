@@ -21,10 +21,10 @@ from quasistatic_ref.certify.rational import ExactForm, exact_form_of
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.solution import Certificate
-from quasistatic_ref.vectors.conditioning import Bounds, bounds
-from quasistatic_ref.vectors.enclosed import enclosed
+from quasistatic_ref.vectors.exact.conditioning import Bounds, bounds
+from quasistatic_ref.vectors.exact.enclosed import enclosed
+from quasistatic_ref.vectors.exact.rational import Exact, digits, rounded, tolerance
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.rational import Exact, digits, rounded, tolerance
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
@@ -129,7 +129,10 @@ def claimed(case_input: Json, output: Json) -> Certificate:
 
 def tolerances(bound: Bounds) -> dict[str, Tolerance]:
     """Tolerances of the fields of an optimum."""
-    why = "rounding of the data and of the KKT system, times its componentwise condition"
+    why = (
+        "rounding of the data and of the KKT system, times its componentwise condition; "
+        "at least 8 roundings of the unconstrained step, in the H norm"
+    )
     return {
         "delta_q": tolerance(bound.x, why),
         "lam": tolerance(bound.lam, why),

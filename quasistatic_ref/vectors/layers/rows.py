@@ -7,8 +7,8 @@ import numpy as np
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts
 from quasistatic_ref.step.friction import friction_rows, row_gaps
+from quasistatic_ref.vectors.exact.rational import UNIT, digits, exact, largest, rounded, tolerance
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.vectors.rational import UNIT, digits, exact, largest, rounded, tolerance
 
 ROUNDINGS = 16
 """Of an entry of A: a dot product of three terms, its product with mu, and the sum of four such,

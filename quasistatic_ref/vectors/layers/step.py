@@ -14,18 +14,18 @@ from typing import Any, Final
 from flint import fmpq
 
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.vectors.algebra import Vector, cross, dot, moved, product, subtract, unit
-from quasistatic_ref.vectors.candidates import FIELDS, Chosen, chosen
-from quasistatic_ref.vectors.conditioning import Errors, bounds
-from quasistatic_ref.vectors.difference import difference
+from quasistatic_ref.vectors.distances.candidates import FIELDS, Chosen, chosen
+from quasistatic_ref.vectors.exact.algebra import Vector, cross, dot, moved, product, subtract, unit
+from quasistatic_ref.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.vectors.exact.difference import difference
+from quasistatic_ref.vectors.exact.masses import gravity_force, mass_matrix_u
+from quasistatic_ref.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
+from quasistatic_ref.vectors.exact.precision import Real, least, number, numbers, rounded
+from quasistatic_ref.vectors.exact.rational import tolerance
+from quasistatic_ref.vectors.exact.rotation import quaternion_of, rotation
 from quasistatic_ref.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.vectors.layers import layer
 from quasistatic_ref.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
-from quasistatic_ref.vectors.masses import gravity_force, mass_matrix_u
-from quasistatic_ref.vectors.mechanism import Mechanism, Poses, mechanism, poses
-from quasistatic_ref.vectors.precision import Real, least, number, numbers, rounded
-from quasistatic_ref.vectors.rational import tolerance
-from quasistatic_ref.vectors.rotation import quaternion_of, rotation
 
 EPS: Final = 2.0**-52
 ROUNDINGS: Final = 16
@@ -95,7 +95,7 @@ def expected(case_input: Json) -> Expected:
 
 def own(case_input: Json) -> Json:
     """The package's answer, through its own System, pairs and simulator."""
-    from quasistatic_ref.vectors.own_step import own_step
+    from quasistatic_ref.vectors.own.step import own_step
 
     return own_step(case_input)
 

@@ -11,9 +11,17 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.vectors.exact.rational import (
+    UNIT,
+    Exact,
+    digits,
+    exact,
+    largest,
+    rounded,
+    tolerance,
+)
 from quasistatic_ref.vectors.expected import Expected, Json
 from quasistatic_ref.vectors.layers.rows import row_coefficients
-from quasistatic_ref.vectors.rational import UNIT, Exact, digits, exact, largest, rounded, tolerance
 
 ROUNDINGS = 16
 """Of a force: a product, a sum over up to eight rows and a quotient, each counted twice."""

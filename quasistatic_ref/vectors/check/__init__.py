@@ -1,0 +1,1 @@
+"""The checker: answers of others against what is expected, and which mistake they show."""

@@ -1,0 +1,1 @@
+"""Closest points of two shapes, in closed form or by search, in exact numbers."""

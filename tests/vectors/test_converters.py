@@ -1,0 +1,90 @@
+"""Other conventions: declared in the answers, or converted by hand, there and back."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.vectors.converters import CONVENTIONS, Program, tangent_map, wxyz, xyzw
+from tests.tolerances import ROUNDING
+from tests.vectors.material import cases, report_on, right_answers, small_cases
+
+
+@pytest.mark.parametrize("tangent", ["world", "mujoco"])
+@pytest.mark.parametrize("layer", ["jacobian", "step"])
+def test_answers_in_another_tangent_space_are_converted_if_they_say_so(layer, tangent):
+    turned = {}
+    for case in small_cases(layer):
+        B = tangent_map(case.input["mechanism"], case.input["q"], tangent)
+        turned[case.id] = in_tangent(right_answers(layer)[case.id], B)
+    declared = report_on(layer, turned, tangent=tangent)
+    assert declared.ok, declared.trouble
+    assert report_on(layer, turned).count("failed") > 0
+
+
+@pytest.mark.parametrize(("layer", "field"), [("integrate", "q"), ("step", "q_next")])
+def test_quaternions_in_the_other_order_are_converted_if_the_answers_say_so(layer, field):
+    answers = {}
+    for case in small_cases(layer):
+        answer = right_answers(layer)[case.id]
+        if field in answer:
+            q = wxyz(case.input["mechanism"], answer[field])
+            answers[case.id] = {**answer, field: q}
+    assert report_on(layer, answers, quaternion="wxyz").ok
+    assert report_on(layer, answers).count("failed") > 0
+    assert report_on(layer, answers).mistakes[0].name == "quaternion order"
+
+
+def in_tangent(output, B):
+    """An output whose delta_q is B' delta_q: J B, A B, B'HB, B'g; B is orthogonal."""
+    rules = {
+        "J": lambda v: v @ B,
+        "A": lambda v: v @ B,
+        "H": lambda v: B.T @ v @ B,
+        "g": lambda v: B.T @ v,
+        "delta_q": lambda v: B.T @ v,
+        "A_lam": lambda v: B.T @ v,
+    }
+    turned = {}
+    for name, value in output.items():
+        if name == "contacts":
+            turned[name] = [in_tangent(contact, B) for contact in value]
+        elif name in rules and len(value):
+            turned[name] = rules[name](np.array(value)).tolist()
+        else:
+            turned[name] = value
+    return turned
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_every_convention_is_a_way_to_write_the_same_step_and_back(name, rng):
+    n, m, h = 5, 7, 0.01
+    L = rng.normal(size=(n, n))
+    H, A, lam = L @ L.T + np.eye(n), rng.normal(size=(m, n)), rng.uniform(0, 1, m)
+    x = rng.normal(size=n)
+    program = Program(H, H @ x - A.T @ lam, A, A @ x, x, lam)
+    start = rng.normal(size=n)
+    written = CONVENTIONS[name].written(program, h, start)
+    # The KKT conditions of the program as written: H x - g = A' lam, and A x = b as given here.
+    balance = written.H @ written.x - written.g - written.A.T @ written.lam
+    size = np.abs(written.H).max() * np.abs(written.x).max() + np.abs(written.g).max()
+    np.testing.assert_allclose(balance, 0.0, atol=ROUNDING * size)
+    np.testing.assert_allclose(written.A @ written.x, written.b, rtol=ROUNDING, atol=ROUNDING)
+    back = CONVENTIONS[name].read(written, h, start)
+    for field in ("H", "g", "A", "b", "x", "lam"):
+        given, found = getattr(program, field), getattr(back, field)
+        np.testing.assert_allclose(found, given, rtol=ROUNDING, atol=ROUNDING * np.abs(given).max())
+
+
+def test_velocities_have_h_squared_K_and_forces_have_K():
+    K, M, h = 800.0, 0.2, 0.01
+    H = np.diag([h * K, M / h])
+    empty = Program(H, np.zeros(2), np.zeros((0, 2)), np.zeros(0), np.zeros(2), np.zeros(0))
+    v = CONVENTIONS["velocities"].written(empty, h, np.zeros(2))
+    f = CONVENTIONS["forces"].written(empty, h, np.zeros(2))
+    np.testing.assert_allclose(v.H, np.diag([h**2 * K, M]), rtol=ROUNDING)
+    np.testing.assert_allclose(f.H, np.diag([K, M / h**2]), rtol=ROUNDING)
+
+
+def test_wxyz_and_back_is_the_identity():
+    for case in cases("integrate"):
+        mechanism, q = case.input["mechanism"], case.input["q"]
+        assert xyzw(mechanism, wxyz(mechanism, q)) == q
