@@ -10,8 +10,12 @@ simulation are as small as that. Here nothing that cancels is divided by a small
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+
+import numpy as np
 
 from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.step.data import Array
 
 Vector = list[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
@@ -26,6 +30,27 @@ def position(joint: Joint, q: Vector, delta_q: Vector) -> Vector:
     (a, b, c), (d, e, f), (g, h, i) = _rotation(joint, q)
     moved = [at[0] + (a * x + b * y + c * z), at[1] + (d * x + e * y + f * z)]
     return moved if joint.kind == "planar" else [*moved, at[2] + (g * x + h * y + i * z)]
+
+
+def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
+    """q_next (-) q with the entries of some joints anew: delta_q, and :func:`change`.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        Floating, planar or continuous.
+    q, q_next : ndarray, shape (n_q,)
+    delta_q : ndarray, shape (n_v,), or (n_a,) if only the actuated coordinates are asked for
+
+    Returns
+    -------
+    ndarray, shape (n_v,) or (n_a,)
+    """
+    anew, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
+    for joint in joints:
+        if joint.v.stop <= len(anew):
+            anew[joint.v] = change(joint, here, there, anew)
+    return np.array(anew)
 
 
 def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:

@@ -141,17 +141,15 @@ class System:
         order = self._order
         after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
         q_next = order.paper_q(after)
-        if self._bases:
-            here, moved = q.tolist(), delta_q.tolist()
-            for joint in self._bases:
-                q_next[screw.place(joint)] = screw.position(joint, here, moved)
+        for joint in self._bases:
+            q_next[screw.place(joint)] = screw.position(joint, q.tolist(), delta_q.tolist())
         return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        order = self._order
-        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
-        return self._exact(q, q_next, order.paper_v(change))
+        at, there = self._order.model_q(q), self._order.model_q(q_next)
+        change = self._order.paper_v(pin.difference(self._model, at, there))
+        return screw.changes(self._screws, q, q_next, change)
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
@@ -167,15 +165,7 @@ class System:
         q_next = q.copy()
         q_next[:n] = q_a
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
-        return self._exact(q, q_next, change.take(order.v[: self.n_a]))
-
-    def _exact(self, q: Array, q_next: Array, delta_q: Array) -> Array:
-        """delta_q of all or of the actuated coordinates, with the screws of its joints anew."""
-        rounded, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
-        for joint in self._screws:
-            if joint.v.stop <= len(rounded):
-                rounded[joint.v] = screw.change(joint, here, there, rounded)
-        return np.array(rounded)
+        return screw.changes(self._screws, q, q_next, change.take(order.v[: self.n_a]))
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""

@@ -14,13 +14,14 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
+from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.simulate.target import Target, target_function
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
@@ -34,7 +35,6 @@ from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY, SPARSE_FROM
 
 Force = Callable[[float, Array], Array]
-Target = Callable[[float], Array]
 GRAVITY = (0.0, 0.0, -9.81)
 
 
@@ -152,9 +152,7 @@ class Simulator:
         points = self.tracker.closest_points(kinematics.R, kinematics.t)
         lap("distances")
         step = self.step_data(q, q_bar_a, force, points, kinematics)
-        own = None if self.extension is None else self.extension(q)
-        if own is not None and (rows := extension_rows(step, own)) is not None:
-            step, own = with_rows(step, rows), None
+        step, own = self.extended(step, q)
         lap("rows")
         solution = self.solved(step, own)
         self.limits.check_penetration(step)  # an infeasible step says more about itself
@@ -192,6 +190,13 @@ class Simulator:
             step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
         self._like = step
         return step
+
+    def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
+        """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
+        own = None if self.extension is None else self.extension(q)
+        if own is not None and (rows := extension_rows(step, own)) is not None:
+            return with_rows(step, rows), None
+        return step, own
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
         """The step solved, with a problem that is built once."""
@@ -249,7 +254,7 @@ def simulate(
         trajectory so far, and the failing step.
     """
     q = simulator.system.checked(q)
-    q_bar_a = _target_function(simulator, target, steps)
+    q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     g = float(np.linalg.norm(simulator.gravity))
     recorder = Recorder(
         simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
@@ -275,26 +280,3 @@ def simulate(
     if progress and (fast := warning(trajectory.header)):
         print(f"quasistatic-ref: {fast}", file=sys.stderr)
     return trajectory
-
-
-def _target_function(simulator: Simulator, target: Target | Array, steps: int) -> Target:
-    """Targets in any accepted form as a function of t; every value checked as q is."""
-    system = simulator.system
-
-    def checked(q_a: Array) -> Array:
-        return system.checked(system.with_actuated(system.q_start, q_a))[: system.n_q_a]
-
-    if callable(target):
-        return lambda t: checked(target(t))
-    values, n = np.asarray(target, dtype=np.float64), system.n_q_a
-    if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
-        raise InputError(
-            f"must hold finite numbers of shape ({n},) or ({steps}, {n})",
-            field="target",
-            value=values.shape,
-        )
-    if values.ndim == 1:
-        constant = checked(values)
-        return lambda t: constant
-    table = [checked(row) for row in values]
-    return lambda t: table[round(t / simulator.h) - 1]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from contextvars import copy_context
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -32,7 +31,7 @@ from quasistatic_ref.solve.problems import Problem
 from quasistatic_ref.solve.scaled import Scaled, out_of_range
 from quasistatic_ref.solve.sparse import SparseProblem
 from quasistatic_ref.solve.units import Units, from_natural, out_of_reach, within_reach
-from quasistatic_ref.step.arrays import finite
+from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -44,12 +43,6 @@ from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
 NOTHING_CLAIMED = Certificate("none")
-
-QUIET = copy_context()
-"""Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
-NumPy warns of, get lost between BLAS's threads. (np.errstate sets a variable that every call of
-NumPy then looks up anew: 9 us a step.)"""
-QUIET.run(np.seterr, all="ignore")
 
 
 def solve_step(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextvars import copy_context
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,12 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
 
 Array = NDArray[np.float64]
+
+QUIET = copy_context()
+"""Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
+NumPy warns of, get lost between BLAS's threads. (np.errstate sets a variable that every call of
+NumPy then looks up anew: 9 us a step.)"""
+QUIET.run(np.seterr, all="ignore")
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
