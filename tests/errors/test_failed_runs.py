@@ -134,6 +134,7 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
         [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--out", str(out)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     while not out.exists():  # the folder is made just before the first step
         time.sleep(0.05)
@@ -157,6 +158,15 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
         np.testing.assert_allclose(trajectory[name][:length], short[name], rtol=EXACT, atol=EXACT)
 
 
+@pytest.fixture
+def listening():
+    """SIGINT as a terminal has it: whoever is started in the background ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("listening")
 def test_ctrl_c_is_noted_once_and_raised_the_second_time():
     before = signal.getsignal(signal.SIGINT)
     with Interrupt() as interrupt:
