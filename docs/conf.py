@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
-from quasistatic_ref.examples.gallery import EXAMPLES  # noqa: E402 the same
+from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the same
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -95,6 +95,7 @@ from quasistatic_ref.step.cones import direction
 
 
 PACKAGE = ROOT / "quasistatic_ref"
+LAB = PACKAGE / "lab"
 CLOSED_FORMS = ("derivations", "cones", "sensitivity")
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
@@ -153,8 +154,8 @@ def _plain_listings(app, doctree):
 
 
 def _modules(folder):
-    """An automodule directive for each module of a folder; of the package, only its own files."""
-    files = folder.glob("*.py") if folder == PACKAGE else folder.rglob("*.py")
+    """An automodule directive for each module of a folder; of the two storeys, only their own."""
+    files = folder.glob("*.py") if folder in (PACKAGE, LAB) else folder.rglob("*.py")
     names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
     one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"
     return "\n".join(
@@ -166,7 +167,7 @@ def _modules(folder):
 
 def _example(name):
     """One example in the gallery: what it says of itself, its figure, and its code folded away."""
-    path = PACKAGE / "examples" / f"{name}.py"
+    path = PACKAGE / "lab" / "examples" / f"{name}.py"
     title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
     text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
     text = _results_linked(text)
@@ -180,14 +181,14 @@ def _example(name):
    :filename-prefix: gallery_{name}
    :alt: {title}
 
-   from quasistatic_ref.examples.gallery import figure_of
+   from quasistatic_ref.lab.examples.gallery import figure_of
    figure_of("{name}")
 ```
 
-:::{{admonition}} quasistatic_ref/examples/{name}.py
+:::{{admonition}} quasistatic_ref/lab/examples/{name}.py
 :collapsible: closed
 
-```{{literalinclude}} ../../quasistatic_ref/examples/{name}.py
+```{{literalinclude}} ../../quasistatic_ref/lab/examples/{name}.py
 :language: python
 ```
 :::

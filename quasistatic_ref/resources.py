@@ -15,7 +15,7 @@ def models_folder() -> Path:
 
 def vectors_folder() -> Path:
     """The folder of the reference vectors that come with the package."""
-    return _folder("validation/vectors", "vectors/data")
+    return _folder("validation/vectors", "lab/vectors/data")
 
 
 def _folder(beside: str, inside: str) -> Path:

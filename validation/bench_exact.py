@@ -24,7 +24,7 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.ask import backend_answer
 from quasistatic_ref.solve.units import natural_units, to_natural

@@ -25,7 +25,7 @@ from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.figures.style import figure_written
-from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.ask import backend_answer
 from quasistatic_ref.solve.units import from_natural, natural_units, to_natural

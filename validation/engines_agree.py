@@ -13,7 +13,7 @@ import sys
 import numpy as np
 
 from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.native import native_backends

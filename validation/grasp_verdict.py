@@ -15,8 +15,8 @@ import tempfile
 from pathlib import Path
 
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.resources import models_folder
-from quasistatic_ref.simulate.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.simulate.scenario import load_scenario
 
 MASSES = (0.1, 0.2, 0.4)

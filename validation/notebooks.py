@@ -19,7 +19,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from traitlets.config import Config
 
-from quasistatic_ref.examples.gallery import EXAMPLES, example
+from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
 
 KERNELS = 2
 """Notebooks that run at the same time."""

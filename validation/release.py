@@ -57,7 +57,8 @@ class Result:
         file = ROOT / Path(*module.split(".")).with_suffix(".py")
         if module != CLI:
             return file.exists()
-        return (ROOT / "quasistatic_ref" / "cli" / f"{self.command[1]}.py").exists()
+        commands = ROOT / "quasistatic_ref" / "lab" / "commands"
+        return (commands / f"{self.command[1]}.py").exists()
 
 
 RESULTS = (

@@ -12,11 +12,12 @@ import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError, suggestion
 
+CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
 COMMANDS = {
     "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
     "run": "simulate a scenario and write its trajectory",
@@ -31,6 +32,8 @@ COMMANDS = {
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
 }
+LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
+"""Commands that do something with the core rather than are part of it."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -71,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
         # Only the command that is used declares its options: their modules may be heavy.
         if name in given:
-            import_module(f"quasistatic_ref.cli.{name}").add_options(command)
+            _module(name).add_options(command)
     options = parser.parse_args(given)
     try:
         return _status(options)
@@ -91,8 +94,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(f"standard output: cannot be written: {error.strerror or error}", 2)
 
 
+def _module(command: str) -> Any:
+    """Import the module of a command: the lab's are imported nowhere else in the core."""
+    return import_module(f"{LAB if command in LABS else CORE}.{command}")
+
+
 def _status(options: argparse.Namespace) -> int:
-    status = int(import_module(f"quasistatic_ref.cli.{options.command}").run(options))
+    status = int(_module(options.command).run(options))
     sys.stdout.flush()  # here, where a full device can still be reported
     return status
 

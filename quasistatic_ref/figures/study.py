@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 
 from quasistatic_ref.figures.study_pens import pens, short
 from quasistatic_ref.figures.style import PAGE
-from quasistatic_ref.study.statistics import profile
 
 FURTHEST: Final = 1e4
 """Largest ratio of times that a profile shows."""
@@ -140,3 +139,18 @@ def _legend(figure: Figure, names: list[str]) -> None:
         handles, list(shown.values()), loc="outside lower center",
         ncols=3 if shown[names[0]] == names[0] else 5, handlelength=2.6, columnspacing=1.0,
     )  # fmt: skip
+
+
+def profile(ratios: np.ndarray, taus: np.ndarray) -> np.ndarray:
+    """Share of problems within each ratio of the fastest [%].
+
+    Parameters
+    ----------
+    ratios : ndarray, shape (problems,) [-]
+    taus : ndarray, shape (n,) [-]
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    return 100 * np.searchsorted(np.sort(ratios), taus, side="right") / max(len(ratios), 1)

@@ -12,27 +12,26 @@ from matplotlib.figure import Figure
 from quasistatic_ref.figures.study import digits_time, families, profiles, success
 from quasistatic_ref.figures.study_sweep import sweep
 from quasistatic_ref.figures.style import figure_style
-from quasistatic_ref.study.page import Picture
 
 KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
     draw.__name__: draw for draw in (profiles, success, digits_time, families, sweep)
 }
 
 
-def drawn(picture: Picture) -> Figure:
-    """The figure of a picture, in the common style."""
+def drawn(kind: str, data: Mapping[str, Any]) -> Figure:
+    """A figure of some kind, in the common style."""
     with figure_style("paper"):
-        return KINDS[picture.kind](picture.data)
+        return KINDS[kind](data)
 
 
-def images(picture: Picture) -> dict[str, bytes]:
-    """``"png"`` and ``"svg"`` of a picture: equal bytes for equal data."""
+def images(kind: str, data: Mapping[str, Any]) -> dict[str, bytes]:
+    """``"png"`` and ``"svg"`` of a figure: equal bytes for equal data."""
     found = {}
     with figure_style("paper"):
-        figure = drawn(picture)
-        for kind, metadata in (("png", None), ("svg", {"Date": None})):
+        figure = drawn(kind, data)
+        for suffix, metadata in (("png", None), ("svg", {"Date": None})):
             stream = BytesIO()
-            figure.savefig(stream, format=kind, metadata=metadata)
-            found[kind] = stream.getvalue()
+            figure.savefig(stream, format=suffix, metadata=metadata)
+            found[suffix] = stream.getvalue()
     plt.close(figure)
     return found

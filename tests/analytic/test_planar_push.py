@@ -7,8 +7,8 @@ is held against what it has to satisfy, and steps against laws that do not need 
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.validate.slider import push, push_step, sliding_motion, sticking_motion
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.validate.slider import push, push_step, sliding_motion, sticking_motion
 from tests.tolerances import ROUNDING
 
 X_C, Y_C, U_X, U_Y, C = 0.03, -0.02, 0.6, 0.8, 0.025

@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.examples import grasp, grasp_rotation, solver_digits
-from quasistatic_ref.examples.gallery import EXAMPLES, example, figure_of
-from quasistatic_ref.examples.runs import ran
 from quasistatic_ref.figures import faults
-from quasistatic_ref.simulate.grasp import CASES
+from quasistatic_ref.lab.examples import grasp, grasp_rotation, solver_digits
+from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
+from quasistatic_ref.lab.examples.runs import ran
+from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.lab.validate.paper import step_time
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
-from quasistatic_ref.validate.paper import step_time
 from tests.tolerances import FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
@@ -178,7 +178,7 @@ def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
 
 
 def test_an_example_is_a_script(tmp_path):
-    command = [sys.executable, "-W", "error", "-m", "quasistatic_ref.examples.cone_surfaces"]
+    command = [sys.executable, "-W", "error", "-m", "quasistatic_ref.lab.examples.cone_surfaces"]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False

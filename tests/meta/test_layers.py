@@ -29,6 +29,18 @@ PLANTED = {
     "the ground floor": ("errors.py", "from quasistatic_ref.step import data", "later room"),
     "a lazy import": ("step/a.py", "import_module('quasistatic_ref.cli')", "later room"),
     "the face": ("__init__.py", "from quasistatic_ref.step import data", "later room"),
+    "the lab in the core": (
+        "simulate/a.py",
+        "from quasistatic_ref.lab.study import run",
+        "later room",
+    ),
+    "the lab as a string": ("cli/run.py", "x = 'quasistatic_ref.lab.commands'", "names the lab"),
+    "a later room of the lab": (
+        "lab/vectors/a.py",
+        "from quasistatic_ref.lab.validate import claim",
+        "later room",
+    ),
+    "an unknown room of the lab": ("lab/attic/a.py", "x = 1", "not a room"),
     "an unknown room": ("attic/a.py", "x = 1", "not a room"),
     "from an unknown room": ("step/a.py", "import quasistatic_ref.attic", "no room"),
     "cvxpy in the judge": ("certify/a.py", "import cvxpy as cp", "imports cvxpy"),
@@ -47,6 +59,9 @@ ALLOWED = {
     "the version": ("cli/a.py", "from quasistatic_ref import __version__"),
     "cvxpy in problem.py": ("step/problem.py", "import cvxpy as cp"),
     "coal in contact": ("contact/a.py", "import coal"),
+    "the core in the lab": ("lab/study/a.py", "from quasistatic_ref.solve import solve"),
+    "the lab's name in the door": ("cli/main.py", "x = 'quasistatic_ref.lab.commands'"),
+    "flint in the vectors": ("lab/vectors/a.py", "from flint import fmpq"),
     "for a type checker": (
         "errors.py",
         "if TYPE_CHECKING:\n    from quasistatic_ref.step.data import StepData",

@@ -33,7 +33,7 @@ def test_the_four_kinds_of_result_are_made_where_their_commands_exist():
     known = {result.name: result.available for result in release.RESULTS}
     assert known["claims"]
     assert known["figures"]
-    vectors = (ROOT / "quasistatic_ref" / "cli" / "vectors.py").exists()
+    vectors = (ROOT / "quasistatic_ref" / "lab" / "commands" / "vectors.py").exists()
     assert known["vectors"] == vectors
 
 

@@ -6,10 +6,10 @@ import pytest
 
 from quasistatic_ref.contact import jacobian
 from quasistatic_ref.contact.tracker import ContactTracker
+from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.validate.registry import BY_NAME
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate import simulator
-from quasistatic_ref.validate.claim import FAILS, HOLDS, finding
-from quasistatic_ref.validate.registry import BY_NAME
 
 TRUE = {
     "jacobian": jacobian.ContactGeometry.jacobian,

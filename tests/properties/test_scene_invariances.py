@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.validate.scenes import link_text, robot_text, system_of
 from quasistatic_ref.model.shapes import Box, HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.validate.scenes import link_text, robot_text, system_of
 from tests.helpers import changed, random_frame, random_step, reordered
 from tests.tolerances import EXACT, SCENE
 

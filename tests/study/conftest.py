@@ -2,9 +2,9 @@
 
 import pytest
 
-from quasistatic_ref.study.problems import problem_of
-from quasistatic_ref.study.run import run_study
-from quasistatic_ref.study.spec import solver_study, study_tables
+from quasistatic_ref.lab.study.problems import problem_of
+from quasistatic_ref.lab.study.run import run_study
+from quasistatic_ref.lab.study.spec import solver_study, study_tables
 from tests.study.planted import FAKES, slab
 
 

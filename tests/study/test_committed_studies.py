@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.study.page_markdown import markdown_page
-from quasistatic_ref.study.report import study_report
-from quasistatic_ref.study.solver_report import solver_report
-from quasistatic_ref.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.page_markdown import markdown_page
+from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.solver_report import solver_report
+from quasistatic_ref.lab.study.store import rows_read, study_read
 
 STUDIES = Path(__file__).parents[2] / "validation" / "studies"
 DEFAULT = STUDIES / "default"

@@ -6,11 +6,11 @@ Then docs/studies.md, which lists them, is out of date, and the workaround may g
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.study.problems import problem_of
+from quasistatic_ref.lab.study.qp import in_units, units_of
 from quasistatic_ref.solve.direct import direct_reply
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.study.problems import problem_of
-from quasistatic_ref.study.qp import in_units, units_of
 from tests.helpers import planted_step
 from tests.study.planted import slab
 

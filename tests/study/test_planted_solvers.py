@@ -10,9 +10,9 @@ import time
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.study.keeper import Keeper
-from quasistatic_ref.study.solvers import SETTINGS, Solver
-from quasistatic_ref.study.worker import GRACE
+from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.worker import GRACE
 from tests.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]

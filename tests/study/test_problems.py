@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.study.parquet import benchmark_written
-from quasistatic_ref.study.problems import NUMBERS, made, problem_set, problems_read, set_record
-from quasistatic_ref.study.qp import condition
-from quasistatic_ref.study.spec import FAMILIES, TestSet
+from quasistatic_ref.lab.study.parquet import benchmark_written
+from quasistatic_ref.lab.study.problems import NUMBERS, made, problem_set, problems_read, set_record
+from quasistatic_ref.lab.study.qp import condition
+from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
 
 EACH = {"scenarios": 3, "contacts": 3, "mass_ratio": 4, "time_step": 0, "closest_points": 0,
         "bodies": 1}  # fmt: skip

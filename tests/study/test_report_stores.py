@@ -8,10 +8,10 @@ from matplotlib import pyplot as plt
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures.study_images import drawn
-from quasistatic_ref.study.pack import shorter
-from quasistatic_ref.study.page_markdown import markdown_page
-from quasistatic_ref.study.report import study_report
-from quasistatic_ref.study.store import rows_read
+from quasistatic_ref.lab.study.pack import shorter
+from quasistatic_ref.lab.study.page_markdown import markdown_page
+from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.store import rows_read
 from tests.study import made_store, plain_report
 
 
@@ -80,7 +80,7 @@ def test_a_study_that_has_hardly_begun_is_reported_too(store, rows, tmp_path, ke
     counts = [t for t in plain_report.parsed(markdown_page(report)) if t[0].startswith("How the")]
     assert sum(int(line[1]) for line in counts[0][3]) == len(kept)
     for picture in report.pictures:
-        plt.close(drawn(picture))
+        plt.close(drawn(picture.kind, picture.data))
 
 
 def test_nothing_is_drawn_of_calls_that_were_not_made(store, rows, tmp_path):

@@ -4,9 +4,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.plan import plan
+from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path, study_tables
 from quasistatic_ref.solve.plain_options import DIRECT, OPTIONS, installed_solvers, plain_options
-from quasistatic_ref.study.plan import plan
-from quasistatic_ref.study.spec import QUICK, solver_study, study_path, study_tables
 
 RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
 MINE = '[solvers.mine]\ncallable = "planted_solvers:honest"\n'

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.study.store import ROWS, Store, rows_read, table
+from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, table
 
 STUDY = {"format": "quasistatic-ref/study-store", "version": 1, "kind": "solvers"}
 

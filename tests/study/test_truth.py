@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.bound import enclosed_answer
+from quasistatic_ref.lab.study import truth
+from quasistatic_ref.lab.study.ask import NEAR, neighbour
+from quasistatic_ref.lab.study.families.tower import tower_step
+from quasistatic_ref.lab.study.grade import exam, grades
+from quasistatic_ref.lab.study.qp import condition, in_units, units_of
+from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
 from quasistatic_ref.solve.reply import Reply, step_of
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.study import truth
-from quasistatic_ref.study.ask import NEAR, neighbour
-from quasistatic_ref.study.families.tower import tower_step
-from quasistatic_ref.study.grade import exam, grades
-from quasistatic_ref.study.qp import condition, in_units, units_of
-from quasistatic_ref.study.truth import NoAnswer, answer_of
 from tests.study.planted import slab
 
 

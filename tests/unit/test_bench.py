@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.study.bench.acceptance import promises
+from quasistatic_ref.lab.study.bench.by_hand import hand_step
+from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
+from quasistatic_ref.lab.study.bench.grasp import places
+from quasistatic_ref.lab.study.bench.report import page, promise_rows
+from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.adapters.bare import BareDaqp
 from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.units import from_natural
-from quasistatic_ref.study.bench.acceptance import promises
-from quasistatic_ref.study.bench.by_hand import hand_step
-from quasistatic_ref.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.study.bench.grasp import places
-from quasistatic_ref.study.bench.report import page, promise_rows
-from quasistatic_ref.study.bench.timing import in_turn, ratio
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET, OPTIMUM
 

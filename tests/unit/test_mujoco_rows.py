@@ -3,11 +3,11 @@
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.validate.engines import mujoco_rows
+from quasistatic_ref.lab.validate.engines.mujoco_rows import rows_of, tangent_map
+from quasistatic_ref.lab.validate.engines.mujoco_scenes import heap
 from quasistatic_ref.step.friction import friction_rows
-from quasistatic_ref.validate.claim import FAILS, HOLDS, finding
-from quasistatic_ref.validate.engines import mujoco_rows
-from quasistatic_ref.validate.engines.mujoco_rows import rows_of, tangent_map
-from quasistatic_ref.validate.engines.mujoco_scenes import heap
 from tests.helpers import changed, contacts_of, random_frame
 from tests.tolerances import ROUNDING
 

@@ -9,6 +9,9 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
+from quasistatic_ref.lab.study import piles
+from quasistatic_ref.lab.study.large import exponent, large_step, table
+from quasistatic_ref.lab.study.piles import pile
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -18,9 +21,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem, reachable
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.study import piles
-from quasistatic_ref.study.large import exponent, large_step, table
-from quasistatic_ref.study.piles import pile
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 BOXES = (2, 1, 2)

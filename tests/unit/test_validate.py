@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.cli import validate as command
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures.validation import PICTURES
-from quasistatic_ref.validate.bodies import slope, threshold
-from quasistatic_ref.validate.claim import (
+from quasistatic_ref.lab.commands import validate as command
+from quasistatic_ref.lab.validate.bodies import slope, threshold
+from quasistatic_ref.lab.validate.claim import (
     FAILS,
     HOLDS,
     NOT_RUN,
@@ -24,8 +24,8 @@ from quasistatic_ref.validate.claim import (
     sum_of_terms,
     within,
 )
-from quasistatic_ref.validate.registry import BY_NAME, CLAIMS
-from quasistatic_ref.validate.report import claims_page, finding_record, summary
+from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
+from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
 
 DOCS = Path(__file__).parents[2] / "docs"
 

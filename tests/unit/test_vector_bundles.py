@@ -5,8 +5,8 @@ import pytest
 from pyarrow.parquet import read_table
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors import parquet
-from quasistatic_ref.vectors.parquet import Program, npz_written, parquet_written
+from quasistatic_ref.lab.vectors import parquet
+from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
 PROGRAMS = [
     Program(

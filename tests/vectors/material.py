@@ -5,10 +5,10 @@ import importlib
 import sys
 from pathlib import Path
 
-from quasistatic_ref.vectors.check.answers import Answers
-from quasistatic_ref.vectors.check.folder import layer_report
-from quasistatic_ref.vectors.files import expected_read, inputs_read
-from quasistatic_ref.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.folder import layer_report
+from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
+from quasistatic_ref.lab.vectors.layers import LAYERS
 
 ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "validation" / "vectors"

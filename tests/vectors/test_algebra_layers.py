@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.exact.conditioning import Errors, bounds
-from quasistatic_ref.vectors.exact.floor import floors
-from quasistatic_ref.vectors.exact.rational import digits, exact, rounded, tolerance
-from quasistatic_ref.vectors.layers import qp, rows, selection, wrench
+from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.lab.vectors.exact.floor import floors
+from quasistatic_ref.lab.vectors.exact.rational import digits, exact, rounded, tolerance
+from quasistatic_ref.lab.vectors.layers import qp, rows, selection, wrench
 from tests.tolerances import ROUNDING
 
 EPS = Fraction(1, 2**53)

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.check.folder import check_answers
 from tests.vectors.material import VECTORS, cases, right_answers
 
 LIGHT = ("selection", "rows", "wrench")

@@ -7,8 +7,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.files import text_written
-from quasistatic_ref.vectors.files import inputs_text, line
-from quasistatic_ref.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.files import inputs_text, line
+from quasistatic_ref.lab.vectors.layers import LAYERS
 from tests.vectors.material import cases
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.vectors.converters import CONVENTIONS, Program, tangent_map, wxyz, xyzw
+from quasistatic_ref.lab.vectors.converters import CONVENTIONS, Program, tangent_map, wxyz, xyzw
 from tests.tolerances import ROUNDING
 from tests.vectors.material import cases, report_on, right_answers, small_cases
 

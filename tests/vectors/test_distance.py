@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.families.distance import CORNERS, distance_cases
-from quasistatic_ref.vectors.families.shapes import (
+from quasistatic_ref.lab.vectors.families.distance import CORNERS, distance_cases
+from quasistatic_ref.lab.vectors.families.shapes import (
     FLOOR,
     ON_SIDE,
     SHAPES,
@@ -20,7 +20,7 @@ from quasistatic_ref.vectors.families.shapes import (
     ellipsoid,
     sphere,
 )
-from quasistatic_ref.vectors.layers import distance
+from quasistatic_ref.lab.vectors.layers import distance
 from tests.tolerances import ROUNDING
 
 CASES = {id_: case for id_, _, case in distance_cases()}

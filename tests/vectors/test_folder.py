@@ -11,12 +11,12 @@ from jsonschema import Draft202012Validator
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.files import text_written
-from quasistatic_ref.vectors.files import inputs_read, inputs_text, line
-from quasistatic_ref.vectors.generate import expected_record, generated, own_written
-from quasistatic_ref.vectors.harvest import family
-from quasistatic_ref.vectors.layers import LAYERS
-from quasistatic_ref.vectors.layers.qp import claimed, cone_step, step_of
-from quasistatic_ref.vectors.manifest import manifest_complaints
+from quasistatic_ref.lab.vectors.files import inputs_read, inputs_text, line
+from quasistatic_ref.lab.vectors.generate import expected_record, generated, own_written
+from quasistatic_ref.lab.vectors.harvest import family
+from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.layers.qp import claimed, cone_step, step_of
+from quasistatic_ref.lab.vectors.manifest import manifest_complaints
 from tests.vectors.material import ROOT, VECTORS, cases, expected
 
 MEBIBYTES = 25
@@ -181,8 +181,8 @@ def refused(*_, **__): raise AssertionError("linear algebra or libm in float64")
 for name in ("solve", "inv", "qr", "svd", "eigh", "lstsq", "cholesky"):
     setattr(np.linalg, name, refused)
 for name in ("sin", "cos", "exp", "log", "arctan2", "sqrt", "hypot"): setattr(np, name, refused)
-from quasistatic_ref.vectors.files import inputs_read
-from quasistatic_ref.vectors.generate import expected_record
+from quasistatic_ref.lab.vectors.files import inputs_read
+from quasistatic_ref.lab.vectors.generate import expected_record
 for layer, wanted in {few!r}.items():
     (case,) = (c for c in inputs_read({str(VECTORS)!r}, layer) if c.id == wanted)
     assert expected_record(layer, case)["output"]

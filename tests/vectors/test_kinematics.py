@@ -7,21 +7,21 @@ import pytest
 from flint import ctx
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.vectors.exact.integration import integrated
-from quasistatic_ref.vectors.exact.masses import gravity_force, mass_matrix_u
-from quasistatic_ref.vectors.exact.mechanism import mechanism, poses
-from quasistatic_ref.vectors.exact.precision import rounded
-from quasistatic_ref.vectors.families.integrate import integrate_cases
-from quasistatic_ref.vectors.families.jacobian import jacobian_cases
-from quasistatic_ref.vectors.families.mechanisms import (
+from quasistatic_ref.lab.vectors.exact.integration import integrated
+from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
+from quasistatic_ref.lab.vectors.exact.mechanism import mechanism, poses
+from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.families.integrate import integrate_cases
+from quasistatic_ref.lab.vectors.families.jacobian import jacobian_cases
+from quasistatic_ref.lab.vectors.families.mechanisms import (
     free_body,
     link,
     random_q,
     random_step,
     random_tree,
 )
-from quasistatic_ref.vectors.layers import integrate, jacobian
-from quasistatic_ref.vectors.own.system import own_system
+from quasistatic_ref.lab.vectors.layers import integrate, jacobian
+from quasistatic_ref.lab.vectors.own.system import own_system
 from tests.tolerances import ROUNDING
 
 FREE = {"bodies": [free_body()]}

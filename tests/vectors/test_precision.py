@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from flint import arb, fmpq
 
-from quasistatic_ref.vectors.exact.precision import Undecided, number, root, rounded, sign
+from quasistatic_ref.lab.vectors.exact.precision import Undecided, number, root, rounded, sign
 
 NEXT = nextafter(1.0, 2.0)
 """1 + 2^-52."""

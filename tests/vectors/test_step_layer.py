@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.candidates import chosen
+from quasistatic_ref.lab.vectors.exact.difference import difference
+from quasistatic_ref.lab.vectors.exact.integration import integrated
+from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
+from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.families.mechanisms import link, random_q, random_step
+from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
+from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.vectors.distances.candidates import chosen
-from quasistatic_ref.vectors.exact.difference import difference
-from quasistatic_ref.vectors.exact.integration import integrated
-from quasistatic_ref.vectors.exact.mechanism import mechanism
-from quasistatic_ref.vectors.exact.precision import rounded
-from quasistatic_ref.vectors.families.mechanisms import link, random_q, random_step
-from quasistatic_ref.vectors.families.scenario_mechanism import mechanism_of, pairs_of
-from quasistatic_ref.vectors.layers import layer
 from tests.tolerances import ROUNDING
 from tests.vectors.material import cases, expected
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.folder import layer_report
+from quasistatic_ref.lab.vectors.check.report import LayerReport
+from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.resources import vectors_folder
-from quasistatic_ref.vectors.check.answers import Answers
-from quasistatic_ref.vectors.check.folder import layer_report
-from quasistatic_ref.vectors.check.report import LayerReport
-from quasistatic_ref.vectors.files import expected_read, inputs_read
 
 
 class Unsupported(Exception):

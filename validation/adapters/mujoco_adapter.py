@@ -13,12 +13,12 @@ import mujoco
 import numpy as np
 from common import plain
 
-from quasistatic_ref.validate.engines.mujoco_scenes import heap
-from quasistatic_ref.vectors.check.answers import Answers
-from quasistatic_ref.vectors.check.folder import layer_report
-from quasistatic_ref.vectors.check.report import LayerReport
-from quasistatic_ref.vectors.files import Case
-from quasistatic_ref.vectors.layers import layer
+from quasistatic_ref.lab.validate.engines.mujoco_scenes import heap
+from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.folder import layer_report
+from quasistatic_ref.lab.vectors.check.report import LayerReport
+from quasistatic_ref.lab.vectors.files import Case
+from quasistatic_ref.lab.vectors.layers import layer
 
 NAME = f"mujoco {mujoco.__version__}"
 ORDER = [0, 2, 1, 3, 4, 5]

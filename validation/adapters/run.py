@@ -15,7 +15,7 @@ import pinocchio_adapter
 import qpsolvers_adapter
 from common import engine_report
 
-from quasistatic_ref.vectors.check.report import LayerReport
+from quasistatic_ref.lab.vectors.check.report import LayerReport
 
 HERE = Path(__file__).parent
 HEAD = "| engine | layer | passed | acceptable | failed | left out | worst digits | first failure |"

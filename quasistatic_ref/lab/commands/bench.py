@@ -1,0 +1,49 @@
+"""``bench``: what a step costs, beside the solver alone and what else one might run."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.files import json_text, text_written, writable_folder
+from quasistatic_ref.lab.study.bench.acceptance import PAPER
+from quasistatic_ref.lab.study.bench.report import page, paper_sentence, promise_rows
+from quasistatic_ref.lab.study.bench.tables import tables
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument(
+        "--quick", action="store_true", help="a little of everything, to see that it runs"
+    )
+    shared.add_out(parser, "validation/benchmarks")
+    shared.add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure, write the tables and a figure; exit status 1 if a promise does not hold.
+
+    A quick run measures too little to judge, and does not.
+    """
+    writable_folder(options.out)
+    found = tables(options.quick, lambda name: print(f"{name} ...", file=sys.stderr))
+    text_written(options.out / "bench.json", json_text(found) + "\n")
+    text_written(options.out / "bench.md", page(found))
+    _figure(found, options)
+    failed = not all(promise["holds"] for promise in found["promises"])
+    status = int(failed and not options.quick)
+    if options.json:
+        shared.print_json(found)
+        return status
+    shared.print_rows(promise_rows(found["promises"]))
+    print(paper_sentence(found))
+    print(f"wrote bench.json, bench.md and a figure to {options.out}")
+    return status
+
+
+def _figure(found: dict[str, object], options: argparse.Namespace) -> None:
+    from quasistatic_ref.figures.bench import step_times
+    from quasistatic_ref.figures.style import figure_written
+
+    figure_written(step_times(found, PAPER), options.out, "step_times")

@@ -1,0 +1,52 @@
+"""``figures [NAME...]``: make the figures of the examples, as PNG and PDF."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError, suggestion
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", help="all by default, but those whose extra is missing"
+    )
+    parser.add_argument(
+        "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
+    )
+    shared.add_out(parser, "figures")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Make them one by one.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
+    from quasistatic_ref.figures.style import figure_style, figure_written
+    from quasistatic_ref.files import writable_folder
+    from quasistatic_ref.lab.examples.gallery import EXAMPLES, figure_of
+
+    for name in options.names:
+        if name not in EXAMPLES:
+            problem = f"is no figure{suggestion(name, EXAMPLES)}"
+            raise InputError(problem, field="NAME", value=name)
+    with figure_style(options.style):
+        writable_folder(options.out)
+        for name in options.names or EXAMPLES:
+            print(f"{name} ...", file=sys.stderr)
+            try:
+                figure = figure_of(name)
+            except InputError as error:  # a robot of an extra that is not installed
+                if options.names:
+                    raise
+                print(f"quasistatic-ref: {name} was not made: {error}", file=sys.stderr)
+                continue
+            for path in figure_written(figure, options.out, name):
+                print(path)
+    return 0

@@ -1,0 +1,122 @@
+"""``study``: compare solvers, sweep the parameters of scenarios, report what was found."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.commands.study_report import add_report, run_pack, run_report
+from quasistatic_ref.lab.study.run import run_study
+from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_path, study_tables
+from quasistatic_ref.lab.study.store import ROWS, Row
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the commands below this one, and their options."""
+    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
+    run_ = actions.add_parser(
+        "run",
+        help="run a study; one that was interrupted goes on where it stopped",
+        description="Run a study; one that was interrupted goes on where it stopped.",
+    )
+    run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    shared.add_out(run_, "study")
+    run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
+    run_.add_argument(
+        "--jobs", type=int, metavar="N", help="solvers asked at once (default: all cores)"
+    )
+    run_.add_argument(
+        "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
+    )
+    shared.add_json(run_)
+    export = actions.add_parser(
+        "export",
+        help="write a study's problems as a test set of qpbenchmark",
+        description="Write a study's problems as a test set of qpbenchmark (parquet).",
+    )
+    export.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
+    shared.add_out(export, "qpbenchmark")
+    export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    add_report(actions)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what was asked for."""
+    actions: dict[str, Callable[[argparse.Namespace], int]] = {
+        "run": _run,
+        "export": _export,
+        "report": run_report,
+        "pack": run_pack,
+    }
+    return actions[options.action](options)
+
+
+def _run(options: argparse.Namespace) -> int:
+    if options.jobs is not None and options.jobs < 1:
+        raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    path = study_path(options.study)
+    tables = study_tables(path)
+    try:
+        kind = study_kind(tables)
+    except InputError as error:
+        raise error.in_file(path) from None
+    where = {"jobs": options.jobs, "scheduler": options.scheduler}
+    if kind == "sweep":
+        from quasistatic_ref.lab.study.spec_sweep import sweep_study
+        from quasistatic_ref.lab.study.sweep import run_sweep
+
+        rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
+        return _swept(rows, options)
+    rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
+    if options.json:
+        counts = Counter(row["outcome"] for row in rows)
+        shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
+        return 0
+    shared.print_rows(_summary(rows))
+    print(f"wrote {options.out / ROWS}")
+    return 0
+
+
+def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
+    """One line a solver: how many calls, how they ended, false claims."""
+    columns = ("solved", "failed", "crashed", "timeout", "nan", "wrong_shape", "not_run_budget")
+    table: list[tuple[str, ...]] = [
+        ("solver", "calls", *(c.replace("_", " ") for c in columns), "said optimal, was wrong")
+    ]
+    for label in sorted({f"{row['road']}:{row['solver']}" for row in rows}):
+        own = [row for row in rows if f"{row['road']}:{row['solver']}" == label]
+        counts = Counter(row["outcome"] for row in own)
+        wrong = sum(row["wrong"] for row in own)
+        table.append((label, str(len(own)), *(str(counts[c]) for c in columns), str(wrong)))
+    return table
+
+
+def _swept(rows: list[Row], options: argparse.Namespace) -> int:
+    failed = sum(row["outcome"] != "done" for row in rows)
+    if options.json:
+        shared.print_json({"rows": len(rows), "failed": failed, "store": str(options.out)})
+        return 0
+    measures = sorted({name for row in rows for name in row["measures"]})
+    table: list[tuple[str, ...]] = [("sweep", "values", "outcome", *measures)]
+    for row in rows:
+        values = ", ".join(f"{k}={v}" for k, v in row["values"].items())
+        found = (row["measures"].get(name) for name in measures)
+        cells = ("-" if v is None else f"{v:.6g}" for v in found)
+        table.append((row["sweep"], values, row["outcome"], *cells))
+    shared.print_rows(table)
+    print(f"{len(rows)} runs, {failed} of which ended early; wrote {options.out / ROWS}")
+    return 0
+
+
+def _export(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.parquet import benchmark_written
+
+    if options.every < 1:
+        raise InputError("must be at least 1", field="--every", value=options.every)
+    for path in benchmark_written(options.store, options.out, options.every):
+        print(f"wrote {path}")
+    return 0

@@ -1,0 +1,57 @@
+"""``study report`` and ``study pack``: what a store says, and a store small enough to keep."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.cli import options as shared
+
+
+def add_report(actions: Any) -> None:
+    """Declare ``report`` and ``pack`` among the actions of ``study``."""
+    report = actions.add_parser(
+        "report",
+        help="write what a study says: one HTML page, Markdown, figures",
+        description="Write what a study says: a self-contained HTML page, Markdown, figures.",
+    )
+    report.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
+    shared.add_out(report, "report")
+    pack = actions.add_parser(
+        "pack",
+        help="write a study's rows compressed, their numbers shortened",
+        description="Write a study's rows compressed, their numbers shortened, to be kept.",
+    )
+    pack.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
+    shared.add_out(pack, "packed")
+
+
+def run_report(options: argparse.Namespace) -> int:
+    """Write ``report.html``, ``report.md`` and ``figures``."""
+    from quasistatic_ref.figures.study_images import images
+    from quasistatic_ref.files import bytes_written, text_written, writable_folder
+    from quasistatic_ref.lab.study.page_html import html_page
+    from quasistatic_ref.lab.study.page_markdown import markdown_page
+    from quasistatic_ref.lab.study.report import study_report
+
+    report = study_report(options.store)
+    folder = writable_folder(options.out / "figures")
+    inside = {}
+    for picture in report.pictures:
+        found = images(picture.kind, picture.data)
+        inside[picture.name] = found["svg"]
+        print(f"wrote {bytes_written(folder / f'{picture.name}.png', found['png'])}")
+    pages = {"report.md": markdown_page(report), "report.html": html_page(report, inside)}
+    for name, text in pages.items():
+        print(f"wrote {text_written(options.out / name, text)}")
+    return 0
+
+
+def run_pack(options: argparse.Namespace) -> int:
+    """Write the packed store."""
+    from quasistatic_ref.lab.study.pack import packed
+
+    for path in packed(options.store, options.out):
+        print(f"wrote {path}")
+    return 0

@@ -1,0 +1,82 @@
+"""``validate [NAME...]``: measure the claims about the model."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.files import text_written
+from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
+from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
+from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
+    shared.add_out(parser, "validation")
+    shared.add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure, print a table, write claims.md and the figures; exit status 1 if a claim fails.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
+    for name in options.names:
+        if name not in BY_NAME:
+            raise InputError(f"is no claim{suggestion(name, BY_NAME)}", value=name)
+    chosen = options.names or list(BY_NAME)
+    findings: dict[str, Finding] = {}
+    for k, name in enumerate(chosen, start=1):
+        print(f"[{k}/{len(chosen)}] {name} ...", end=" ", file=sys.stderr, flush=True)
+        findings[name] = finding(BY_NAME[name])
+        print(f"{findings[name].verdict} ({findings[name].seconds:.1f} s)", file=sys.stderr)
+    drawn = _figures(findings, options.out)
+    sections = {
+        title: [findings[name] for name in claims if name in findings]
+        for title, claims in CLAIMS.items()
+    }
+    page = text_written(options.out / "claims.md", claims_page(sections, drawn))
+    failed = [name for name, found in findings.items() if found.verdict == FAILS]
+    if options.json:
+        records = [finding_record(found) for found in findings.values()]
+        shared.print_json({"claims": records, "failed": failed, "page": str(page)})
+        return 1 if failed else 0
+    rows: list[tuple[str, ...]] = [("claim", "verdict", "points", "worst error", "tolerance")]
+    rows += [(name, *summary(found)) for name, found in findings.items()]
+    shared.print_rows(rows)
+    count = {v: sum(f.verdict == v for f in findings.values()) for v in (HOLDS, FAILS, NOT_RUN)}
+    print(", ".join(f"{n} {verdict}" for verdict, n in count.items() if n))
+    for name in failed:
+        print(f"quasistatic-ref: {_why(findings[name])}", file=sys.stderr)
+    print(f"wrote {page} and {len(drawn)} figures")
+    return 1 if failed else 0
+
+
+def _why(found: Finding) -> str:
+    """One sentence on a claim that fails."""
+    name = found.claim.name
+    if found.trouble:
+        return f"{name} could not be measured: {found.trouble}"
+    bad = [c for c in finding_record(found)["comparisons"] if not c["holds"]]
+    said = "; ".join(f"{c['what']} is {c['measured']}, not {c['expected']}" for c in bad)
+    return f"{name} fails: {said}"
+
+
+def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
+    from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.figures.validation import PICTURES
+
+    drawn = []
+    for name, found in findings.items():
+        if found.evidence is not None and name in PICTURES:
+            figure_written(PICTURES[name](found.evidence.picture), folder / "figures", name)
+            drawn.append(name)
+    return drawn

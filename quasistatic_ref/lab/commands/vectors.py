@@ -1,0 +1,116 @@
+"""``vectors harvest|generate|check|own|export``: reference vectors for other implementations."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.resources import vectors_folder
+
+ACTIONS = {
+    "check": "compare a folder of answers with the vectors, layer by layer",
+    "generate": "compute every expected output from the inputs, and write the whole folder",
+    "own": "write this package's own float64 answers, as anybody else's",
+    "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
+    "harvest": "collect the inputs anew: for a release of the vectors",
+}
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the actions of this command and their options."""
+    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
+    for name, summary in ACTIONS.items():
+        action = actions.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+        if name != "harvest":
+            action.add_argument(
+                "--vectors",
+                type=Path,
+                metavar="FOLDER",
+                help="folder of vectors; by default those that come along",
+            )
+        if name == "check":
+            action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
+            shared.add_json(action)
+        else:
+            shared.add_out(action, "answers" if name == "own" else "vectors")
+        if name in ("check", "own"):
+            action.add_argument(
+                "--layer",
+                action="append",
+                metavar="NAME",
+                dest="layers",
+                help="this layer only; may be given several times",
+            )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do one of the actions."""
+    return RUNS[options.action](options)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.check.folder import check_answers
+
+    report = check_answers(options.answers, _source(options), options.layers)
+    if options.json:
+        shared.print_json(report.record)
+        return report.status
+    shared.print_rows(report.rows)
+    for sentence in report.sentences:
+        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    return report.status
+
+
+def _generate(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.generate import generated
+
+    return _counted(generated(_source(options), options.out), options.out)
+
+
+def _harvest(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.harvest import harvested
+
+    return _counted(harvested(options.out, lambda said: print(said, file=sys.stderr)), options.out)
+
+
+def _own(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.files import check_layer
+    from quasistatic_ref.lab.vectors.generate import own_written
+    from quasistatic_ref.lab.vectors.layers import LAYERS
+
+    names = [check_layer(name) for name in options.layers or LAYERS]
+    for path in own_written(_source(options), options.out, names):
+        print(path)
+    return 0
+
+
+def _export(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.parquet import exported_programs, npz_written, parquet_written
+
+    programs = exported_programs(_source(options))
+    print(parquet_written(options.out / "quasistatic_ref.parquet", programs))
+    print(npz_written(options.out / "quasistatic_ref.npz", programs))
+    return 0
+
+
+def _source(options: argparse.Namespace) -> Path:
+    return vectors_folder() if options.vectors is None else options.vectors
+
+
+def _counted(counts: dict[str, int], folder: Path) -> int:
+    rows: list[tuple[str, ...]] = [("layer", "cases")]
+    shared.print_rows([*rows, *((name, str(count)) for name, count in counts.items())])
+    print(f"wrote {sum(counts.values())} cases to {folder}")
+    return 0
+
+
+RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "check": _check,
+    "generate": _generate,
+    "own": _own,
+    "export": _export,
+    "harvest": _harvest,
+}

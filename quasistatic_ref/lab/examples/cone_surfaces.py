@@ -1,0 +1,38 @@
+"""Friction cones: what a contact can bear at a normal force of 1 N, in its three directions.
+
+The paper's six rows share one normal force, which makes an octahedron of the two tangential forces
+and the torque about n. The ellipsoid is what experiments suggest; the product lets the torque have
+its limit whatever the tangential force. How much they hold is a matter of their volumes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from quasistatic_ref.figures import styled
+from quasistatic_ref.figures.cones import limit_surfaces
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.step.cones import cone
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def main() -> Numbers:
+    """Volumes of the limit surfaces, in units of mu_v, mu_v and mu_omega."""
+    volumes = {name: ConvexHull(cone(name).table).volume for name in ("pyramid", "product")}
+    volumes["ellipsoid"] = 4 / 3 * np.pi
+    return {f"volume of the {name} [-]": volume for name, volume in volumes.items()}
+
+
+@styled
+def figure() -> Figure:
+    """The three surfaces."""
+    return limit_surfaces()
+
+
+if __name__ == "__main__":
+    script(main, figure)

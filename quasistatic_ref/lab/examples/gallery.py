@@ -1,0 +1,41 @@
+"""Every example by name, in the order in which they are best read."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+EXAMPLES: Final = (
+    "block_on_a_table",
+    "six_rows_of_a_contact",
+    "cone_surfaces",
+    "contact_geometry",
+    "block_on_an_incline",
+    "pushed_block",
+    "planar_pushing",
+    "boundary_layer",
+    "boundary_layer_laws",
+    "pinch_threshold",
+    "grasp",
+    "grasp_rotation",
+    "time_of_a_step",
+    "solver_digits",
+    "door",
+    "peg_in_a_hole",
+    "robot_push",
+    "hand_turns_a_drum",
+)
+
+
+def example(name: str) -> Any:
+    """The module of an example."""
+    return import_module(f"quasistatic_ref.lab.examples.{name}")
+
+
+def figure_of(name: str) -> Figure:
+    """The figure of an example, in the style of the enclosing block."""
+    figure: Figure = example(name).figure()
+    return figure

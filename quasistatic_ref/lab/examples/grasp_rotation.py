@@ -1,0 +1,39 @@
+"""How far the bunny of Figure 1 turns in the grip, with and without torsional friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.figures import styled
+from quasistatic_ref.figures.grasp import rotation_plot
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
+from quasistatic_ref.lab.validate.paper.runs import grasp
+from quasistatic_ref.simulate.measures import link_motion
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def main() -> Numbers:
+    """The largest rotation during the lift."""
+    found: Numbers = {}
+    for case in CASES:
+        scenario, run = grasp(case)
+        motion = link_motion(scenario.system, run, "bunny")
+        angle = np.degrees(motion.rotation_since(CLOSED)[motion.index(CLOSED) : motion.index(TOP)])
+        found[f"rotation {case} [deg]"] = float(angle.max())
+    return found
+
+
+@styled
+def figure() -> Figure:
+    """Rotation against time."""
+    runs = {case: grasp(case)[1] for case in CASES}
+    return rotation_plot(grasp("with torsion")[0], runs, "bunny", CLOSED)
+
+
+if __name__ == "__main__":
+    script(main, figure)

@@ -1,0 +1,51 @@
+"""A slider pushed on the plane: it moves along the normal of its limit surface.
+
+Lynch, Maekawa and Tanie's law says how a slider turns that is pushed off its centre, infinitely
+slowly. Under the ellipsoid a step agrees with it while the quasi-dynamic number Pi is small, and
+when the slider's radius of gyration rho is c = mu_omega / mu_v, at any speed.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.figures import styled
+from quasistatic_ref.figures.validation import PICTURES
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
+from quasistatic_ref.lab.validate.slider import GYRATION, H
+from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@cache
+def ratios() -> dict[float, Array]:
+    """Turn over that of Lynch's law at each speed, shape (N,), for three c = mu_omega / mu_v."""
+    return {c: np.array(turns(c)) for c in RADII}
+
+
+def main() -> Numbers:
+    """The ratio at the slowest and at the fastest push, and the fastest by (R28)."""
+    found: Numbers = {}
+    for c, ratio in ratios().items():
+        law = (1 + SPEEDS[-1]) / (1 + SPEEDS[-1] * (GYRATION / c) ** 2)
+        found[f"turn over Lynch's, c = {1e3 * c:g} mm, Pi = {SPEEDS[0]:g} [-]"] = ratio[0]
+        found[f"turn over Lynch's, c = {1e3 * c:g} mm, Pi = {SPEEDS[-1]:g} [-]"] = ratio[-1]
+        found[f"(R28), c = {1e3 * c:g} mm, Pi = {SPEEDS[-1]:g} [-]"] = law
+    return found
+
+
+@styled
+def figure() -> Figure:
+    """Steps as marks, (R28) as lines."""
+    picture = {"Pi": SPEEDS, "turns": ratios(), "rho": GYRATION, "h": H}
+    return PICTURES["planar_push"](picture)
+
+
+if __name__ == "__main__":
+    script(main, figure)

@@ -1,0 +1,59 @@
+"""What "optimal" is worth: correct digits of solvers on steps whose exact answer is known.
+
+Every solver reports success at every one of these steps, at every accuracy asked for. The certified
+optimum of each step says how many digits of the answer are right. docs/exactness.md has the same
+for all 600 steps, and for problems that are not written in natural units.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.figures import styled
+from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.validate.paper.runs import grasp
+from quasistatic_ref.solve.solve import solve_step
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+BACKENDS = ("clarabel", "osqp", "piqp")
+ACCURACIES = ("1e-3", "1e-6", "1e-9", "1e-12")
+EVERY = 25
+"""Which steps of the grasp are asked."""
+
+
+@cache
+def records() -> tuple[BackendDigits, ...]:
+    """One for each backend and accuracy."""
+    run = grasp("with torsion")[1]
+    steps = [run.step_data(k) for k in range(0, run.steps, EVERY)]
+    found = []
+    for backend in BACKENDS:
+        for accuracy in ACCURACIES:
+            answers = [solve_step(s, backend, accuracy=float(accuracy)) for s in steps]
+            digits = np.array([a.statistics.digits for a in answers], dtype=np.float64)
+            worst, low, median, best = np.quantile(digits, [0, 0.01, 0.5, 1])
+            numbers = float(worst), float(low), float(median), float(best)
+            found.append(BackendDigits("natural units", backend, accuracy, len(steps), 0, *numbers))
+    return tuple(found)
+
+
+def main() -> Numbers:
+    """The worst step of each."""
+    return {f"worst digits, {r.backend} at {r.accuracy} [-]": r.worst for r in records()}
+
+
+@styled
+def figure() -> Figure:
+    """Digits against the accuracy asked for."""
+    subject = f"{records()[0].steps} steps of bunny_grasp, h = 10 ms, friction pyramid"
+    return digits_of_backends(records(), subject)
+
+
+if __name__ == "__main__":
+    script(main, figure)

@@ -1,0 +1,221 @@
+"""Four roads to a solver: CVXPY, qpsolvers, a Python callable, an executable."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import shutil
+import subprocess
+import sys
+import time
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import json_text
+from quasistatic_ref.lab.study.solvers import Solver
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+Options = dict[str, Any]
+Ask = Callable[[StandardForm, Options, StandardForm | None, float], Reply]
+"""(problem, options, neighbour to start from or None, time limit [s]) -> reply."""
+
+NEAR = 0.01
+"""How far the neighbour's g is from the problem's, entry by entry and relative: a warm start comes
+from the answer to the neighbour, as it does from the step before."""
+
+
+def neighbour(form: StandardForm, name: str) -> StandardForm:
+    """The problem that a warm start comes from: each g_i changed by up to 1 %.
+
+    Parameters
+    ----------
+    form : StandardForm
+    name : str
+        Of the problem; the change is a function of it.
+
+    Returns
+    -------
+    StandardForm
+    """
+    rng = np.random.default_rng(zlib.crc32(name.encode()))
+    return StandardForm(form.H, form.g * (1 + NEAR * rng.uniform(-1, 1, len(form.g))), form.A,
+                        form.b)  # fmt: skip
+
+
+def asking(solver: Solver, folder: str = ".") -> Ask:
+    """The function that puts a problem to a solver.
+
+    Parameters
+    ----------
+    solver : Solver
+    folder : str
+        Where an executable is looked for and runs.
+
+    Raises
+    ------
+    InputError
+        If a callable cannot be imported, or there is no such executable.
+    """
+    if solver.road == "cvxpy":
+        return _by_cvxpy(str(solver.target))
+    if solver.road == "qpsolvers":
+        return _directly(str(solver.target))
+    if solver.road == "callable":
+        return _calling(imported(str(solver.target)))
+    return _running(_command(tuple(solver.target), folder), folder)
+
+
+def imported(target: str) -> Callable[..., Any]:
+    """The function of ``module:function``.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    module, _, name = target.partition(":")
+    try:
+        function = getattr(importlib.import_module(module), name)
+    except Exception as error:  # a module may raise anything when it is imported
+        words = f"cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(f"{words}; write module:function", value=target) from None
+    if not callable(function):
+        raise InputError("is not a function", value=target)
+    return function  # type: ignore[no-any-return]  # getattr's result
+
+
+def _by_cvxpy(name: str) -> Ask:
+    from quasistatic_ref.solve.by_cvxpy import ThroughCvxpy  # heavy, and not every worker's
+
+    road = ThroughCvxpy(name)
+
+    def ask(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        if start is not None:
+            road.reply(start, options)
+        return road.reply(form, options, warm=start is not None)
+
+    return ask
+
+
+def _directly(name: str) -> Ask:
+    from quasistatic_ref.solve.direct import direct_reply
+
+    def ask(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        guess = None
+        if start is not None:
+            guess = direct_reply(start, name, options).x
+        return direct_reply(form, name, options, guess)
+
+    return ask
+
+
+def _calling(function: Callable[..., Any]) -> Ask:
+    def ask(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
+        begin = time.perf_counter()
+        try:
+            returned = function(P, q, G, h, **options)
+        except Exception as error:  # whatever somebody's solver raises
+            seconds = time.perf_counter() - begin
+            return Reply(None, None, _words(error), False, None, seconds, None)
+        seconds = time.perf_counter() - begin
+        if returned is None:
+            return Reply(None, None, "returned None", False, None, seconds, None)
+        try:
+            x, z = returned
+        except (TypeError, ValueError):
+            x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
+        lam = None if z is None else _numbers(z)
+        return Reply(_numbers(x), lam, "returned", True, None, seconds, None)
+
+    return ask
+
+
+def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
+    program = shutil.which(words[0]) or shutil.which(str(Path(folder, words[0])))
+    if program is None:
+        raise InputError("there is no such program, or it may not be executed", value=words[0])
+    return (program, *words[1:])
+
+
+def _running(command: tuple[str, ...], folder: str) -> Ask:
+    def ask(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
+        begin = time.perf_counter()
+        done = subprocess.run(
+            command,
+            input=text.encode(),
+            capture_output=True,
+            check=False,
+            timeout=limit,
+            cwd=folder,
+        )
+        seconds = time.perf_counter() - begin
+        if done.returncode < 0:
+            raise Crashed(f"killed by signal {-done.returncode}", seconds)
+        if done.returncode > 0:
+            last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+            words = f"exit status {done.returncode}: {' '.join(last)[:160]}"
+            return Reply(None, None, words, False, None, seconds, None)
+        return _written(done.stdout, seconds)
+
+    return ask
+
+
+class Crashed(Exception):
+    """An executable was ended by a signal, after some `seconds` [s]."""
+
+    def __init__(self, words: str, seconds: float) -> None:
+        self.seconds = seconds
+        super().__init__(words)
+
+
+def _written(output: bytes, seconds: float) -> Reply:
+    """The reply in an executable's JSON."""
+    try:
+        said = json.loads(output)
+        status = str(said.get("status", "optimal"))
+        x = None if said.get("delta_q") is None else _numbers(said["delta_q"])
+        lam = None if said.get("lam") is None else _numbers(said["lam"])
+        own = said.get("seconds")
+        iterations = said.get("iterations")
+        return Reply(
+            x, lam, status, status == "optimal" and x is not None,
+            None if own is None else float(own), seconds,
+            None if iterations is None else int(iterations),
+        )  # fmt: skip
+    except (ValueError, TypeError, AttributeError, RecursionError) as error:
+        words = f"no usable JSON: {_words(error)}"
+        return Reply(None, None, words, False, None, seconds, None)
+
+
+def _numbers(values: Any) -> Array:
+    try:
+        return np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        return np.zeros((0, 0))  # no numbers: a wrong shape
+
+
+def _words(error: Exception) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())[:200]
+
+
+def on_path(folder: str) -> None:
+    """Make modules in a folder importable, as they are for ``python -m``."""
+    if folder not in sys.path:
+        sys.path.insert(0, folder)

@@ -1,0 +1,185 @@
+"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt, by hand; and the solver alone."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.study.bench.by_hand import hand_step
+from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.adapters.bare import BareDaqp
+from quasistatic_ref.solve.backends import installed_backends
+from quasistatic_ref.solve.engines import CVXPY, NATIVE
+from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.step.data import Array
+
+SETTINGS = ["solver.certify=off", "record=light"]
+PARTS = ("distances", "selection", "rows", "solve", "integrate")
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where a run passed: what every road starts each of its steps from.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    q, goals : list of ndarray, shapes (n_q,) and (n_q_a,)
+        Configurations, and the targets of the steps that start there [m, rad].
+    """
+
+    scenario: Scenario
+    q: list[Array]
+    goals: list[Array]
+
+
+def places(steps: int, backend: str = "daqp") -> Places:
+    """Configurations of a bunny_grasp run, from the closing of the grip on."""
+    scenario = load_scenario("bunny_grasp", [*SETTINGS, f"solver.backend={backend}"])
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    visited, goals = [], []
+    start = min(300 - steps, 50)
+    for k in range(start + steps):
+        goal = scenario.targets(scenario.h * (k + 1))
+        if k >= start:
+            visited.append(q)
+            goals.append(goal)
+        q = simulator.step(q, goal).q
+    return Places(scenario, visited, goals)
+
+
+def roads(at: Places, repeat: int) -> dict[str, Any]:
+    """The step with DAQP natively, beside every other road and DAQP alone on the same program."""
+    run = _Run(at)
+    native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
+    run.step(0)  # builds the program that both solve
+    assert isinstance(native.problem, NativeProblem)
+    alone_call = BareDaqp(native.problem.program)
+    # Each in turn with a step of a native run, and that after another step: it then finds the
+    # caches as a step of a run does, and not as CVXPY left them.
+    others: dict[str, Callable[[Array, Array], Job]] = {
+        "DAQP alone": lambda q, goal: alone_call,
+        "step, through CVXPY": lambda q, goal: partial(compiled.step, q, goal),
+        "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, compiled, q, goal),
+        "hand-written qpsolvers loop": lambda q, goal: partial(hand_step, at.scenario, q, goal),
+        "all distances, brute force": lambda q, goal: partial(_brute_force, native, q),
+    }
+    told: dict[str, float] = {}
+    ratios: dict[str, float] = {}
+    for name, other in others.items():
+        rounds: list[dict[str, Job]] = [
+            {
+                "before": partial(run.step, k - 1),
+                "native": partial(run.step, k),
+                name: other(at.q[k], at.goals[k]),
+            }
+            for k in range(1, len(at.q), 2 * FEWER.get(name, 1))
+        ]
+        # The slow ones wait for their turn on a busy machine, and that is not their time.
+        clock = time.perf_counter if name == "DAQP alone" else time.thread_time
+        times = in_turn(rounds, repeat, clock)
+        told.setdefault("step, native", microseconds(times["native"]))
+        told[name], ratios[name] = microseconds(times[name]), ratio(times[name], times["native"])
+    return {
+        "microseconds": told,
+        "over_solver": 1 / ratios["DAQP alone"],
+        "cvxpy_over_native": ratios["step, through CVXPY"],
+        "rebuilt_over_native": ratios["step, CVXPY rebuilt each time"],
+        "by_hand_over_native": ratios["hand-written qpsolvers loop"],
+    }
+
+
+FEWER = {"step, CVXPY rebuilt each time": 3}
+"""Every how many rounds the slow roads are taken."""
+
+
+class _Run:
+    """A native run along the same targets: each step starts where the one before ended."""
+
+    def __init__(self, at: Places) -> None:
+        self.at, self.simulator, self.q, self.k = at, at.scenario.simulator(), at.q[0], 0
+
+    def step(self, k: int) -> None:
+        """Step k; from the place recorded there, if the last one was not the one before."""
+        q = self.q if k == self.k else self.at.q[k]
+        self.q, self.k = self.simulator.step(q, self.at.goals[k]).q, k + 1
+
+
+def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
+    """The parts of a step for every engine and backend, the backends taking turns [us]."""
+    simulators = {}
+    for engine in (NATIVE, CVXPY):
+        names = native_backends() if engine == NATIVE else installed_backends()
+        for name in names:
+            if name not in UNFIT:
+                settings = replace(at.scenario, engine=engine, backend=name)
+                simulators[engine, name] = settings.simulator()
+    taken = {key: np.full((len(at.q), len(PARTS)), np.inf) for key in simulators}
+    failed = dict.fromkeys(simulators, 0)
+    for _ in range(repeat):
+        for k, (q, goal) in enumerate(zip(at.q, at.goals, strict=True)):
+            for key, simulator in simulators.items():
+                try:
+                    lap = simulator.step(q, goal).seconds
+                except StepNotSolved:
+                    failed[key] += 1
+                    continue
+                # Told apart by selecting once more.
+                lap["selection"] = _selection(simulator, q)
+                lap["distances"] -= lap["selection"]
+                row = np.array([lap[part] for part in PARTS])
+                taken[key][k] = np.minimum(taken[key][k], row)
+    return [_row(key, taken[key], failed[key]) for key in simulators]
+
+
+def _selection(simulator: Simulator, q: Array) -> float:
+    """Time of finding the closest points among those that are measured [s]."""
+    clouds, at = simulator.tracker.clouds, simulator.system.kinematics(q)
+    assert clouds is not None
+    poses = clouds.placements.poses(at.R, at.t)
+    measured = [(batch, batch.distances(poses)) for batch in clouds.batches]
+    return seconds(lambda: [batch.selection(*found) for batch, found in measured])
+
+
+UNFIT = ("highs",)
+"""At the accuracy asked for it leaves a third of the grasp unsolved (docs/conventions.md)."""
+
+
+def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
+    solved = taken[np.isfinite(taken).all(axis=1)]
+    medians = 1e6 * np.median(solved, axis=0) if len(solved) else np.full(len(PARTS), np.nan)
+    row: dict[str, Any] = {"engine": key[0], "backend": key[1]}
+    row |= {part: float(us) for part, us in zip(PARTS, medians, strict=True)}
+    row["step"] = 1e6 * float(np.median(solved.sum(axis=1))) if len(solved) else float("nan")
+    return row | {"unsolved": failed}
+
+
+def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
+    simulator.problem = None
+    simulator.step(q, goal)
+
+
+def _brute_force(simulator: Simulator, q: Array) -> None:
+    closest_points(simulator.pairs, simulator.kinematics(q))
+
+
+def certification(at: Places, repeat: int) -> Mapping[str, Any]:
+    """What each kind of certificate adds to the native step [us]."""
+    simulators = {
+        kind: replace(at.scenario, certify=kind).simulator() for kind in ("off", "residual", "full")
+    }
+    rounds = [
+        {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
+        for q, g in zip(at.q, at.goals, strict=True)
+    ]
+    times = in_turn(rounds, repeat, time.thread_time)
+    return {kind: microseconds(t) for kind, t in times.items()}

@@ -1,0 +1,112 @@
+"""The benchmark as a page of tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
+from quasistatic_ref.lab.study.large import LargeStep, table
+
+Rows = list[tuple[str, ...]]
+
+
+def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
+    """What was promised, measured, and whether it holds."""
+    rows: Rows = [("promise", "measured", "limit", "verdict")]
+    for p in promises:
+        limit = f"{p['sense']} {p['limit']:g}"
+        if p["what"] in STRETCH:
+            limit += f" (stretch {STRETCH[p['what']]:g})"
+        rows.append((p["what"], f"{p['measured']:.3g}", limit, "holds" if p["holds"] else "FAILS"))
+    return rows
+
+
+def paper_sentence(tables: Mapping[str, Any]) -> str:
+    """How far the step is from the paper's time."""
+    step = tables["roads"]["microseconds"]["step, native"]
+    return (
+        f"the 13 x 80 step takes {step:.0f} us on this machine, {tables['times_paper']:.2g} times "
+        f"the paper's {PAPER:g} us (compiled, on another machine)"
+    )
+
+
+def page(tables: Mapping[str, Any]) -> str:
+    """The tables in Markdown."""
+    m = tables["machine"]
+    lines = [
+        "# What a step costs",
+        "",
+        "Written by `quasistatic-ref bench`; the numbers are those of one machine "
+        f"({m['system']}, Python {m['python']}, NumPy {m['numpy']}, {m['load']}), medians, what is "
+        "compared taking turns in one process. Nothing is certified unless it says so, records are "
+        "light.",
+        "",
+        f"In short: {paper_sentence(tables)}.",
+        "",
+        *_table(promise_rows(tables["promises"])),
+        *_section("The step of the bunny by every road", _roads(tables)),
+        *_section(
+            "By part, engine and backend [us], all in turn, caches cold", _parts(tables["parts"])
+        ),
+        *_section("With a certificate, DAQP, native [us]", _pairs(tables["certification"])),
+        *_section("Points of the cloud", _clouds(tables["clouds"])),
+        *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
+        *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),
+        *_titled("Heaps", _sizes(tables["heaps"])),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _roads(tables: Mapping[str, Any]) -> Rows:
+    times = tables["roads"]["microseconds"]
+    rows: Rows = [("road", "median [us]", "over native")]
+    rows += [(k, f"{us:.1f}", f"{us / times['step, native']:.2f}") for k, us in times.items()]
+    mujoco = tables["mujoco"]
+    if "not run" in mujoco:
+        return [*rows, ("MuJoCo, a comparable grasp", "not run", mujoco["not run"])]
+    name = f"MuJoCo, a comparable grasp ({mujoco['contacts']} contacts, {mujoco['rows']} rows)"
+    us = mujoco["microseconds"]
+    return [*rows, (name, f"{us:.1f}", f"{us / times['step, native']:.2f}")]
+
+
+def _parts(parts: Sequence[Mapping[str, Any]]) -> Rows:
+    names = ("distances", "selection", "rows", "solve", "integrate", "step")
+    rows: Rows = [("engine", "backend", *names, "unsolved")]
+    for row in parts:
+        times = [f"{row[name]:.1f}" for name in names]
+        rows.append((row["engine"], row["backend"], *times, str(row["unsolved"])))
+    return rows
+
+
+def _pairs(times: Mapping[str, float]) -> Rows:
+    return [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times.items())]
+
+
+def _clouds(clouds: Sequence[Mapping[str, Any]]) -> Rows:
+    rows: Rows = [
+        ("points", "step, mean [us]", "step, median [us]", "over 992", "brute force [us]",
+         "tree, once [s]"),
+    ]  # fmt: skip
+    for row in clouds:
+        mean, median = f"{row['mean']:.0f}", f"{row['median']:.0f}"
+        brute, tree = f"{row['brute_force_distances']:.0f}", f"{row['tree_seconds']:.2g}"
+        rows.append((str(row["points"]), mean, median, f"{row['over_992']:.2f}", brute, tree))
+    return rows
+
+
+def _sizes(sizes: Sequence[Mapping[str, Any]]) -> list[str]:
+    return table("bodies", [LargeStep(**row) for row in sizes]).split("\n") if sizes else []
+
+
+def _section(title: str, rows: Rows) -> list[str]:
+    return _titled(title, _table(rows)) if len(rows) > 1 else []
+
+
+def _titled(title: str, lines: list[str]) -> list[str]:
+    return ["", f"## {title}", "", *lines] if lines else []
+
+
+def _table(rows: Rows) -> list[str]:
+    head, *body = (f"| {' | '.join(row)} |" for row in rows)
+    return [head, "|" + "---|" * len(rows[0]), *body]

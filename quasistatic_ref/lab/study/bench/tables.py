@@ -1,0 +1,104 @@
+"""All tables of the benchmark, each from its own module."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref import __version__
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
+from quasistatic_ref.lab.study.bench.clouds import clouds
+from quasistatic_ref.lab.study.bench.grasp import certification, parts, places, roads
+from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
+from quasistatic_ref.lab.study.large import (
+    CHAINS,
+    FEW,
+    LargeStep,
+    chains,
+    contact_counts,
+    exponent,
+    few_contacts,
+    piles,
+)
+from quasistatic_ref.solve.native import native_backends
+
+Tell = Callable[[str], None]
+
+
+def tables(quick: bool, tell: Tell) -> dict[str, Any]:
+    """Measure everything; `quick` measures a little of everything, to see that it runs.
+
+    Parameters
+    ----------
+    quick : bool
+    tell : callable
+        Called with the name of each table before it is measured.
+
+    Raises
+    ------
+    InputError
+        If DAQP, which the comparison is with, is not installed.
+    """
+    if "daqp" not in native_backends():
+        raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
+    steps, repeat = (6, 1) if quick else (250, 2)
+    found: dict[str, Any] = {"quick": quick, "machine": machine()}
+    load = f"{os.cpu_count()} processors, load before the run {_load()}"
+    at = places(steps)
+    tell("roads")
+    found["roads"] = roads(at, repeat)
+    tell("parts")
+    some = places(4 if quick else 60)
+    found["parts"] = parts(some, 1 if quick else 2)
+    tell("certification")
+    found["certification"] = certification(some, 1 if quick else 2)
+    tell("mujoco")
+    found["mujoco"] = mujoco_grasp(steps, repeat)
+    tell("clouds")
+    found["clouds"] = clouds(at, (2_000,) if quick else (1_000, 10_000, 100_000, 1_000_000))
+    tell("sizes")
+    rows = chains((2, 4) if quick else (1, 5, *CHAINS))
+    counts = [] if quick else contact_counts()
+    few = few_contacts(FEW[:2] if quick else FEW)
+    heaps = piles(((2, 1, 2),)) if quick else piles()
+    sizes = rows, [*few, *counts], heaps
+    found["chains"], found["contacts"], found["heaps"] = map(_records, sizes)
+    found["exponents"] = {
+        "bodies": _fitted([row for row in rows if row.bodies >= CHAINS[0]], "bodies"),
+        "contacts": _fitted(counts, "contacts"),
+    }
+    found["machine"]["load"] = f"{load}, after it {_load()}"
+    found["promises"], found["times_paper"] = promises(found), from_paper(found)
+    return found
+
+
+def machine() -> dict[str, str]:
+    """What was measured on."""
+    return {
+        "quasistatic_ref": __version__,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "system": f"{platform.system()} {platform.machine()}",
+    }
+
+
+def _load() -> str:
+    """How many processes wanted to run in the last minute, where the system says so."""
+    return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
+
+
+def _records(steps: Sequence[LargeStep]) -> list[dict[str, Any]]:
+    return [asdict(step) for step in steps]
+
+
+def _fitted(steps: Sequence[LargeStep], over: str) -> float | None:
+    """Exponent of time over bodies or contacts; None with fewer than two sizes."""
+    if len(steps) < 2:
+        return None
+    return exponent([getattr(step, over) for step in steps], [step.seconds for step in steps])

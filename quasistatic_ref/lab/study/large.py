@@ -1,0 +1,144 @@
+"""What large steps cost: time by part and memory, against bodies and against contacts."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.lab.study.piles import Pile, pile
+from quasistatic_ref.step.data import Array
+
+CHAINS = (10, 20, 40, 80, 160)
+"""Bodies in a row."""
+
+CONTACTS = (2, 4, 8, 16, 32)
+"""Contacts of each pair in a row of ROW bodies."""
+
+ROW = 16
+SHORT, FEW = 3, (1, 5, 25)
+"""A row of SHORT bodies has five pairs: 5 contacts and more."""
+
+PILES = ((2, 2, 2), (3, 3, 3), (5, 5, 4))
+WARM_UP, STEPS = 2, 5
+"""Steps that are not timed, and that are."""
+
+
+@dataclass(frozen=True)
+class LargeStep:
+    """One size.
+
+    Parameters
+    ----------
+    shape : (int, int, int)
+        Boxes along x, y and z.
+    bodies, contacts, coordinates, rows : int
+    sparse : bool
+        Whether the steps were.
+    seconds : float
+        Median of a step [s].
+    parts : dict of str to float
+        Of its parts [s]: distances, rows, solve, integrate.
+    megabytes : float
+        Most that Python and NumPy held at once in a step, beyond what they keep [MB].
+    """
+
+    shape: tuple[int, int, int]
+    bodies: int
+    contacts: int
+    coordinates: int
+    rows: int
+    sparse: bool
+    seconds: float
+    parts: dict[str, float]
+    megabytes: float
+
+
+def large_step(
+    shape: tuple[int, int, int], k: int = 4, backend: str = "clarabel", steps: int = STEPS
+) -> LargeStep:
+    """Boxes pulled over a floor for a few steps, not certified.
+
+    Parameters
+    ----------
+    shape : (int, int, int)
+    k : int
+        Contacts of each pair.
+    backend : str
+    steps : int
+        How many are timed.
+    """
+    some = pile(shape, k, backend=backend)
+    q, laps = some.q, []
+    for _ in range(WARM_UP + steps):
+        result = some.simulator.step(q, np.zeros(0), some.force)
+        q = result.q
+        laps.append(result.seconds)
+    timed = laps[WARM_UP:]
+    parts = {name: float(np.median([lap[name] for lap in timed])) for name in timed[0]}
+    return LargeStep(
+        shape=shape,
+        bodies=some.bodies,
+        contacts=some.contacts,
+        coordinates=result.step.n_v,
+        rows=int(result.step.offsets[-1]),
+        sparse=result.step.contacts.blocks is not None,
+        seconds=float(np.median([sum(lap.values()) for lap in timed])),
+        parts=parts,
+        megabytes=_megabytes(some, q),
+    )
+
+
+def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
+    """The power [-] of `sizes` as which `seconds` [s] grow: a line through the logarithms."""
+    return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
+
+
+def chains(sizes: Sequence[int] = CHAINS, backend: str = "clarabel") -> list[LargeStep]:
+    """Rows of more and more bodies."""
+    return [large_step((n, 1, 1), backend=backend) for n in sizes]
+
+
+def contact_counts(counts: Sequence[int] = CONTACTS, backend: str = "clarabel") -> list[LargeStep]:
+    """A row of ROW bodies with more and more contacts."""
+    return [large_step((ROW, 1, 1), k, backend) for k in counts]
+
+
+def few_contacts(counts: Sequence[int] = FEW, backend: str = "clarabel") -> list[LargeStep]:
+    """A row of SHORT bodies with few contacts."""
+    return [large_step((SHORT, 1, 1), k, backend) for k in counts]
+
+
+def piles(
+    shapes: Sequence[tuple[int, int, int]] = PILES, backend: str = "clarabel"
+) -> list[LargeStep]:
+    """Three-dimensional piles, whose factors fill up: no exponent is promised."""
+    return [large_step(shape, backend=backend) for shape in shapes]
+
+
+def table(title: str, steps: Sequence[LargeStep]) -> str:
+    """A Markdown table."""
+    lines = [
+        f"| {title} | contacts | coordinates | rows | sparse | distances [ms] | rows [ms] "
+        "| solve [ms] | integrate [ms] | step [ms] | memory [MB] |",
+        "|" + "---|" * 11,
+    ]
+    for step in steps:
+        parts = " | ".join(f"{1e3 * step.parts[name]:.2f}" for name in step.parts)
+        size = step.bodies if step.shape[1:] == (1, 1) else " x ".join(map(str, step.shape))
+        sparse = "yes" if step.sparse else "no"
+        lines.append(
+            f"| {size} | {step.contacts} | {step.coordinates} | {step.rows} | {sparse} | {parts} "
+            f"| {1e3 * step.seconds:.1f} | {step.megabytes:.1f} |"
+        )
+    return "\n".join(lines)
+
+
+def _megabytes(some: Pile, q: Array) -> float:
+    tracemalloc.start()
+    some.simulator.step(q, np.zeros(0), some.force)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return most / 2**20

@@ -1,0 +1,39 @@
+"""A report as Markdown, its figures beside it."""
+
+from __future__ import annotations
+
+from quasistatic_ref.lab.study.page import Block, Picture, Report, Table
+
+
+def markdown_page(report: Report, folder: str = "figures") -> str:
+    """The page.
+
+    Parameters
+    ----------
+    report : Report
+    folder : str
+        Where the figures are, seen from the page.
+    """
+    lines = [f"# {report.title}", ""]
+    for section in report.sections:
+        lines += [f"## {section.title}", ""]
+        for block in section.blocks:
+            lines += [*_block(block, folder), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _block(block: Block, folder: str) -> list[str]:
+    if isinstance(block, str):
+        return [block]
+    if isinstance(block, Picture):
+        return [f"![{block.caption}]({folder}/{block.name}.png)", "",
+                f"{block.caption} *Rows:* {block.where}."]  # fmt: skip
+    return _table(block)
+
+
+def _table(table: Table) -> list[str]:
+    rule = ["---"] * table.left + ["---:"] * (len(table.columns) - table.left)
+    lines = [f"**{table.title}** *Rows:* {table.where}.", ""]
+    for cells in (table.columns, tuple(rule), *table.rows):
+        lines.append(f"| {' | '.join(c.replace('|', chr(92) + '|') for c in cells)} |")
+    return lines

@@ -1,0 +1,83 @@
+"""A study's problems as test sets of qpbenchmark, in raw and in natural units."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from quasistatic_ref.files import text_written
+from quasistatic_ref.lab.study.problems import problems_read
+from quasistatic_ref.lab.study.qp import UNITS, Problem, in_units, units_of
+from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
+
+MODULE: Final = '''"""Quadratic programs of contact, in {units} units.
+
+    qpbenchmark --results-path results.csv {name}.py run --author YOU
+
+The exact answers are in {name}.npz: K/delta_q is that of the K-th problem.
+"""
+
+from pathlib import Path
+
+from qpbenchmark import ParquetTestSet
+
+
+class {title}(ParquetTestSet):
+    """Quadratic programs of convex quasi-dynamic contact."""
+
+    def __init__(self):
+        super().__init__(Path(__file__).parent / "{name}.parquet")
+
+    @property
+    def description(self) -> str:
+        return "Steps of convex quasi-dynamic contact simulation, in {units} units"
+
+    @property
+    def sparse_only(self) -> bool:
+        return False
+
+    @property
+    def title(self) -> str:
+        return "Contact problems, {units} units"
+'''
+
+
+def benchmark_written(store: str | Path, folder: str | Path, every: int = 1) -> list[Path]:
+    """Write parquet, module and exact answers for each of the units.
+
+    Parameters
+    ----------
+    store : str or Path
+        Folder of a study that was run.
+    folder : str or Path
+    every : int
+        Each so-manieth problem only.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    InputError
+        If there are no problems, pyarrow is missing, or the folder cannot be written.
+    """
+    problems, paths = problems_read(store)[::every], []
+    for units in UNITS:
+        name = f"contact_{units}"
+        programs = [_program(problem, units) for problem in problems]
+        module = MODULE.format(name=name, units=units, title=name.title().replace("_", ""))
+        paths += [
+            parquet_written(Path(folder) / f"{name}.parquet", programs),
+            npz_written(Path(folder) / f"{name}.npz", programs),
+            text_written(Path(folder) / f"{name}.py", module),
+        ]
+    return paths
+
+
+def _program(problem: Problem, units: str) -> Program:
+    form, delta_q = problem.form, problem.answer.delta_q
+    if units == "natural":
+        own = units_of(form)
+        form, delta_q = in_units(form, own), delta_q / (own.size * own.coordinate)
+    return Program(problem.id, form.H, form.g, form.A, form.b, delta_q)

@@ -1,0 +1,210 @@
+"""The test set of a study: made once, from a seed, and kept in a folder with its exact answers."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import bytes_read, json_read, json_text, text_written, written_whole
+from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
+from quasistatic_ref.lab.study.families.made import Made
+from quasistatic_ref.lab.study.families.slab import scaled
+from quasistatic_ref.lab.study.families.tower import towers
+from quasistatic_ref.lab.study.qp import Answer, Facts, Problem, condition, in_units, units_of
+from quasistatic_ref.lab.study.spec import TestSet
+from quasistatic_ref.lab.study.truth import answer_of
+from quasistatic_ref.simulate.npz import npz_arrays
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+FORMAT, VERSION = "quasistatic-ref/study-problems", 1
+HEADER, FACTS, NUMBERS = "problems.json", "problems.jsonl", "problems.npz"
+NAMES: Final = ("H", "g", "A", "b", "delta_q", "net")
+AGAIN = "bunny_grasp"
+"""The scenario that is asked again at other h and k: the paper's own."""
+CLOSEST = (1, 2, 3, 5, 8, 13, 20, 32, 50)
+TIME_STEPS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+MOST_CONTACTS, MOST_RATIO, MOST_BODIES = 1000, 1e9, 40
+
+
+def made(test_set: TestSet) -> Iterator[Made]:
+    """Every step of a test set, family by family."""
+    count, seed = test_set.families, test_set.seed
+    names = test_set.scenarios
+    share = _shares(count["scenarios"], len(names))
+    yield from chain.from_iterable(harvested(n, c) for n, c in zip(names, share, strict=True) if c)
+    if n := count["contacts"]:
+        yield from scaled("contacts", "contacts", _scale(1, MOST_CONTACTS, n).round(), seed)
+    if n := count["mass_ratio"]:
+        yield from scaled("mass_ratio", "ratio", _scale(1, MOST_RATIO, n), seed)
+    if n := count["time_step"]:
+        yield from scaled("time_step", "h", _scale(TIME_STEPS[0], TIME_STEPS[-1], -(-n // 2)), seed)
+        share = _shares(n // 2, len(TIME_STEPS))
+        for i, (h, c) in enumerate(zip(TIME_STEPS, share, strict=True)):
+            yield from asked_again("time_step", AGAIN, [f"h={h}"], c, i)
+    if n := count["closest_points"]:
+        share = _shares(n, len(CLOSEST))
+        for i, (k, c) in enumerate(zip(CLOSEST, share, strict=True)):
+            changes = [f"contacts.grip.k={k}", f"contacts.floor.k={k}"]
+            yield from asked_again("closest_points", AGAIN, changes, c, i)
+    if n := count["bodies"]:
+        yield from towers([int(v) for v in _scale(2, MOST_BODIES, n).round()], seed)
+
+
+def _scale(first: float, last: float, count: int) -> np.ndarray:
+    return np.geomspace(first, last, count)
+
+
+def _shares(count: int, parts: int) -> list[int]:
+    return [count // parts + (i < count % parts) for i in range(parts)]
+
+
+def problem_of(one: Made) -> Problem:
+    """The quadratic program of a step, with its exact answer."""
+    form = standard_form(one.step)
+    n_c = one.step.contacts.n_c
+    facts = Facts(one.id, one.family, n_c, one.mass_ratio, one.step.h, one.k)
+    return Problem(facts, form, answer_of(form))
+
+
+def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) -> list[Problem]:
+    """The problems of a test set: those in the folder, or made and written there.
+
+    Parameters
+    ----------
+    test_set : TestSet
+    folder : str or Path
+    progress : bool
+        Whether to show a bar on standard error, where that is a terminal.
+
+    Returns
+    -------
+    list of Problem
+
+    Raises
+    ------
+    InputError
+        If the folder holds another test set.
+    """
+    folder = Path(folder)
+    asked = _asked(test_set)
+    if (folder / HEADER).exists():
+        there = json_read(folder / HEADER)
+        if {name: there.get(name) for name in asked} != json.loads(json_text(asked)):
+            raise InputError(
+                "holds another test set; choose another folder with --out, or remove this one",
+                file=folder,
+            )
+        return problems_read(folder)
+    total = sum(test_set.families.values())
+    bar = tqdm(made(test_set), total=total, unit="problem", file=sys.stderr, leave=False,
+               disable=None if progress else True, desc="exact answers")  # fmt: skip
+    problems = list({p.id: p for p in map(problem_of, bar)}.values())
+    _written(problems, asked, folder)
+    return problems
+
+
+def problems_read(folder: str | Path) -> list[Problem]:
+    """The problems in a folder.
+
+    Raises
+    ------
+    InputError
+        If it holds no test set, or one whose numbers were changed.
+    """
+    folder = Path(folder)
+    head = json_read(folder / HEADER)
+    lines = bytes_read(folder / FACTS).decode().splitlines()
+    arrays = npz_arrays(folder / NUMBERS)
+    if head.get("format") != FORMAT or head.get("sha256") != _digest(arrays):
+        raise InputError("is no test set, or was changed; remove the folder", file=folder)
+    at = dict.fromkeys(NAMES, 0)
+    problems = []
+    for line in lines:
+        said = json.loads(line)
+        n, m = said["n"], said["m"]
+        shapes = {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+        numbers = {}
+        for name, shape in shapes.items():
+            size = int(np.prod(shape))
+            numbers[name] = arrays[name][at[name] : at[name] + size].reshape(shape)
+            at[name] += size
+        facts = Facts(**{key: said[key] for key in Facts.__dataclass_fields__})
+        form = StandardForm(*(numbers[name] for name in NAMES[:4]))
+        problems.append(
+            Problem(facts, form, Answer(numbers["delta_q"], numbers["net"], said["bound"]))
+        )
+    return problems
+
+
+def set_record(problems: Sequence[Problem]) -> dict[str, Any]:
+    """How many problems of which family there are, and their fingerprint."""
+    families: dict[str, int] = {}
+    for problem in problems:
+        families[problem.facts.family] = families.get(problem.facts.family, 0) + 1
+    return {
+        "count": len(problems),
+        "exact": sum(problem.answer.bound == 0 for problem in problems),
+        "families": families,
+        "sha256": _digest(_flat(problems)),
+    }
+
+
+def _asked(test_set: TestSet) -> dict[str, Any]:
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "seed": test_set.seed,
+        "asked": dict(test_set.families),
+        "scenarios": list(test_set.scenarios),
+    }
+
+
+def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -> None:
+    """Write the header last: a folder that has one is complete."""
+    lines = []
+    for problem in problems:
+        form = problem.form
+        natural = in_units(form, units_of(form))
+        lines.append(
+            json_text(
+                problem.facts.record()
+                | {
+                    "n": len(form.g),
+                    "m": len(form.b),
+                    "condition": condition(form),
+                    "condition_natural": condition(natural),
+                    "kind": "exact" if problem.answer.bound == 0 else "enclosure",
+                    "bound": problem.answer.bound,
+                }
+            )
+        )
+    arrays = _flat(problems)
+    text_written(folder / FACTS, "\n".join(lines) + "\n")
+    written_whole(folder / NUMBERS, lambda file: np.savez_compressed(file, **arrays))  # type: ignore[arg-type]  # savez's stub takes no mapping of arrays
+    text_written(folder / HEADER, json_text(asked | set_record(problems)) + "\n")
+
+
+def _flat(problems: Sequence[Problem]) -> dict[str, np.ndarray]:
+    """Arrays of one kind after one another."""
+    parts: dict[str, list[np.ndarray]] = {name: [np.zeros(0)] for name in NAMES}
+    for problem in problems:
+        for name in NAMES:
+            owner = problem.form if name in ("H", "g", "A", "b") else problem.answer
+            parts[name].append(np.ravel(getattr(owner, name)))
+    return {name: np.concatenate(arrays) for name, arrays in parts.items()}
+
+
+def _digest(arrays: dict[str, np.ndarray]) -> str:
+    digest = hashlib.sha256()
+    for name in NAMES:
+        digest.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,109 @@
+"""A study of solvers, from its file to its store."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.files import writable_folder
+from quasistatic_ref.lab.study.conduct import conduct_here
+from quasistatic_ref.lab.study.environment import machine, versions
+from quasistatic_ref.lab.study.plan import plan
+from quasistatic_ref.lab.study.problems import problem_set, set_record
+from quasistatic_ref.lab.study.qp import Problem
+from quasistatic_ref.lab.study.spec import Study
+from quasistatic_ref.lab.study.store import Row, Store, key_of
+
+
+def run_study(
+    study: Study,
+    folder: str | Path,
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    progress: bool = True,
+) -> list[Row]:
+    """Run a study, or what is left of it.
+
+    Parameters
+    ----------
+    study : Study
+    folder : str or Path
+        The store; one that was begun with the same study is continued.
+    jobs : int, optional
+        Solvers asked at once; by default as many as there are cores.
+    scheduler : str, optional
+        Address of a Dask scheduler, in place of this machine's cores.
+    progress : bool
+
+    Returns
+    -------
+    list of dict
+        All rows of the store.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another study, or a solver cannot be reached.
+    """
+    folder = writable_folder(folder)
+    problems = problem_set(study.problems, folder, progress)
+    planned = plan(study, [(p.id, p.facts.family) for p in problems])
+    by_id = {p.id: p for p in problems}
+    place = str(study.path.resolve().parent)
+    with Store(folder, study_record(study, problems)) as store:
+        done = store.keys
+        todo = [m for m in planned if key_of(m.fields()) not in done]
+        limits = {"limit": study.time_limit, "budget": study.budget}
+        if scheduler is None:
+            jobs = jobs or os.cpu_count() or 1
+            conduct_here(store, todo, by_id, jobs, place, **limits, progress=progress)
+        else:
+            from quasistatic_ref.lab.study.cluster import conduct_on_cluster
+
+            conduct_on_cluster(store, todo, by_id, scheduler, place, **limits, progress=progress)
+        return store.rows
+
+
+def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
+    """What ``study.json`` holds: the study as it was resolved, machine and versions."""
+    parts = [
+        {
+            "solvers": [s.label for s in part.solvers],
+            "settings": [s.name for s in part.settings],
+            "units": list(part.units),
+            "warm": list(part.warm),
+            "repetitions": part.repetitions,
+            "every": part.every,
+        }
+        for part in study.parts
+    ]
+    solvers = [
+        {
+            "name": s.name,
+            "road": s.road,
+            "target": s.target if isinstance(s.target, str) else list(s.target),
+            "options": {
+                t.name: s.settings_of(t, study.time_limit)
+                for t in study.settings
+                if s.takes(t)
+            },
+        }
+        for s in study.solvers
+    ]  # fmt: skip
+    return {
+        "format": "quasistatic-ref/study-store",
+        "version": 1,
+        "kind": "solvers",
+        "time_limit": study.time_limit,
+        "budget": study.budget,
+        "runs": parts,
+        "settings": [asdict(s) for s in study.settings],
+        "solvers": solvers,
+        "problems": set_record(problems),
+        "versions": versions(study.solvers),
+        "machine": machine(),
+    }

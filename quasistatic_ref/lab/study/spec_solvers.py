@@ -1,0 +1,106 @@
+"""The ``[solvers.NAME]`` tables of a study, and the lists that choose among solvers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.lab.study.solvers import Setting, Solver
+from quasistatic_ref.solve.plain_options import BY_CVXPY, DIRECT, PACKAGE, installed_solvers
+
+BY_ROAD = {"cvxpy": BY_CVXPY, "qpsolvers": DIRECT}
+MODULE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*", re.ASCII)
+
+
+def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, Solver]:
+    """The solvers that a study defines, by name.
+
+    Raises
+    ------
+    InputError
+        If a table names no road, or more than one.
+    """
+    solvers = {}
+    for name in tables.names():
+        table = tables.table(name)
+        roads = ("cvxpy", "qpsolvers", "callable", "executable")
+        given = [road for road in roads if road in table]
+        if len(given) != 1:
+            words = "must say one of cvxpy, qpsolvers, callable and executable"
+            raise tables.fail(name, words, given or None)
+        target = _target(table, given[0])
+        options = _options(table.table("options", {}), settings)
+        table.close()
+        solvers[name] = Solver(name, given[0], target, options)
+    return solvers
+
+
+def chosen_solvers(
+    table: Fields, names: list[Any], own: Mapping[str, Solver]
+) -> tuple[Solver, ...]:
+    """The solvers of a list: names of the study's own, ``road:name``, and ``road:*``.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, its solver is not installed, or the list is empty.
+    """
+    chosen: dict[str, Solver] = {}
+    for name in names:
+        if name in own:
+            found = [own[name]]
+        else:
+            road, _, solver = str(name).partition(":")
+            if road not in BY_ROAD:
+                known = [*own, *(f"{r}:*" for r in BY_ROAD)]
+                raise table.fail("solvers", f"holds no solver{suggestion(str(name), known)}", name)
+            everyone = installed_solvers(road) if solver == "*" else (solver,)
+            for one in everyone:
+                _check_installed(table, road, one)
+            found = [Solver(one, road, one) for one in everyone]
+        chosen |= {solver.label: solver for solver in found}
+    if not chosen:
+        raise table.fail("solvers", "must not be empty")
+    return tuple(chosen.values())
+
+
+def _check_installed(table: Fields, road: str, solver: str) -> None:
+    if solver not in BY_ROAD[road]:
+        hint = suggestion(solver, BY_ROAD[road])
+        raise table.fail("solvers", f"holds no solver of {road}{hint}", solver)
+    if solver not in installed_solvers(road):
+        package = PACKAGE.get(solver, solver)
+        raise table.fail("solvers", f"is not installed; pip install {package}", solver)
+
+
+def _target(table: Fields, road: str) -> str | tuple[str, ...]:
+    if road == "executable":
+        command = table.sequence(road)
+        if not command or not all(isinstance(word, str) for word in command):
+            raise table.fail(road, "must be a list of words, the program first", command)
+        return tuple(command)
+    name = table.text(road)
+    if road == "callable":
+        if not MODULE.fullmatch(name):
+            raise table.fail(road, "must read module:function", name)
+        return name
+    try:
+        _check_installed(table, road, name)
+    except InputError as error:
+        raise table.fail(road, error.problem, name) from None
+    return name
+
+
+def _options(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, dict[str, Any]]:
+    options = {}
+    for name in tables.names():
+        if name not in settings:
+            raise tables.fail(name, f"is no setting{suggestion(name, settings)}")
+        value = tables.take(name)
+        if not isinstance(value, dict):
+            raise tables.fail(name, "must be a table of options", value)
+        options[name] = value
+    return options

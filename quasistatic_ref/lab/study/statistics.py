@@ -1,0 +1,56 @@
+"""The few statistics of a report: shares, means of times, performance profiles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+SHIFT = 1e-3
+"""Of the shifted geometric mean [s]: what is far faster than that counts alike."""
+
+LOW = 1.0
+"""The percentile that stands for "nearly the worst"."""
+
+
+def shifted_geometric_mean(seconds: np.ndarray, shift: float = SHIFT) -> float:
+    """exp(mean(log(t + s))) - s: a mean that neither the slowest nor the fastest calls rule.
+
+    Parameters
+    ----------
+    seconds : ndarray, shape (n,) [s]
+    shift : float [s]
+
+    Returns
+    -------
+    float [s]
+    """
+    return float(np.exp(np.log(seconds + shift).mean()) - shift)
+
+
+def success(digits: np.ndarray, least: float) -> float:
+    """Share of answers with at least so many digits [%]."""
+    return 100 * float(np.mean(digits >= least))
+
+
+def performance_ratios(seconds: np.ndarray, good: np.ndarray) -> np.ndarray:
+    """How many times longer than the fastest solver each one took on each problem.
+
+    After Dolan & More, Benchmarking optimization software with performance profiles, Math.
+    Program. 91 (2002): the profile of solver s at tau is the share of problems whose ratio is at
+    most tau.
+
+    Parameters
+    ----------
+    seconds : ndarray, shape (solvers, problems) [s]
+    good : ndarray of bool, shape (solvers, problems)
+        Whether the answer is good enough; one that is not counts as never given.
+
+    Returns
+    -------
+    ndarray, shape (solvers, problems) [-]
+        At least 1; infinite where the answer is not good enough.
+    """
+    times = np.where(good, seconds, np.inf)
+    fastest = times.min(axis=0, initial=np.inf)
+    ratios = np.full(times.shape, np.inf)
+    np.divide(times, fastest, out=ratios, where=np.isfinite(times))
+    return ratios

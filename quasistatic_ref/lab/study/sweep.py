@@ -1,0 +1,121 @@
+"""Simulation parameters swept over scenarios: mu_omega, h, K_q, k, the cone, or any other field.
+
+Every combination of the values is one run, each step exact; a row is what the run came to.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from dataclasses import asdict
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from quasistatic_ref.errors import QuasistaticError, RunFailed
+from quasistatic_ref.files import writable_folder
+from quasistatic_ref.lab.study.environment import machine, versions
+from quasistatic_ref.lab.study.outcomes import outcomes
+from quasistatic_ref.lab.study.spec_sweep import Sweep, sweep_scenario
+from quasistatic_ref.lab.study.store import Row, Store, key_of
+
+DONE, ENDED_EARLY, REFUSED = "done", "ended_early", "refused"
+
+
+def run_sweep(
+    sweeps: Sequence[Sweep],
+    folder: str | Path,
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    progress: bool = True,
+) -> list[Row]:
+    """Run sweeps, or what is left of them.
+
+    Parameters
+    ----------
+    sweeps : sequence of Sweep
+    folder : str or Path
+        The store.
+    jobs : int, optional
+        Runs at once.
+    scheduler : str, optional
+        Address of a Dask scheduler.
+    progress : bool
+
+    Returns
+    -------
+    list of dict
+        All rows of the store, sorted.
+    """
+    folder = writable_folder(folder)
+    with Store(folder, sweep_record(sweeps)) as store:
+        done = store.keys
+        every = [(sweep, point) for sweep in sweeps for point in sweep.points()]
+        todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
+        if scheduler is not None:
+            from quasistatic_ref.lab.study.cluster import executor_of
+
+            with executor_of(scheduler) as (executor, slots):
+                _conduct(store, todo, executor, slots, progress)
+        else:
+            jobs = jobs or os.cpu_count() or 1
+            with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+                _conduct(store, todo, pool, jobs, progress)
+        return sorted(store.rows, key=key_of)
+
+
+def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
+    """What ``study.json`` of sweeps holds."""
+    return {
+        "format": "quasistatic-ref/study-store",
+        "version": 1,
+        "kind": "sweep",
+        "sweeps": [asdict(sweep) for sweep in sweeps],
+        "versions": versions(()),
+        "machine": machine(),
+    }
+
+
+def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
+    """One run, and what it came to; a run that ends early is a result too."""
+    begin = time.perf_counter()
+    outcome, reason, measures = DONE, None, {}
+    try:
+        scenario = sweep_scenario(sweep, point)
+        try:
+            trajectory = scenario.run(progress=False)
+        except RunFailed as failure:
+            outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
+        measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
+    except QuasistaticError as error:
+        outcome, reason = REFUSED, str(error)
+    row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
+    return row | {"seconds": {"call": time.perf_counter() - begin}}
+
+
+def _conduct(
+    store: Store,
+    todo: list[tuple[Sweep, dict[str, Any]]],
+    executor: Executor,
+    slots: int,
+    progress: bool,
+) -> None:
+    left = list(reversed(todo))
+    under_way: set[Future[Row]] = set()
+    with tqdm(total=len(todo), unit="run", leave=False, disable=None if progress else True) as bar:
+        while left or under_way:
+            while left and len(under_way) < slots:
+                under_way.add(executor.submit(sweep_row, *left.pop()))
+            done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+            for future in done:
+                store.add(future.result())
+                bar.update()
+
+
+def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:
+    return {"sweep": sweep.name, "scenario": Path(sweep.scenario).stem, "values": point}

@@ -1,0 +1,147 @@
+"""Scenes with bodies: URDF texts and the systems that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.validate.bodies import GRAVITY
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.simulator import Simulator, StepResult
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.step.data import Array
+
+DOWN = (0.0, 0.0, -GRAVITY)
+
+
+def link_text(
+    name: str,
+    mass: float,
+    inertia: Sequence[float],
+    shape: str = "",
+    com: Sequence[float] | Array = (0, 0, 0),
+) -> str:
+    """One link of a URDF.
+
+    Parameters
+    ----------
+    name : str
+    mass : float
+        [kg].
+    inertia : sequence of float
+        Principal moments along the link's axes [kg m^2].
+    shape : str
+        The URDF of its collision geometry at the link's origin, e.g. ``<sphere radius="0.1"/>``.
+    com : sequence of float, shape (3,)
+        Centre of mass in the link's frame [m].
+    """
+    ixx, iyy, izz = (repr(float(i)) for i in inertia)
+    xyz = " ".join(repr(float(c)) for c in com)
+    collision = f"<collision><geometry>{shape}</geometry></collision>" if shape else ""
+    return (
+        f'<link name="{name}"><inertial><origin xyz="{xyz}"/><mass value="{mass!r}"/>'
+        f'<inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f"{collision}</link>"
+    )
+
+
+def robot_text(*elements: str) -> str:
+    """A URDF of some links and joints."""
+    return f'<robot name="scene" version="1.1">{"".join(elements)}</robot>'
+
+
+def joint_text(
+    name: str, kind: str, parent: str, child: str, axis: str, origin: str = "0 0 0"
+) -> str:
+    """One joint of a URDF; its limits play no role in this model."""
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{origin}"/><axis xyz="{axis}"/>'
+        '<limit lower="-10" upper="10" effort="1" velocity="1"/></joint>'
+    )
+
+
+def system_of(texts: Mapping[str, str], **settings: Mapping[str, Any]) -> System:
+    """A system of bodies given as URDF texts.
+
+    Parameters
+    ----------
+    texts : mapping of str to str
+        Body -> URDF.
+    settings : mapping
+        Body -> further arguments of :class:`~quasistatic_ref.model.body.Body`; bodies float freely
+        where nothing else is said.
+    """
+    with TemporaryDirectory() as folder:
+        bodies = []
+        for name, text in texts.items():
+            path = Path(folder) / f"{name}.urdf"
+            path.write_text(text, encoding="utf-8")
+            bodies.append(Body(name, path, **({"base": "floating"} | dict(settings.get(name, {})))))
+        return System(bodies)
+
+
+def world_plane(normal: ArrayLike = (0, 0, 1), offset: float = 0.0) -> PlacedShape:
+    """A half-space fixed in the world."""
+    shape = HalfSpace(np.array(normal, dtype=np.float64), offset)
+    return PlacedShape("floor", 0, np.eye(3), np.zeros(3), shape)
+
+
+def on_link(system: System, link: str, shape: Shape) -> PlacedShape:
+    """A shape at the origin of a link."""
+    return PlacedShape(link, system.link(link), np.eye(3), np.zeros(3), shape)
+
+
+def cloud_on(system: System, link: str, points: ArrayLike) -> PlacedShape:
+    """Points fixed to a link, in its frame [m]."""
+    return on_link(system, link, PointCloud(np.array(points, dtype=np.float64)))
+
+
+def simulator_of(
+    system: System,
+    pairs: Sequence[ContactPair],
+    h: float,
+    K_q: ArrayLike | None = None,
+    gravity: Sequence[float] = DOWN,
+) -> Simulator:
+    """A simulator that asks no solver: every step is exact from a cold start."""
+    K = np.zeros((system.n_a, system.n_a)) if K_q is None else np.asarray(K_q, dtype=np.float64)
+    return Simulator(system, pairs, h=h, K_q=K, gravity=gravity, backend=NONE)
+
+
+def steps_of(
+    simulator: Simulator,
+    steps: int,
+    *,
+    q: Array | None = None,
+    velocity: ArrayLike = (),
+    force: Array | float = 0.0,
+) -> list[StepResult]:
+    """Steps in sequence under a constant force; each result holds the q after it.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    steps : int
+    q : ndarray, shape (n_q,), optional
+        Where to start.
+    velocity : array_like, shape (n_a,)
+        Of the targets [m/s, rad/s], which start where the actuated joints do; scalar joints only.
+    force : float or ndarray, shape (n_v,)
+        External generalised force [N, N m].
+    """
+    q = simulator.system.q_start if q is None else q
+    start = q[: simulator.system.n_q_a]
+    results = []
+    for k in range(steps):
+        target = start + (k + 1) * simulator.h * np.asarray(velocity, dtype=np.float64)
+        results.append(simulator.step(q, target, force))
+        q = results[-1].q
+    return results

@@ -1,0 +1,76 @@
+"""A folder of answers, read so that one bad file or answer does not hide the others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.files import json_read
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.files import ANSWERS, VERSION
+
+TANGENTS: Final = ("body", "world", "mujoco")
+QUATERNIONS: Final = ("xyzw", "wxyz")
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What one implementation answers to one layer.
+
+    Parameters
+    ----------
+    outputs : dict
+        By the id of the case.
+    implementation : str
+    tangent, quaternion : str
+        As declared.
+    present : bool
+        Whether there is a file.
+    problem : str
+        Why the file cannot be read, or which of its entries cannot; empty if nothing is wrong.
+    """
+
+    outputs: dict[str, Json] = field(default_factory=dict)
+    implementation: str = ""
+    tangent: str = "body"
+    quaternion: str = "xyzw"
+    present: bool = True
+    problem: str = ""
+
+
+def answers_read(folder: str | Path, layer: str) -> Answers:
+    """The answers of a layer; what is wrong with their file is told, not raised."""
+    path = Path(folder) / f"{layer}.json"
+    if not path.exists():
+        return Answers(present=False)
+    try:
+        top = Fields(json_read(path))
+        top.text("format", choices=(ANSWERS,))
+        version = top.integer("version")
+        if version != VERSION:
+            raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+        top.text("layer", choices=(layer,))
+        implementation = top.text("implementation")
+        tangent = top.text("tangent", "body", choices=TANGENTS)
+        quaternion = top.text("quaternion", "xyzw", choices=QUATERNIONS)
+        entries = top.sequence("answers")
+        top.close()
+    except InputError as error:
+        return Answers(problem=str(error.in_file(path)))
+    outputs: dict[str, Json] = {}
+    problems = []
+    for i, entry in enumerate(entries):
+        try:
+            one = Fields(entry, f"answers[{i}]")
+            name, output = one.text("id"), one.take("output")
+            one.close()
+            if name in outputs:
+                raise one.fail("id", "is answered twice", name)
+        except InputError as error:
+            problems.append(str(error.in_file(path)))
+            continue
+        outputs[name] = output
+    return Answers(outputs, implementation, tangent, quaternion, True, "; ".join(problems[:1]))

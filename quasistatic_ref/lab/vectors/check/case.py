@@ -1,0 +1,115 @@
+"""The verdict on one answer."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.vectors.check.certificates import certificate_problem
+from quasistatic_ref.lab.vectors.check.compare import differences, shape_problem
+from quasistatic_ref.lab.vectors.check.freedoms import (
+    FREEDOMS,
+    aligned,
+    dependent_fields,
+    plain_failure,
+)
+from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
+from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.expected import Json
+
+CONTRADICTION: Final = 1e-14
+"""Slack below zero, relative to the terms of its row, that float64 takes for none."""
+
+
+def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
+    """What becomes of an answer, in the package's own conventions.
+
+    Parameters
+    ----------
+    layer : str
+    case : dict
+        The input.
+    record : dict
+        What is expected: ``output``, ``flags``, ``tolerance``.
+    answer : object
+        The output of somebody else.
+
+    Returns
+    -------
+    Verdict
+        Its id is empty.
+    """
+    expected = record["output"]
+    if layer in ("qp", "step") and isinstance(answer, dict):
+        if "farkas" in answer and "farkas" in expected:
+            return _infeasible(layer, case, record, answer)
+        if "farkas" in answer:
+            return failure("farkas", "farkas is given, but the case has a solution")
+        if "farkas" in expected:
+            return _unseen(case, record, answer)
+    if layer == "qp" and isinstance(answer, dict) and "certificate" in answer:
+        return _certified(case, record, answer)
+    expected = {name: value for name, value in expected.items() if name != "certificate"}
+    problem = shape_problem(layer, expected, answer)
+    if problem:
+        return failure(*problem, digits=0.0)
+    signed = aligned(layer, case, expected, answer)
+    found = differences(expected, signed, record["tolerance"])
+    failing = {name: d for name, d in found.items() if not d.holds}
+    free = dependent_fields(layer, record)
+    digits = min((d.digits for name, d in found.items() if name not in free), default=None)
+    if not failing and signed != answer:
+        return acceptable("-q in the place of a quaternion q", digits)
+    if not failing:
+        return Verdict("", PASSED, digits=digits)
+    freedom = FREEDOMS.get(layer)
+    if freedom is None:
+        return plain_failure(failing)
+    verdict = freedom(case, record, answer, failing)
+    held = [d.digits for name, d in found.items() if name not in free and name not in failing]
+    digits = min(held, default=None)
+    return verdict if verdict.field else Verdict("", verdict.verdict, verdict.reason, "", digits)
+
+
+def _certified(case: Json, record: Json, answer: Json) -> Verdict:
+    """An answer with a certificate, which is the expected one or has to hold by itself."""
+    rest = {name: value for name, value in answer.items() if name != "certificate"}
+    verdict = case_verdict("qp", case, record, rest)
+    if verdict.verdict == FAILED or answer["certificate"] == record["output"]["certificate"]:
+        return verdict
+    if problem := certificate_problem(case, answer):
+        return failure("certificate", f"certificate: {problem}")
+    return acceptable("another certificate that holds", verdict.digits)
+
+
+def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
+    """A delta_q for rows that contradict each other by less than their own rounding."""
+    missing = failure("farkas", "the case has no solution; farkas is missing")
+    rows = case if "A" in case else record["output"]
+    try:
+        A, b, x = (np.array(v, dtype=np.float64) for v in (rows["A"], rows["b"], answer["delta_q"]))
+        slack, size = A @ x - b, np.abs(A) @ np.abs(x) + np.abs(b)
+    except (KeyError, TypeError, ValueError):
+        return missing
+    if not (slack >= -CONTRADICTION * size).all():  # not: NaN
+        return missing
+    return acceptable("a contradiction smaller than rounding is not seen")
+
+
+def _infeasible(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
+    """A proof that a case has no solution; of a whole step, after what led to it."""
+    if layer == "step":
+        proved = ("farkas", "certificate")
+        before = {name: v for name, v in record["output"].items() if name not in proved}
+        led = {name: v for name, v in answer.items() if name not in proved}
+        verdict = case_verdict(layer, case, {**record, "output": before}, led)
+        if verdict.verdict == FAILED:
+            return verdict
+        case = {**case, **{key: record["output"][key] for key in ("A", "b", "g")}}
+    for name in answer:
+        if name not in record["output"]:
+            return failure(name, f"{name} is no field of a case without solution")
+    if "certificate" in answer and answer["certificate"] != record["output"]["certificate"]:
+        return failure("certificate", "certificate is another one; leave it out, farkas says it")
+    return farkas_verdict(case, record, answer["farkas"])

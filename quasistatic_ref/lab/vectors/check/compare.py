@@ -1,0 +1,159 @@
+"""Two outputs of one layer side by side: their shape, and number by number."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
+from quasistatic_ref.lab.vectors.expected import Json
+
+Array = NDArray[np.float64]
+
+OPTIONAL: Final = {
+    "qp": ("A_lam", "slack", "certificate"),
+    "step": ("A_lam",),
+}
+"""Fields that follow from others, and need not be answered."""
+
+
+ORDER: Final = (
+    *("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "indices", "J"),
+    *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "net", "q", "q_next"),
+)
+"""Fields in the order in which a step comes to them: what fails first is the cause of the rest."""
+
+
+def shape_problem(layer: str, expected: Json, answer: Json) -> tuple[str, str] | None:
+    """The first thing about an answer that is no output of its layer: field and sentence."""
+    if not isinstance(answer, dict):
+        return "", f"the output must be an object with the fields {', '.join(expected)}"
+    optional = OPTIONAL.get(layer, ())
+    for name in expected:
+        if name not in answer and name not in optional:
+            return name, f"{name} is missing"
+    for name, value in answer.items():
+        if name not in expected:
+            known = ", ".join(expected)
+            return name, f"{name} is no field of this output; its fields are {known}"
+        problem = _mismatch(expected[name], value, name)
+        if problem:
+            return name, problem
+    return None
+
+
+def _mismatch(expected: Json, answer: Json, path: str) -> str | None:
+    if isinstance(expected, dict):
+        if not isinstance(answer, dict):
+            return f"{path} must be an object"
+        for name in expected:
+            if name not in answer:
+                return f"{path}.{name} is missing"
+        for name, value in answer.items():
+            if name not in expected:
+                return f"{path}.{name} is unknown"
+            if problem := _mismatch(expected[name], value, f"{path}.{name}"):
+                return problem
+        return None
+    if isinstance(expected, list):
+        if not isinstance(answer, list):
+            return f"{path} must be a list of {len(expected)}"
+        if len(answer) != len(expected):
+            return f"{path} must have {len(expected)} entries, not {len(answer)}"
+        for i, (one, other) in enumerate(zip(expected, answer, strict=True)):
+            if problem := _mismatch(one, other, f"{path}[{i}]"):
+                return problem
+        return None
+    if isinstance(expected, bool | str) or expected is None:
+        return None if isinstance(answer, type(expected)) else f"{path} must be like {expected!r}"
+    return number_problem(answer, path)
+
+
+def number_problem(value: Json, path: str) -> str | None:
+    """What keeps a value from being a finite number; None if nothing does."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return f"{path} must be a number, not {str(value)[:40]!r}"
+    try:
+        finite = math.isfinite(float(value))
+    except OverflowError:
+        finite = False
+    return None if finite else f"{path} must be a finite number, not {str(value)[:40]}"
+
+
+def leaves(value: Json, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Everything that is neither list nor object, with its place."""
+    if isinstance(value, dict):
+        for name in sorted(value):
+            yield from leaves(value[name], f"{path}.{name}")
+    elif isinstance(value, list):
+        for i, entry in enumerate(value):
+            yield from leaves(entry, f"{path}[{i}]")
+    else:
+        yield path, value
+
+
+def parts(output: Json) -> dict[str, Json]:
+    """The fields of an output; a list of objects as one field for each of their names.
+
+    The contacts of a step become ``contacts.phi``, ``contacts.n``, ...; in the order of ORDER.
+    """
+    found: dict[str, Json] = {}
+    for name, value in output.items():
+        if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
+            for inner in value[0]:
+                found[f"{name}.{inner}"] = [entry[inner] for entry in value]
+        else:
+            found[name] = value
+    return dict(sorted(found.items(), key=lambda item: _place(item[0])))
+
+
+def _place(field: str) -> tuple[bool, int]:
+    """Contacts come before what is made of them."""
+    name = field.rpartition(".")[2]
+    return "." not in field, ORDER.index(name) if name in ORDER else len(ORDER)
+
+
+def numbers_of(value: Json) -> Array:
+    """All numbers of a field, in order, shape (N,)."""
+    return np.array([leaf for _, leaf in leaves(value)], dtype=np.float64)
+
+
+def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
+    """How far a field may be off [its unit]; 0 where nothing is said: integers, names.
+
+    ``contacts.phi`` is looked for under its whole name, its last part and its first part.
+    """
+    for name in (field, field.rpartition(".")[2], field.partition(".")[0]):
+        if name in tolerance:
+            return float(tolerance[name]["absolute"])
+    return 0.0
+
+
+def difference(field: str, expected: Json, answer: Json, tolerance: float) -> Difference:
+    """The worst number of one field; what is no number must be equal."""
+    worst, place, size = 0.0, "", 0.0
+    for (path, one), (_, other) in zip(leaves(expected), leaves(answer), strict=True):
+        if isinstance(one, bool | str) or one is None:
+            if one != other:
+                return Difference(field, path, math.inf, tolerance, 0.0)
+            continue
+        size, error = max(size, abs(one)), abs(float(other) - float(one))
+        if error > worst:
+            worst, place = error, path
+    return Difference(field, place, worst, tolerance, correct_digits(worst, size, tolerance))
+
+
+def differences(
+    expected: Json, answer: Json, tolerance: Mapping[str, Json]
+) -> dict[str, Difference]:
+    """Of every field that is answered, in the order of the layer's output."""
+    ours, theirs = parts(expected), parts(answer)
+    return {
+        name: difference(name, value, theirs[name], tolerance_of(tolerance, name))
+        for name, value in ours.items()
+        if name in theirs
+    }

@@ -1,0 +1,107 @@
+"""``vectors check``: a folder of answers against the reference vectors, layer by layer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
+from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
+from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
+from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict, failure
+from quasistatic_ref.lab.vectors.converters import converted
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.files import Case, check_layer, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.layers import LAYERS
+
+
+def check_answers(
+    answers: str | Path, vectors: str | Path, layers: Sequence[str] | None = None
+) -> Report:
+    """Compare a folder of answers with the vectors.
+
+    Parameters
+    ----------
+    answers : path
+        Folder with a ``LAYER.json`` for each layer that is answered.
+    vectors : path
+        Folder of the reference vectors.
+    layers : sequence of str, optional
+        Layers that have to be answered. By default all are looked at, and one without a file is
+        reported but no failure.
+
+    Returns
+    -------
+    Report
+
+    Raises
+    ------
+    InputError
+        If the *vectors* cannot be read, the folder of answers does not exist or answers no layer,
+        or a layer has an unknown name. A bad file of answers is reported, never raised.
+    """
+    folder = Path(answers)
+    if not folder.is_dir():
+        raise InputError("is no folder of answers", file=folder)
+    asked = LAYERS if layers is None else [check_layer(name) for name in layers]
+    known = [name for name in asked if (Path(vectors) / "expected" / f"{name}.json").exists()]
+    if not known:
+        raise InputError("holds no expected/LAYER.json", file=vectors)
+    found = {name: answers_read(folder, name) for name in known}
+    if not any(given.present for given in found.values()):
+        names = ", ".join(f"{name}.json" for name in known)
+        raise InputError(f"answers no layer; the files looked for are {names}", file=folder)
+    reports = []
+    for name in known:
+        cases = inputs_read(vectors, name)
+        report = layer_report(name, cases, expected_read(vectors, name), found[name])
+        reports.append(report.required() if layers is not None else report)
+    return Report(str(folder), tuple(reports))
+
+
+def layer_report(
+    layer: str, cases: Sequence[Case], expected: dict[str, Json], answers: Answers
+) -> LayerReport:
+    """The verdicts on all answers of one layer, and the mistake behind those that fail.
+
+    Parameters
+    ----------
+    layer : str
+    cases : sequence of Case
+    expected : dict
+        Records of ``expected/LAYER.json`` by id.
+    answers : Answers
+    """
+    verdicts: list[Verdict] = []
+    failed: list[Failed] = []
+    right: list[Failed] = []
+    for case in cases:
+        record = expected[case.id]
+        if case.id not in answers.outputs:
+            verdicts.append(Verdict(case.id, MISSING, "no answer"))
+            continue
+        given = answers.outputs[case.id]
+        try:
+            output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
+            verdict = case_verdict(layer, case.input, record, output).named(case.id)
+        except (ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
+            # Of a shape that only a conversion meets before its shape is checked.
+            output = given
+            verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)
+        verdicts.append(verdict)
+        one = Failed(case.id, case.input, record, output, verdict)
+        (failed if verdict.verdict == FAILED else right).append(one)
+    unknown = [name for name in answers.outputs if name not in expected]
+    problem = answers.problem
+    if unknown and not problem:
+        problem = f"{layer}.json answers {unknown[0]!r}, which is no case of the layer"
+    return LayerReport(
+        layer=layer,
+        implementation=answers.implementation,
+        present=answers.present,
+        problem=problem,
+        verdicts=tuple(verdicts),
+        mistakes=mistakes_of(layer, failed, right),
+    )

@@ -1,0 +1,154 @@
+"""Answers that differ from the expected ones and are right all the same.
+
+Each function takes a case, what is expected, the answer and the fields in which they differ
+beyond tolerance, and says why that is a documented freedom, or what is wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.vectors.check.compare import differences, tolerance_of
+from quasistatic_ref.lab.vectors.check.joints import quaternion_places
+from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem, wrench_problem
+from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
+from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
+from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.expected import Json
+
+Failing = Mapping[str, Difference]
+WITNESS: Final = ("alpha", "beta", "n")
+CHOSEN: Final = tuple(f"contacts.{name}" for name in ("index", *WITNESS, "d1", "d2"))
+ANOTHER: Final = 1e3
+"""An error of more tolerances than that is another answer, and may be right."""
+
+
+def plain_failure(failing: Failing) -> Verdict:
+    """The first field that differs, by how much."""
+    first = next(iter(failing.values()))
+    return failure(first.field, first.sentence, first.digits)
+
+
+def another_witness(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other closest points, or another normal, that prove the same distance.
+
+    Exactly, they may be unique and still be decided by the last bit of a pose: a face that is
+    parallel to another but for 1e-18. Far from the expected ones they have to prove themselves;
+    a little beside them they are wrong where those are unique.
+    """
+    if "phi" in failing or (record["flags"].get("unique", True) and not _far(failing)):
+        return plain_failure(failing)
+    tolerance = max(tolerance_of(record["tolerance"], name) for name in ("phi", *WITNESS))
+    phi = np.atleast_1d(np.array(record["output"]["phi"], dtype=np.float64))
+    points = {name: np.array(answer[name], dtype=np.float64).reshape(-1, 3) for name in WITNESS}
+    for i, solid in enumerate(solid_cases(case)):
+        alpha, beta, n = (points[name][i] for name in WITNESS)
+        problem = witness_problem(solid, float(phi[i]), alpha, beta, n, tolerance)
+        if problem:
+            first = next(iter(failing.values()))
+            sentence = f"{first.sentence}; nor is it another valid one: {problem}"
+            return failure(first.field, sentence, first.digits)
+    return acceptable("another witness of the same distance")
+
+
+def _far(failing: Failing) -> bool:
+    """Whether an answer is another one, and not the same with too large an error."""
+    return any(d.error > ANOTHER * d.tolerance for d in failing.values())
+
+
+def another_tie(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other indices among equal distances."""
+    if not record["flags"].get("tie", False):
+        return plain_failure(failing)
+    for phi, chosen, wanted in zip(
+        case["phi"], answer["indices"], record["output"]["indices"], strict=True
+    ):
+        if not all(isinstance(i, int) and 0 <= i < len(phi) for i in chosen):
+            return failure("indices", f"indices must be whole numbers from 0 to {len(phi) - 1}")
+        if len(set(chosen)) < len(chosen) or [phi[i] for i in chosen] != [phi[i] for i in wanted]:
+            return plain_failure(failing)
+    return acceptable("another choice among equal distances")
+
+
+def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
+    """An answer whose quaternions have the signs of the expected ones, where q or -q is given."""
+    field = {"integrate": "q", "step": "q_next"}.get(layer)
+    if field is None or field not in expected:
+        return answer
+    wanted, given = (np.array(o[field], dtype=np.float64) for o in (expected, answer))
+    for place in quaternion_places(case["mechanism"]):
+        if given[place] @ wanted[place] < 0:
+            given[place] = -given[place]
+    return {**answer, field: given.tolist()}
+
+
+def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other multipliers of a quadratic program that do the same."""
+    rest = {name: d for name, d in failing.items() if name != "lam"}
+    if rest or record["flags"].get("unique_multipliers", True):
+        return plain_failure(failing)
+    second_order = "second_order" in case
+    A = [row for block in case["second_order"] for row in block["F"]] if second_order else case["A"]
+    problem = multipliers_problem(A, record, answer["lam"], conic=second_order)
+    if problem:
+        return failure("lam", f"lam is another one, and {problem}")
+    return acceptable("other multipliers with the same A'lam")
+
+
+def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other multipliers of a step, and the wrenches that belong to them."""
+    if next(iter(failing)).startswith("contacts."):
+        return _other_contacts(case, record, answer, failing)
+    rest = {name: d for name, d in failing.items() if name not in ("lam", "wrench")}
+    if rest or record["flags"].get("unique_multipliers", True):
+        return plain_failure(rest or failing)
+    if problem := multipliers_problem(record["output"]["A"], record, answer["lam"]):
+        return failure("lam", f"lam is another one, and {problem}")
+    if problem := wrench_problem(case, record, answer):
+        return failure("wrench", problem)
+    return acceptable("other multipliers with the same A'lam")
+
+
+def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other contacts where rounding decides which ones: the rest has to follow from them."""
+    first = next(iter(failing.values()))
+    chosen = {name: failing[name] for name in CHOSEN if name in failing}
+    if not _far(chosen):
+        return plain_failure(failing)
+    if problem := contacts_problem(case, record, answer["contacts"]):
+        sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"
+        return failure(first.field, sentence, first.digits)
+    own = record_from(case, record, answer["contacts"])
+    failing = {
+        name: d
+        for name, d in differences(own["output"], answer, own["tolerance"]).items()
+        if not d.holds
+    }
+    if any(name.startswith("contacts.") for name in failing):
+        return plain_failure(failing)
+    if failing:
+        verdict = other_step(case, own, answer, failing)
+        if verdict.field:
+            return verdict
+    return acceptable("other contacts where rounding decides, and what follows from them")
+
+
+FREEDOMS: Final[dict[str, Callable[[Json, Json, Json, Failing], Verdict]]] = {
+    "distance": another_witness,
+    "selection": another_tie,
+    "qp": other_multipliers,
+    "step": other_step,
+}
+
+
+def dependent_fields(layer: str, record: Json) -> tuple[str, ...]:
+    """Fields whose numbers are not comparable one by one in this case."""
+    flags = record["flags"]
+    if layer == "distance" and not flags.get("unique", True):
+        return WITNESS
+    if layer in ("qp", "step") and not flags.get("unique_multipliers", True):
+        return ("lam", "wrench")
+    return ()

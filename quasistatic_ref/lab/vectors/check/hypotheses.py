@@ -1,0 +1,203 @@
+"""The table of classic mistakes: a name, what is right, and what would be answered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from quasistatic_ref.lab.vectors.check.predictions import (
+    Prediction,
+    again,
+    both,
+    by_h,
+    contacts_changed,
+    opposite,
+    times,
+)
+from quasistatic_ref.lab.vectors.check.wrong_contacts import (
+    interleaved,
+    interleaved_lam,
+    mu_omega,
+    of_rows,
+    reversed_rows,
+    reversed_spin,
+    reversed_wrench,
+    swapped_points,
+    swapped_wrench,
+    unsigned,
+    unsigned_selection,
+    with_mu_omega,
+    without_spin,
+)
+from quasistatic_ref.lab.vectors.check.wrong_frames import (
+    answered_wxyz,
+    misread,
+    other_delta_q,
+    other_tangents,
+    other_tangents_of_step,
+    straight,
+    transposed_J,
+    transposed_J_of_step,
+    transposed_rows,
+    unactuated_first,
+    world_integrate,
+)
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One mistake.
+
+    Parameters
+    ----------
+    name : str
+    sentence : str
+        What is wrong, and what is right.
+    predictions : mapping
+        By layer: (input, expected output) -> what would be answered.
+    """
+
+    name: str
+    sentence: str
+    predictions: Mapping[str, Prediction]
+
+
+HYPOTHESES: Final = (
+    Hypothesis(
+        "sign of the contact term",
+        "H delta_q - g - sum A' lam = 0 with lam >= 0, and the wrench acts on beta's body: "
+        "Eq. (9) as printed has the other sign",
+        {
+            "qp": opposite("lam", "A_lam"),
+            "rows": opposite("A"),
+            "wrench": opposite("wrench", "net"),
+            "step": opposite("A", "lam", "A_lam", "wrench"),
+        },
+    ),
+    Hypothesis(
+        "lam and force mixed up by h",
+        "lam is an impulse [N s]; the wrench is its combination divided by h [N]",
+        {
+            "qp": by_h("lam", "A_lam"),
+            "wrench": by_h("wrench", "net"),
+            "step": by_h("lam", "A_lam", "wrench"),
+        },
+    ),
+    Hypothesis(
+        "v in the place of delta_q",
+        "delta_q is a displacement in one step [m, rad], not a velocity: multiply by h once",
+        {
+            "qp": by_h("delta_q"),
+            "integrate": other_delta_q,
+            "step": by_h("delta_q"),
+        },
+    ),
+    Hypothesis(
+        "mu_omega taken as dimensionless",
+        "mu_omega is a length [m]: a spin row is n'J + mu_omega times the spin, and the torque "
+        "mu_omega times the force",
+        mu_omega(with_mu_omega(lambda c: 1.0)),
+    ),
+    Hypothesis(
+        "mu_omega multiplied by mu_v",
+        "mu_omega stands by itself in Eq. (7)",
+        mu_omega(with_mu_omega(lambda c: float(c["mu_omega"] * c["mu_v"]))),
+    ),
+    Hypothesis(
+        "normals reversed",
+        "n points from alpha's body to beta's, also in penetration",
+        {
+            "distance": opposite("n"),
+            "jacobian": reversed_spin,
+            "rows": reversed_rows,
+            "wrench": reversed_wrench,
+            "step": contacts_changed(lambda c: {"n": times(c["n"], -1.0)}),
+        },
+    ),
+    Hypothesis(
+        "unsigned phi",
+        "phi is negative in penetration, and n keeps its direction there",
+        {
+            "distance": unsigned,
+            "selection": unsigned_selection,
+            "rows": lambda case, output: [{"b": [-abs(v) for v in output["b"]]}],
+            "step": contacts_changed(lambda c: {"phi": abs(c["phi"])}),
+        },
+    ),
+    Hypothesis(
+        "sign of b",
+        "a row reads phi + A delta_q >= 0: b is -phi",
+        {"rows": opposite("b"), "step": opposite("b")},
+    ),
+    Hypothesis(
+        "torsion rows missing",
+        "a contact whose rows are 6 has two more, n'J +- mu_omega times its spin",
+        {
+            **of_rows(without_spin),
+            "jacobian": lambda case, output: [{"J": [J[:3] for J in output["J"]]}],
+            "wrench": lambda case, output: [
+                again("wrench", with_mu_omega(lambda c: 0.0)(case)),
+                {"wrench": [[*w[:3], 0.0] for w in output["wrench"]]},
+            ],
+        },
+    ),
+    Hypothesis(
+        "world and body frames swapped",
+        "a floating base's delta_q is a twist in the body's own frame; or declare "
+        '"tangent": "world" (linear and angular) or "mujoco" (linear) in the answers',
+        {
+            "jacobian": other_tangents,
+            "integrate": world_integrate,
+            "step": other_tangents_of_step,
+        },
+    ),
+    Hypothesis(
+        "J transposed",
+        "J of a contact has 4 rows and n_v columns, written row by row",
+        {
+            "jacobian": transposed_J,
+            "rows": transposed_rows,
+            "step": transposed_J_of_step,
+        },
+    ),
+    Hypothesis(
+        "quaternion order",
+        'quaternions are [x, y, z, w]; or declare "quaternion": "wxyz" in the answers',
+        {
+            "distance": misread("distance"),
+            "jacobian": misread("jacobian"),
+            "integrate": both(answered_wxyz("q"), misread("integrate")),
+            "step": answered_wxyz("q_next"),
+        },
+    ),
+    Hypothesis(
+        "rows interleaved",
+        "a contact's rows are +d1, +d2, -d1, -d2, +spin, -spin; MuJoCo's are +d1, -d1, +d2, -d2",
+        {**of_rows(interleaved), "wrench": interleaved_lam},
+    ),
+    Hypothesis(
+        "alpha and beta swapped",
+        "J is the motion of beta relative to alpha, and the wrench acts on beta's body",
+        {
+            "distance": swapped_points,
+            "jacobian": opposite("J"),
+            "wrench": swapped_wrench,
+            "step": both(
+                contacts_changed(lambda c: {"alpha": c["beta"], "beta": c["alpha"]}),
+                contacts_changed(lambda c: {"J": times(c["J"], -1.0)}),
+            ),
+        },
+    ),
+    Hypothesis(
+        "un-actuated coordinates first",
+        "delta_q holds the actuated joints first, then the others",
+        {"jacobian": unactuated_first},
+    ),
+    Hypothesis(
+        "a straight line in the place of the screw",
+        "T exp6(delta_q): the translation is V(w) v, not v",
+        {"integrate": straight},
+    ),
+)
+"""Tried in this order; of equally good explanations all are named."""

@@ -1,0 +1,146 @@
+"""Whether multipliers that are not the expected ones do what multipliers have to do.
+
+Where the rows that bear load depend on each other, lam is one of many. All of them are >= 0, have
+the same A'lam, and vanish on rows with a slack.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
+from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.step.cones import ELLIPSOID, cone
+
+Array = NDArray[np.float64]
+
+EPS: Final = float(np.finfo(np.float64).eps)
+NEGLIGIBLE: Final = 1e-9
+"""Largest multiplier, relative to the largest, on a row that has a slack, or below zero: a method
+that reaches delta_q to rounding leaves 1e-14."""
+
+
+def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = False) -> str | None:
+    """What is wrong with multipliers of a program; None if they are as good as the expected ones.
+
+    Parameters
+    ----------
+    rows : list
+        A [m][n_v].
+    record : dict
+        What is expected: A_lam, slack (or A, b, delta_q) and the tolerances.
+    lam : list, length m
+    conic : bool
+        Whether each four of them are in a second-order cone.
+    """
+    output, tolerance = record["output"], record["tolerance"]
+    A_lam, multipliers = np.array(output["A_lam"]), np.array(lam, dtype=np.float64)
+    A = np.array(rows, dtype=np.float64).reshape(len(multipliers), len(A_lam))
+    largest = float(np.abs(multipliers).max(initial=0.0))
+    sums = EPS * (len(A) + 2) * float((np.abs(A).T @ np.abs(multipliers)).max(initial=0.0))
+    off = float(np.abs(A.T @ multipliers - A_lam).max(initial=0.0))
+    if off > tolerance_of(tolerance, "A_lam") + 2 * sums:
+        return f"A'lam is off by {off:.2g}"
+    small = NEGLIGIBLE * largest
+    slack = _slack(A, output)
+    if conic:
+        return _conic_problem(multipliers.reshape(-1, 4), slack.reshape(-1, 4), small)
+    if (multipliers < -small).any():
+        row = int(multipliers.argmin())
+        return f"lam[{row}] is {multipliers[row]:.2g}, below 0"
+    room = max(tolerance_of(tolerance, "slack"), tolerance_of(tolerance, "b"))
+    room += (
+        EPS * 4 * float(np.abs(A).max(initial=0.0)) * (1.0 + float(np.abs(slack).max(initial=0)))
+    )
+    pressing = (multipliers > small) & (slack > room)
+    if pressing.any():
+        row = int(np.where(pressing, multipliers, -1).argmax())
+        return f"lam[{row}] is {multipliers[row]:.2g} on a row whose slack is {slack[row]:.2g}"
+    return None
+
+
+def _slack(A: Array, output: Json) -> Array:
+    if "slack" in output:
+        return np.array(output["slack"], dtype=np.float64)
+    return np.asarray(A @ np.array(output["delta_q"]) - np.array(output["b"], dtype=np.float64))
+
+
+def _conic_problem(lam: Array, z: Array, small: float) -> str | None:
+    outside = np.linalg.norm(lam[:, 1:], axis=1) - lam[:, 0]
+    if (outside > small).any():
+        return f"lam of block {int(outside.argmax())} is outside its cone"
+    product = np.abs(np.einsum("ji,ji->j", lam, z))
+    size = np.linalg.norm(lam, axis=1) * np.linalg.norm(z, axis=1)
+    if (product > NEGLIGIBLE * max(float(size.max(initial=0.0)), 1e-300)).any():
+        return f"lam of block {int(product.argmax())} is not complementary to F x + f"
+    return None
+
+
+def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
+    """Whether the wrenches of a step belong to its own multipliers."""
+    pairs = {pair["name"]: pair for pair in case["pairs"]}
+    lam, at = np.array(answer["lam"], dtype=np.float64), 0
+    table = cone(case["cone"])
+    for j, contact in enumerate(record["output"]["contacts"]):
+        pair = pairs[contact["pair"]]
+        count = len(table.row_names) if pair["rows"] == 6 else table.short
+        part = lam[at : at + count] / case["h"]
+        at += count
+        if case["cone"] == ELLIPSOID:
+            wrench = part[[1, 2, 0, 3]]
+        else:
+            mu_omega = pair["mu_omega"] if pair["rows"] == 6 else 0.0
+            f_d1, f_d2, tau_n = part @ table.table[:count] * [pair["mu_v"], pair["mu_v"], mu_omega]
+            wrench = np.array([f_d1, f_d2, part.sum(), tau_n])
+        off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
+        room = tolerance_of(record["tolerance"], "wrench")
+        if off > room + 16 * EPS * float(np.abs(part).sum()):
+            return f"wrench[{j}] is not what its lam makes: it is off by {off:.2g}"
+    return None
+
+
+def farkas_verdict(case: Json, record: Json, y: Json) -> Verdict:
+    """Whether y proves that A x >= b has no solution.
+
+    Fractions ``"p/q"`` are checked without rounding; float64 numbers too, and if they fail only by
+    A'y = 0, by how small that is beside |A|'y.
+    """
+    m = len(case["b"])
+    if not isinstance(y, list) or len(y) != m:
+        return failure("farkas", f"farkas must be a list of {m}")
+    try:
+        exact = [_fraction(value, i) for i, value in enumerate(y)]
+    except ValueError as problem:
+        return failure("farkas", str(problem))
+    if any(value < 0 for value in exact):
+        return failure("farkas", "farkas has a negative entry")
+    support = [i for i, value in enumerate(exact) if value]
+    if not sum((exact[i] * Fraction(case["b"][i]) for i in support), Fraction(0)) > 0:
+        return failure("farkas", "b'y is not positive")
+    for v in range(len(case["g"])):
+        terms = [exact[i] * Fraction(case["A"][i][v]) for i in support]
+        off, size = abs(sum(terms, Fraction(0))), sum(map(abs, terms), Fraction(0))
+        proof = isinstance(y[0], str)
+        if off > (0 if proof else tolerance_of(record["tolerance"], "farkas") * size):
+            return failure("farkas", f"A'y is not zero: entry {v} is {float(off):.2g}")
+    if abs(max(exact) - 1) > tolerance_of(record["tolerance"], "farkas"):
+        return failure("farkas", f"the largest entry must be 1, not {float(max(exact))!r}")
+    expected = record["output"]["farkas"]
+    same = all(float(value) == wanted for value, wanted in zip(exact, expected, strict=True))
+    return Verdict("", PASSED) if same else acceptable("another Farkas vector")
+
+
+def _fraction(value: Json, i: int) -> Fraction:
+    if isinstance(value, str):
+        p, _, q = value.partition("/")
+        if not (p.removeprefix("-").isdecimal() and (q or "1").isdecimal() and int(q or "1")):
+            raise ValueError(f"farkas[{i}] must be a fraction 'p/q', not {value[:40]!r}")
+        return Fraction(int(p), int(q or "1"))
+    if problem := number_problem(value, f"farkas[{i}]"):
+        raise ValueError(problem)
+    return Fraction(value)

@@ -1,0 +1,143 @@
+"""Contacts of a step that are not the expected ones, but as good, and the step that they make.
+
+Which of several points at the same distance are kept, where the closest points of parallel faces
+lie, and along which axis d1 points where two of them are as far from n, is decided by rounding
+in float64. Such contacts are checked by what they have to be; J, A, b and the answer are then
+computed from them without rounding.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.lab.vectors.check.compare import tolerance_of
+from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
+from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers.step import shape_pose
+from quasistatic_ref.step.cones import cone
+
+Array = NDArray[np.float64]
+
+TIED: Final = 1e-9
+"""Components of n that are that near to each other are the same to one who computes n."""
+
+
+def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
+    """What is wrong with the contacts of a step; None if they are as good as the expected ones.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step``.
+    record : dict
+        What is expected.
+    contacts : list of dict
+        As many as are expected, of the same pairs in the same order.
+    """
+    wanted = record["output"]["contacts"]
+    room = max(
+        tolerance_of(record["tolerance"], f"contacts.{name}")
+        for name in ("phi", "alpha", "beta", "n")
+    )
+    if [c["pair"] for c in contacts] != [c["pair"] for c in wanted]:
+        return "they are of other pairs"
+    tree = mechanism(case["mechanism"])
+    for pair in case["pairs"]:
+        own = [c for c in contacts if c["pair"] == pair["name"]]
+        due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
+        if len({c["index"] for c in own}) < len(own):
+            return f"{pair['name']} names a candidate twice"
+        if any(abs(c["phi"] - phi) > 2 * room for c, phi in zip(_by_phi(own), due, strict=True)):
+            return f"the distances of {pair['name']} are others"
+        sides: dict[str, Json] = {}
+        for side in ("alpha", "beta"):
+            entry = case["shapes"][pair[side]]
+            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
+        candidates = _candidates(sides, pair["k"])
+        for contact in own:
+            if not 0 <= contact["index"] < len(candidates):
+                return f"{pair['name']} has no candidate {contact['index']}"
+            if problem := _contact_problem(candidates[contact["index"]], contact, room):
+                return f"{pair['name']}/{contact['index']}: {problem}"
+    return None
+
+
+def _by_phi(contacts: Json) -> list[Json]:
+    return sorted(contacts, key=lambda contact: float(contact["phi"]))
+
+
+def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
+    alpha, beta, n, d1, d2 = (
+        np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
+    )
+    if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * room):
+        return problem
+    axis = int(np.abs(n).argmin())
+    near = np.flatnonzero(np.abs(n) <= abs(n[axis]) + TIED)
+    if not any(np.abs(d1 - _projected(int(i), n)).max() <= 4 * room for i in near):
+        return "d1 is not the projection of the axis farthest from n"
+    return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * room else "d2 is not n x d1"
+
+
+def _projected(axis: int, n: Array) -> Array:
+    d = np.eye(3)[axis] - n[axis] * n
+    return np.asarray(d / np.linalg.norm(d))
+
+
+def _candidates(sides: Json, k: int) -> list[Json]:
+    """Every candidate as a case of two solids: a cloud's points; corners, then the closest pair."""
+    if k == 1 or "cloud" in (sides["alpha"]["kind"], sides["beta"]["kind"]):
+        return solid_cases(sides)
+    signs = 2.0 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
+    found = []
+    for side in ("alpha", "beta"):
+        if sides[side]["kind"] == "box":
+            points = (signs * np.array(sides[side]["size"]) / 2).tolist()
+            found += solid_cases({**sides, side: {"kind": "cloud", "points": points}})
+    return [*found, sides]
+
+
+def record_from(case: Json, record: Json, contacts: Json) -> Json:
+    """What is expected of a step with these contacts: H, g and all tolerances stay."""
+    pairs = {pair["name"]: pair for pair in case["pairs"]}
+    entries = []
+    for contact in contacts:
+        pair = pairs[contact["pair"]]
+        bodies = {f"{s}_body": case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
+        friction = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+        entries.append({**contact, **bodies, **friction})
+    tree = {"mechanism": case["mechanism"], "q": case["q"]}
+    J = layer("jacobian").expected({**tree, "contacts": entries}).output["J"]
+    entries = [{**entry, "J": block} for entry, block in zip(entries, J, strict=True)]
+    old = record["output"]
+    rows = layer("rows").expected({"cone": case["cone"], "contacts": entries}).output
+    solved = layer("qp").expected({"H": old["H"], "g": old["g"], **rows})
+    output = {
+        "contacts": [{key: entry[key] for key in contacts[0]} for entry in entries],
+        "H": old["H"],
+        "g": old["g"],
+        **rows,
+    }
+    if "farkas" in solved.output:
+        return {**record, "output": {**output, "farkas": solved.output["farkas"]}}
+    output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
+    lam, at = output["lam"], 0
+    for entry in entries:
+        count = _rows(case["cone"], entry["rows"])
+        entry["lam"] = lam[at : at + count]
+        at += count
+    loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
+    output["wrench"] = layer("wrench").expected(loads).output["wrench"]
+    after = layer("integrate").expected({**tree, "delta_q": output["delta_q"]})
+    output["q_next"] = after.output["q"]
+    unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
+    return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}
+
+
+def _rows(name: str, rows: int) -> int:
+    return len(cone(name).row_names) if rows == 6 else cone(name).short

@@ -1,0 +1,188 @@
+"""The outcome of a check: by layer, as a table for people and as JSON for programs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
+from quasistatic_ref.lab.vectors.expected import Json
+
+HEADER: Final = ("layer", PASSED, ACCEPTABLE, FAILED, MISSING, "worst digits", "first failure")
+
+
+@dataclass(frozen=True)
+class Named:
+    """A classic mistake that explains failures.
+
+    Parameters
+    ----------
+    name : str
+        E.g. ``unsigned phi``.
+    sentence : str
+        What was done, and what to do.
+    cases : int
+        How many failing cases it explains.
+    of : int
+        How many cases fail.
+    """
+
+    name: str
+    sentence: str
+    cases: int
+    of: int
+
+
+@dataclass(frozen=True)
+class LayerReport:
+    """What became of one layer.
+
+    Parameters
+    ----------
+    layer : str
+    implementation : str
+        As the answers name themselves.
+    present : bool
+        Whether there is a file of answers.
+    problem : str
+        What is wrong with the file itself; empty if nothing is.
+    verdicts : tuple of Verdict
+        Of every case, in the order of the inputs.
+    mistakes : tuple of Named
+        What explains the failures, the best explanation first.
+    must : bool
+        Whether a layer without a file is a failure.
+    """
+
+    layer: str
+    implementation: str
+    present: bool
+    problem: str
+    verdicts: tuple[Verdict, ...]
+    mistakes: tuple[Named, ...] = ()
+    must: bool = False
+
+    def required(self) -> LayerReport:
+        """The same of a layer that has to be answered."""
+        return replace(self, must=True)
+
+    def count(self, verdict: str) -> int:
+        """How many cases have a verdict."""
+        return sum(v.verdict == verdict for v in self.verdicts)
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing failed, and nothing is missing from a layer that is answered."""
+        if not self.present:
+            return not self.must
+        return not (self.problem or self.count(FAILED) or self.count(MISSING))
+
+    @property
+    def worst(self) -> Verdict | None:
+        """The case with the fewest correct digits."""
+        known = [v for v in self.verdicts if v.digits is not None]
+        return min(known, key=lambda v: v.digits or 0.0, default=None)
+
+    @property
+    def first(self) -> Verdict | None:
+        """The first case that fails, or else the first that is missing."""
+        for kind in (FAILED, MISSING):
+            for verdict in self.verdicts:
+                if verdict.verdict == kind:
+                    return verdict
+        return None
+
+    @property
+    def trouble(self) -> str:
+        """One sentence on what is wrong first; empty if nothing is."""
+        if not self.present:
+            return f"no {self.layer}.json"
+        if self.problem:
+            return self.problem
+        return f"{self.first.id}: {self.first.reason}" if self.first else ""
+
+    @property
+    def row(self) -> tuple[str, ...]:
+        """Its line of the table."""
+        counts = (str(self.count(v)) for v in (PASSED, ACCEPTABLE, FAILED, MISSING))
+        digits = f"{self.worst.digits:.1f}" if self.worst else "-"
+        first = self.first.id if self.present and self.first else "-"
+        return (self.layer, *counts, digits, first)
+
+    @property
+    def record(self) -> dict[str, Json]:
+        """As it stands in a JSON report."""
+        return {
+            "layer": self.layer,
+            "implementation": self.implementation,
+            "answered": self.present,
+            "problem": self.problem or None,
+            "ok": self.ok,
+            **{verdict: self.count(verdict) for verdict in (PASSED, ACCEPTABLE, FAILED, MISSING)},
+            "worst_digits": self.worst.digits if self.worst else None,
+            "worst_case": self.worst.id if self.worst else None,
+            "first_failure": self.first.record if self.present and self.first else None,
+            "mistakes": [
+                {"name": m.name, "sentence": m.sentence, "cases": m.cases, "of": m.of}
+                for m in self.mistakes
+            ],
+            "cases": [v.record for v in self.verdicts] if self.present else [],
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """What became of a folder of answers.
+
+    Parameters
+    ----------
+    answers : str
+        The folder.
+    layers : tuple of LayerReport
+    """
+
+    answers: str
+    layers: tuple[LayerReport, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every layer is."""
+        return all(layer.ok for layer in self.layers)
+
+    @property
+    def status(self) -> int:
+        """Exit status of the command: 0, or 1 if anything failed."""
+        return 0 if self.ok else 1
+
+    @property
+    def rows(self) -> list[tuple[str, ...]]:
+        """The table, its header first."""
+        return [HEADER, *(layer.row for layer in self.layers)]
+
+    @property
+    def sentences(self) -> list[str]:
+        """What the table does not say: why a layer fails, which mistake it is, what is missing."""
+        said = []
+        for layer in self.layers:
+            if layer.trouble and not layer.ok:
+                said.append(f"{layer.layer}: {layer.trouble}")
+            for m in layer.mistakes:
+                said.append(
+                    f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
+                    f"{m.sentence}"
+                )
+        unanswered = [layer.layer for layer in self.layers if not layer.present]
+        if unanswered:
+            said.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
+        return said
+
+    @property
+    def record(self) -> dict[str, Json]:
+        """The JSON report."""
+        return {
+            "format": "quasistatic-ref/vectors-report",
+            "version": 1,
+            "answers": self.answers,
+            "ok": self.ok,
+            "layers": [layer.record for layer in self.layers],
+        }

@@ -1,0 +1,117 @@
+"""What the checker says of one answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.vectors.expected import Json
+
+PASSED: Final = "passed"
+ACCEPTABLE: Final = "acceptable"
+FAILED: Final = "failed"
+MISSING: Final = "missing"
+DIGITS: Final = 16.0
+"""More correct digits than that float64 does not hold."""
+CANCELLED: Final = 1e3
+"""Largest size of a field, in units of its tolerance, at which it is a difference of equals."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The worst number of one field.
+
+    Parameters
+    ----------
+    field : str
+        E.g. ``lam``, or ``contacts.phi``.
+    place : str
+        Which of its numbers, e.g. ``[3][0]``.
+    error : float
+        Distance from what is expected [the field's unit].
+    tolerance : float
+        How large it may be.
+    digits : float
+        Correct digits: -log10 of the error over the largest number of the field.
+    """
+
+    field: str
+    place: str
+    error: float
+    tolerance: float
+    digits: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the error is within the tolerance."""
+        return self.error <= self.tolerance
+
+    @property
+    def sentence(self) -> str:
+        """What differs, and by how much."""
+        return (
+            f"{self.field}{self.place} is off by {self.error:.2g} "
+            f"(tolerance {self.tolerance:.2g}, {self.digits:.1f} digits)"
+        )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What becomes of one case.
+
+    Parameters
+    ----------
+    id : str
+    verdict : str
+        One of PASSED, ACCEPTABLE, FAILED, MISSING.
+    reason : str
+        Why it is not simply passed; empty otherwise.
+    field : str
+        The first field that fails.
+    digits : float or None
+        Fewest correct digits of a field that was compared number by number.
+    """
+
+    id: str
+    verdict: str
+    reason: str = ""
+    field: str = ""
+    digits: float | None = None
+
+    @property
+    def record(self) -> dict[str, Json]:
+        """As it stands in a JSON report."""
+        return {
+            "id": self.id,
+            "verdict": self.verdict,
+            "reason": self.reason,
+            "field": self.field,
+            "digits": None if self.digits is None else round(self.digits, 2),
+        }
+
+    def named(self, id: str) -> Verdict:
+        """The same about a case of that id."""
+        return replace(self, id=id)
+
+
+def failure(field: str, reason: str, digits: float | None = None) -> Verdict:
+    """A verdict that something is wrong, still without the id of its case."""
+    return Verdict("", FAILED, reason, field, digits)
+
+
+def acceptable(reason: str, digits: float | None = None) -> Verdict:
+    """A verdict that the answer is another right one."""
+    return Verdict("", ACCEPTABLE, reason, "", digits)
+
+
+def correct_digits(error: float, size: float, tolerance: float) -> float:
+    """-log10 [-] of an error relative to the size of its field, 0 to 16.
+
+    A field that is zero but for rounding, such as phi of bodies that just touch, has no digits of
+    its own: it counts as right to the last where it is within the tolerance.
+    """
+    if error == 0 or (error <= tolerance and size <= CANCELLED * tolerance):
+        return DIGITS
+    return float(np.clip(-np.log10(error / size), 0.0, DIGITS)) + 0.0 if size > 0 else 0.0

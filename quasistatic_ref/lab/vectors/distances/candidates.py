@@ -1,0 +1,154 @@
+"""Candidate contacts of a pair of shapes in the world, and those that are kept.
+
+Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
+and the closest pair, in that order; where one contact is asked for, the closest pair alone. The k
+of least signed distance are kept, those that repeat an earlier one after all others, and so the
+closest pair where k corners are as near. Everything is decided on distances, points and normals
+that are rounded to float64.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
+from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.tolerances import REPEATED
+
+FIELDS: Final = ("phi", "alpha", "beta", "n")
+TIED: Final = 1e-12
+"""Difference of distances [m] below which it is rounding that decides what is kept."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The contacts of one pair.
+
+    Parameters
+    ----------
+    contacts : list of dict
+        ``index``, ``phi``, ``alpha``, ``beta``, ``n``, in the order of their index.
+    clear : bool
+        Whether which ones they are does not hang on rounding.
+    unique : bool
+        Whether points and normals of all of them have no alternative.
+    tolerance : dict of str to float
+        Of each field.
+    """
+
+    contacts: list[Json]
+    clear: bool
+    unique: bool
+    tolerance: dict[str, float]
+
+
+def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -> Chosen:
+    """The contacts of a pair.
+
+    Parameters
+    ----------
+    alpha, beta : dict
+        Shapes.
+    pose_alpha, pose_beta : dict
+        In the world.
+    k : int
+
+    Raises
+    ------
+    InputError
+        If k > 1 is asked of a solid whose corners depend on where the other is.
+    """
+    case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
+    if "cloud" in (alpha["kind"], beta["kind"]):
+        return _kept(_candidates(case), k)
+    corners = [] if k == 1 else [_corners(alpha), _corners(beta)]
+    parts = [
+        {**case, side: {"kind": "cloud", "points": points}}
+        for side, points in zip(("alpha", "beta"), corners, strict=False)
+        if points
+    ]
+    return _kept([one for part in (*parts, case) for one in _candidates(part)], k, solids=True)
+
+
+def _corners(shape: Json) -> Json:
+    match shape["kind"]:
+        case "box":  # the sign of x changes first
+            half = [size / 2 for size in shape["size"]]
+            signs = [(x, y, z) for z, y, x in product((-1, 1), repeat=3)]
+            return [[s * h for s, h in zip(sign, half, strict=True)] for sign in signs]
+        case "sphere" | "halfspace" | "ellipsoid":
+            return []
+        case kind:
+            problem = "has corners that no layer gives; use k = 1"
+            raise InputError(problem, field="shape.kind", value=kind)
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """One contact, and the case of the layer `distance` that has it for its only answer."""
+
+    numbers: dict[str, Json]
+    unique: bool
+    case: Json
+
+
+def _candidates(case: Json) -> list[_Candidate]:
+    found, _ = rounded(
+        lambda: [
+            {**one.table(), "unique": one.unique}
+            for one in witnesses(
+                placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
+            )
+        ]
+    )
+    for side in ("alpha", "beta"):
+        if case[side]["kind"] == "cloud":
+            alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
+            return [
+                _Candidate(numbers, numbers.pop("unique"), {**case, side: shape})
+                for numbers, shape in zip(found, alone, strict=True)
+            ]
+    return [_Candidate(found[0], found[0].pop("unique"), case)]
+
+
+def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
+    phi = [one.numbers["phi"] for one in candidates]
+    late = [solids and _repeats(candidates, i) for i in range(len(candidates))]
+    level = [x <= phi[-1] + REPEATED and not again for x, again in zip(phi, late, strict=True)]
+    spare = solids and sum(level[:-1]) >= k
+    late[-1] = late[-1] or spare
+    order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
+    kept, rest = sorted(order[:k]), order[k:]
+    last = order[len(kept) - 1]
+    clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
+    if solids and len(candidates) > k and not candidates[-1].unique:
+        # The closest pair may then be any point of an edge or a face, and no corner again.
+        clear = clear and spare
+    answers = [layer("distance").expected(candidates[i].case) for i in kept]
+    return Chosen(
+        contacts=[{"index": i, **candidates[i].numbers} for i in kept],
+        clear=clear,
+        unique=all(answer.flags["unique"] for answer in answers),
+        tolerance={
+            name: max(answer.tolerance[name].absolute for answer in answers) for name in FIELDS
+        },
+    )
+
+
+def _repeats(candidates: Sequence[_Candidate], i: int) -> bool:
+    """Whether a candidate is an earlier one again."""
+
+    def same(one: dict[str, Json], other: dict[str, Json]) -> bool:
+        pairs = [(one["phi"], other["phi"])]
+        for name in ("alpha", "n"):
+            pairs += zip(one[name], other[name], strict=True)
+        return all(abs(a - b) <= REPEATED for a, b in pairs)
+
+    return any(same(candidates[i].numbers, candidates[j].numbers) for j in range(i))

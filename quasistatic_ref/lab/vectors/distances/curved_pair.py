@@ -1,0 +1,114 @@
+"""Closest points of a polytope and a cylinder, cone or ellipsoid that are apart.
+
+Two points of two convex solids are closest if and only if the line between them is a normal of
+both. So each feature of the polytope has one candidate, the curved solid's closed forms tell its
+other end, and the candidate that is a normal of the polytope is the answer: a proof, not a search.
+A vertex has its own closest point; a face the farthest point of the curved solid towards it; on an
+edge the distance is convex, and its minimum is enclosed by bisection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from flint import fmpq
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.flats import flat_of, shares_a_way
+from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
+from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
+from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
+from quasistatic_ref.lab.vectors.distances.stationary import minimum, rational_near
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.algebra import (
+    Vector,
+    along,
+    cross,
+    dot,
+    scaled,
+    squared,
+    subtract,
+)
+from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+
+
+def polytope_and_curved(flat: Core, curved: Placed) -> Witness:
+    """Closest points of a polytope with a margin, which is alpha's, and a curved solid.
+
+    Raises
+    ------
+    InputError
+        If the polytope without its margin meets the curved solid.
+    """
+    for candidate in _candidates(flat, curved):
+        if sign(candidate.phi) > 0 and _is_normal(flat, candidate):
+            found = _with_uniqueness(flat, curved, candidate)
+            return found.inflated(flat.margin, fmpq(0))
+    raise InputError(
+        "the solids meet, where this pair has no closed form",
+        field="alpha, beta",
+        value=["polytope", curved.kind],
+    )
+
+
+def _candidates(flat: Core, curved: Placed) -> Iterator[Witness]:
+    for vertex in flat.vertices:
+        yield point_on_solid(curved, vertex).swapped()
+    for normal in flat.normals:
+        yield _on_face(flat, normal, curved)
+    for first, last in flat.sides:
+        start = flat.vertices[first]
+        way = subtract(flat.vertices[last], start)
+        at = minimum(partial(slope, curved, start, way), fmpq(0), fmpq(1))
+        if at is not None and outside(curved, along(start, way, rational_near(at))):
+            yield point_on_solid(curved, along(start, way, at)).swapped()
+
+
+def outside(solid: Placed, point: Vector) -> bool:
+    """Whether a rational point is outside: inside, the distance has kinks that no ball decides."""
+    return sign(point_on_solid(solid, point).phi) > 0
+
+
+def slope(curved: Placed, start: Vector, way: Vector, at: Real) -> Real:
+    """Derivative along a line of the distance to a solid: it increases, as that is convex."""
+    return dot(point_on_solid(curved, along(start, way, at)).n, way)
+
+
+def _on_face(flat: Core, normal: Vector, curved: Placed) -> Witness:
+    """From the plane of a face to the farthest point of the curved solid towards it."""
+    support, _ = SUPPORTS[curved.kind](curved.sizes, curved.local_direction(scaled(normal, -1)))
+    beta = curved.world(support)
+    length = root(squared(normal))
+    n = [x / length for x in normal]
+    phi = (dot(normal, beta) - max(dot(normal, x) for x in flat.vertices)) / length
+    return Witness(phi, along(beta, n, -phi), beta, n, True)
+
+
+def _is_normal(flat: Core, found: Witness) -> bool:
+    """Whether alpha is a point of the polytope, and n a normal of it there."""
+    reach = dot(found.n, found.alpha)
+    if any(sign(dot(found.n, x) - reach) > 0 for x in flat.vertices):
+        return False
+    for normal in flat.normals:
+        face = max(dot(normal, x) for x in flat.vertices)
+        if sign(dot(normal, found.alpha) - face) > 0:
+            return False
+    return True
+
+
+def _with_uniqueness(flat: Core, curved: Placed, found: Witness) -> Witness:
+    """Not unique are the points where flat parts of both solids lie in each other."""
+    reach = dot(found.n, found.alpha)
+    highest = [x for x in flat.vertices if sign(dot(found.n, x) - reach) == 0]
+    ways = _independent([subtract(x, highest[0]) for x in highest[1:]])
+    unique = not shares_a_way(ways, flat_of(curved, scaled(found.n, -1)))
+    return Witness(found.phi, found.alpha, found.beta, found.n, unique)
+
+
+def _independent(ways: Sequence[Vector]) -> list[Vector]:
+    """At most two directions that span the same as those given."""
+    if not ways:
+        return []
+    others = [way for way in ways[1:] if any(cross(ways[0], way))]
+    return [ways[0], *others[:1]]

@@ -1,0 +1,71 @@
+"""What two convex sets in one plane have in common: points, segments and polygons, in rationals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, cross, dot, subtract
+
+Edge = tuple[Vector, Vector]
+
+
+def common_points(a: Sequence[Vector], b: Sequence[Vector], normal: Vector) -> list[Vector]:
+    """Extreme points of the intersection of two convex hulls in a plane, each once.
+
+    Parameters
+    ----------
+    a, b : sequence of vector
+        Points of one plane; their hulls meet.
+    normal : vector
+        Of that plane.
+
+    Returns
+    -------
+    list of vector
+        Of a in b's hull, then of b in a's, then where edges cross; the order of what is given.
+    """
+    edges_a, edges_b = list(_edges(a, normal)), list(_edges(b, normal))
+    found: list[Vector] = []
+    for points, others, edges in ((a, b, edges_b), (b, a, edges_a)):
+        found += [x for x in points if _inside(x, others, edges, normal)]
+    for one in edges_a:
+        for other in edges_b:
+            found += _crossing(one, other, normal)
+    return [x for k, x in enumerate(found) if x not in found[:k]]
+
+
+def _edges(points: Sequence[Vector], normal: Vector) -> Iterator[Edge]:
+    """Pairs of points with all others on their left, or between them."""
+    for k, p in enumerate(points):
+        for j, q in enumerate(points):
+            if j == k or p == q:
+                continue
+            inward = cross(normal, subtract(q, p))
+            if all(dot(inward, subtract(x, p)) >= 0 for x in points):
+                yield p, q
+
+
+def _inside(x: Vector, points: Sequence[Vector], edges: Sequence[Edge], normal: Vector) -> bool:
+    if len(points) == 1:
+        return x == points[0]
+    # A segment is two edges, there and back: between both lies its line alone.
+    left = all(dot(cross(normal, subtract(q, p)), subtract(x, p)) >= 0 for p, q in edges)
+    if not left:
+        return False
+    flat = all(
+        dot(cross(normal, subtract(q, p)), subtract(y, p)) == 0 for p, q in edges for y in points
+    )
+    return not flat or any(dot(subtract(p, x), subtract(q, x)) <= 0 for p, q in edges)
+
+
+def _crossing(one: Edge, other: Edge, normal: Vector) -> list[Vector]:
+    """Where two segments that are not parallel meet."""
+    (p, q), (r, s) = one, other
+    way, across = subtract(q, p), subtract(s, r)
+    turn = dot(normal, cross(way, across))
+    if turn == 0:
+        return []
+    apart = subtract(r, p)
+    at = dot(normal, cross(apart, across)) / turn
+    on_other = dot(normal, cross(apart, way)) / turn
+    return [along(p, way, at)] if 0 <= at <= 1 and 0 <= on_other <= 1 else []

@@ -1,0 +1,67 @@
+"""Closest points of a half-space and a bounded solid: its lowest point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from flint import fmpq
+
+from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
+from quasistatic_ref.lab.vectors.distances.shapes import Placed, core
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot, scaled, squared
+from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+
+
+def solid_on_plane(plane: Placed, solid: Placed) -> Witness:
+    """Closest points of a half-space, which is alpha's, and a solid."""
+    down = scaled(plane.normal, -1)
+    flat = core(solid)
+    if flat is not None:
+        heights = [dot(down, x) for x in flat.vertices]
+        lowest = heights.index(max(heights))
+        found = point_on_solid(plane, flat.vertices[lowest])
+        return _with(found, heights.count(max(heights)) == 1).inflated(fmpq(0), flat.margin)
+    point, unique = SUPPORTS[solid.kind](solid.sizes, solid.local_direction(down))
+    return _with(point_on_solid(plane, solid.world(point)), unique)
+
+
+def _with(found: Witness, unique: bool) -> Witness:
+    return Witness(found.phi, found.alpha, found.beta, found.n, unique)
+
+
+def cylinder_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+    """Farthest point of a cylinder; the middle of a cap or a side that is all as far."""
+    across, rim = _rim(sizes[0], d)
+    height = sign(d[2])
+    return [*rim, height * sizes[1]], across and height != 0
+
+
+def cone_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+    """Farthest point of a cone: the tip, or a point of the rim."""
+    across, rim = _rim(sizes[0], d)
+    tip, base = [fmpq(0), fmpq(0), sizes[1]], [*rim, -sizes[1]]
+    higher = sign(dot(d, tip) - dot(d, base))
+    return (tip, True) if higher > 0 else (base, across and higher < 0)
+
+
+def ellipsoid_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+    """Farthest point of an ellipsoid."""
+    stretched = [e * x for e, x in zip(sizes, d, strict=True)]
+    length = root(squared(stretched))
+    return [e * x / length for e, x in zip(sizes, stretched, strict=True)], True
+
+
+SUPPORTS: dict[str, Callable[[Sequence[Real], Vector], tuple[Vector, bool]]] = {
+    "cylinder": cylinder_support,
+    "cone": cone_support,
+    "ellipsoid": ellipsoid_support,
+}
+"""Farthest point along a direction, in the shape's own frame, and whether it is the only one."""
+
+
+def _rim(radius: Real, d: Vector) -> tuple[bool, Vector]:
+    length = root(squared(d[:2]))
+    if sign(length) == 0:
+        return False, [fmpq(0), fmpq(0)]
+    return True, [radius * x / length for x in d[:2]]

@@ -1,0 +1,132 @@
+"""Signed distance of a point to a box, cylinder, cone, ellipsoid or half-space, closed forms.
+
+Everything is in the shape's own frame. Where the normal is not unique (the middle of a box, the
+axis of a cylinder) one is taken, and the answer says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from flint import fmpq
+
+from quasistatic_ref.lab.vectors.distances.ellipsoid import distance_to_ellipsoid
+from quasistatic_ref.lab.vectors.distances.shapes import Placed
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot, squared
+from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+
+
+class Surface(NamedTuple):
+    """Signed distance [m], outward unit normal, and whether that is unique."""
+
+    phi: Real
+    normal: Vector
+    unique: bool
+
+
+def point_on_solid(solid: Placed, point: Vector) -> Witness:
+    """Closest point of a solid to a point of the world, which is beta."""
+    at = solid.local(point)
+    match solid.kind:
+        case "box":
+            found = _box(solid.sizes, at)
+        case "cylinder":
+            found = _cylinder(solid.sizes, at)
+        case "cone":
+            found = _cone(solid.sizes, at)
+        case "ellipsoid":
+            found = Surface(*distance_to_ellipsoid(solid.sizes, at))
+        case _:
+            normal = solid.sizes[:3]
+            length = root(squared(normal))
+            phi = (dot(normal, at) - solid.sizes[3]) / length
+            found = Surface(phi, [x / length for x in normal], True)
+    n = solid.world_direction(found.normal)
+    alpha = [x - found.phi * y for x, y in zip(point, n, strict=True)]
+    return Witness(found.phi, alpha, point, n, found.unique)
+
+
+def _box(half: Sequence[Real], at: Vector) -> Surface:
+    signs = [-1 if x < 0 else 1 for x in at]
+    excess = [abs(x) - h for x, h in zip(at, half, strict=True)]
+    beyond = [max(x, fmpq(0)) for x in excess]
+    if any(beyond):
+        outside = root(squared(beyond))
+        normal = [s * x / outside for s, x in zip(signs, beyond, strict=True)]
+        return Surface(outside, normal, True)
+    nearest = max(excess)
+    face = excess.index(nearest)
+    unique = excess.count(nearest) == 1 and bool(at[face])
+    return Surface(nearest, [fmpq(signs[k] if k == face else 0) for k in range(3)], unique)
+
+
+def _cylinder(sizes: Sequence[Real], at: Vector) -> Surface:
+    r, outward = _radial(at)
+    up = sign(at[2]) or 1
+    flat = _rectangle([r - sizes[0], abs(at[2]) - sizes[1]])
+    normal = [*(flat.normal[0] * x for x in outward), flat.normal[1] * up]
+    lost = (sign(r) == 0 and sign(flat.normal[0]) != 0) or (
+        sign(at[2]) == 0 and sign(flat.normal[1]) != 0
+    )
+    return Surface(flat.phi, normal, flat.unique and not lost)
+
+
+def _rectangle(excess: Sequence[Real]) -> Surface:
+    """In the half-plane (r, |z|), from how far beyond its two sides a point is."""
+    beyond = [x if sign(x) > 0 else fmpq(0) for x in excess]
+    if any(sign(x) for x in beyond):
+        outside = root(squared(beyond))
+        return Surface(outside, [x / outside for x in beyond], True)
+    side = sign(excess[0] - excess[1])
+    if side >= 0:
+        return Surface(excess[0], [fmpq(1), fmpq(0)], side > 0)
+    return Surface(excess[1], [fmpq(0), fmpq(1)], True)
+
+
+def _cone(sizes: Sequence[Real], at: Vector) -> Surface:
+    """In the half-plane (r, z) a cone is a triangle: rim, tip, and the axis, which is no side."""
+    radius, half = sizes
+    r, outward = _radial(at)
+    slant = root(radius * radius + 4 * half * half)
+    side = [2 * half / slant, radius / slant]
+    above_side = (r - radius) * side[0] + (at[2] + half) * side[1]
+    above_base = -half - at[2]
+    # From the rim along the side to the tip, and along the base to the axis.
+    up_side = (radius - r) * side[1] + (at[2] + half) * side[0]
+    flat = _triangle(
+        [r - radius, at[2] + half], [r, at[2] - half], side, slant, above_side, above_base, up_side
+    )
+    lost = sign(r) == 0 and sign(flat.normal[0]) != 0
+    normal = [*(flat.normal[0] * x for x in outward), flat.normal[1]]
+    return Surface(flat.phi, normal, flat.unique and not lost)
+
+
+def _triangle(
+    from_rim: Vector,
+    from_tip: Vector,
+    side: Vector,
+    slant: Real,
+    above_side: Real,
+    above_base: Real,
+    up_side: Real,
+) -> Surface:
+    if sign(above_side) <= 0 and sign(above_base) <= 0:
+        nearer = sign(above_side - above_base)
+        if nearer >= 0:
+            return Surface(above_side, side, nearer > 0)
+        return Surface(above_base, [fmpq(0), fmpq(-1)], True)
+    if sign(above_side) > 0 and sign(up_side) >= 0 and sign(up_side - slant) <= 0:
+        return Surface(above_side, side, True)
+    if sign(above_base) > 0 and sign(from_rim[0]) <= 0:
+        return Surface(above_base, [fmpq(0), fmpq(-1)], True)
+    away = from_tip if sign(up_side - slant) > 0 else from_rim
+    distance = root(squared(away))
+    return Surface(distance, [x / distance for x in away], True)
+
+
+def _radial(at: Vector) -> tuple[Real, Vector]:
+    """Distance from the axis, and the direction away from it: x where there is none."""
+    r = root(squared(at[:2]))
+    return r, [x / r for x in at[:2]] if sign(r) else [fmpq(1), fmpq(0)]

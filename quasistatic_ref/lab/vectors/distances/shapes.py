@@ -1,0 +1,224 @@
+"""Shapes of the vectors in exact numbers, where they stand in the world, and their polytopes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, product
+from typing import Any
+
+from flint import fmpq
+
+from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.lab.vectors.exact.algebra import (
+    Matrix,
+    Vector,
+    cross,
+    dot,
+    moved,
+    scaled,
+    subtract,
+    times,
+    transposed,
+)
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, sign
+from quasistatic_ref.lab.vectors.exact.rotation import rotation
+
+SHAPES = {
+    "sphere": ("radius",),
+    "box": ("size",),
+    "capsule": ("radius", "length"),
+    "cylinder": ("radius", "length"),
+    "cone": ("radius", "length"),
+    "ellipsoid": ("half_axes",),
+    "halfspace": ("normal", "offset"),
+    "convex": ("vertices",),
+    "cloud": ("points",),
+}
+"""Fields of each kind besides ``kind``: full lengths, along the local z axis."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A shape in the world, x_world = R x + t; all numbers are rational.
+
+    Parameters
+    ----------
+    kind : str
+    R, t : matrix and vector
+    sizes : list
+        ``radius`` and half the ``length``, the half axes, or half of each ``size`` [m]; of a
+        half-space its normal, of any length, and offset.
+    points : list of vector
+        Vertices of a convex body, or the points of a cloud, in the shape's own frame.
+    """
+
+    kind: str
+    R: Matrix
+    t: Vector
+    sizes: list[Real]
+    points: list[Vector]
+
+    def local(self, x: Vector) -> Vector:
+        """Coordinates of a point of the world in the shape's own frame."""
+        return times(transposed(self.R), subtract(x, self.t))
+
+    def local_direction(self, x: Vector) -> Vector:
+        """The same of a direction."""
+        return times(transposed(self.R), x)
+
+    def world(self, x: Vector) -> Vector:
+        """Coordinates in the world of a point of the shape's own frame."""
+        return moved(self.R, self.t, x)
+
+    def world_direction(self, x: Vector) -> Vector:
+        """The same of a direction."""
+        return times(self.R, x)
+
+    @property
+    def normal(self) -> Vector:
+        """Of a half-space, its normal in the world, of any length."""
+        return self.world_direction(self.sizes[:3])
+
+
+def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
+    """A shape as written in a case.
+
+    Raises
+    ------
+    InputError
+        If the kind is unknown, or its fields are not those of the kind.
+    """
+    kind = shape.get("kind")
+    if kind not in SHAPES:
+        problem = f"is not a kind of shape{suggestion(str(kind), SHAPES)}"
+        raise InputError(problem, field="shape.kind", value=kind)
+    if set(shape) != {"kind", *SHAPES[kind]}:
+        problem = f"a {kind} has the fields {', '.join(SHAPES[kind])}"
+        raise InputError(problem, field="shape", value=sorted(shape))
+    R, t = rotation(numbers(pose["quaternion"])), numbers(pose["xyz"])
+    sizes: list[Real] = []
+    points: list[Vector] = []
+    match kind:
+        case "sphere":
+            sizes = [number(shape["radius"])]
+        case "capsule" | "cylinder" | "cone":
+            sizes = [number(shape["radius"]), number(shape["length"]) / 2]
+        case "box":
+            sizes = [number(x) / 2 for x in shape["size"]]
+        case "ellipsoid":
+            sizes = numbers(shape["half_axes"])
+        case "halfspace":
+            sizes = [*numbers(shape["normal"]), number(shape["offset"])]
+        case _:
+            points = [numbers(x) for x in shape[SHAPES[kind][0]]]
+    return Placed(kind, R, t, sizes, points)
+
+
+@dataclass(frozen=True, eq=False)
+class Core:
+    """A point, a segment or a convex polytope, with a ball of some radius about every point.
+
+    Parameters
+    ----------
+    margin : number
+        That radius [m].
+    vertices : list of vector
+        In the world [m].
+    normals : list of vector
+        Outward normals of its faces, of any length; none of a point or a segment.
+    edges : list of vector
+        Directions of its edges, each once.
+    sides : list of (int, int)
+        The vertices at the ends of each edge.
+    """
+
+    margin: Real
+    vertices: list[Vector]
+    normals: list[Vector]
+    edges: list[Vector]
+    sides: list[tuple[int, int]]
+
+
+def core(solid: Placed) -> Core | None:
+    """The polytope that a shape is, but for its margin; None where it is none."""
+    zero, one = fmpq(0), fmpq(1)
+    margin, local = zero, _Hull((), (), (), ())
+    match solid.kind:
+        case "sphere":
+            margin, local = solid.sizes[0], _Hull(((zero, zero, zero),), (), (), ())
+        case "capsule":
+            margin, half = solid.sizes
+            ends = (zero, zero, -half), (zero, zero, half)
+            local = _Hull(ends, (), ((zero, zero, one),), ((0, 1),))
+        case "box":
+            corners = tuple(product(*((-half, half) for half in solid.sizes)))
+            axes = tuple(tuple(one if i == k else zero for i in range(3)) for k in range(3))
+            faces = (*axes, *(tuple(-x for x in axis) for axis in axes))
+            sides = tuple((k, k + step) for step in (4, 2, 1) for k in range(8) if not k & step)
+            local = _Hull(corners, faces, axes, sides)
+        case "convex":
+            local = _hull(tuple(tuple(point) for point in solid.points))
+        case _:
+            return None
+    return Core(
+        margin,
+        [solid.world(list(x)) for x in local.vertices],
+        [solid.world_direction(list(x)) for x in local.normals],
+        [solid.world_direction(list(x)) for x in local.edges],
+        list(local.sides),
+    )
+
+
+@dataclass(frozen=True)
+class _Hull:
+    vertices: tuple[tuple[Real, ...], ...]
+    normals: tuple[tuple[Real, ...], ...]
+    edges: tuple[tuple[Real, ...], ...]
+    sides: tuple[tuple[int, int], ...]
+
+
+@lru_cache(maxsize=64)
+def _hull(points: tuple[tuple[Real, ...], ...]) -> _Hull:
+    """Faces and edges of a convex hull, by trying the plane of every three points.
+
+    Raises
+    ------
+    InputError
+        If the points lie in one plane.
+    """
+    vertices = [list(point) for point in points]
+    faces: dict[tuple[Real, ...], frozenset[int]] = {}
+    for a, b, c in combinations(range(len(vertices)), 3):
+        if any({a, b, c} <= members for members in faces.values()):
+            continue
+        normal = cross(subtract(vertices[b], vertices[a]), subtract(vertices[c], vertices[a]))
+        if not any(normal):
+            continue
+        sides = [sign(dot(normal, subtract(x, vertices[a]))) for x in vertices]
+        if min(sides) < 0 < max(sides):
+            continue
+        if max(sides) == min(sides):
+            break
+        outward = scaled(normal, -1) if max(sides) > 0 else normal
+        members = frozenset(k for k, side in enumerate(sides) if not side)
+        faces[_direction(outward, signed=True)] = members
+    if not faces:
+        raise InputError("must not lie in one plane", field="vertices")
+    edges: dict[tuple[Real, ...], None] = {}
+    ends_of: list[tuple[int, int]] = []
+    for one, other in combinations(faces.values(), 2):
+        shared = sorted(one & other)
+        if len(shared) > 1:
+            # Of points on one line, the lexicographically least and largest are its ends.
+            ends = sorted(shared, key=lambda k: points[k])
+            way = subtract(vertices[ends[-1]], vertices[ends[0]])
+            edges[_direction(way, signed=False)] = None
+            ends_of.append((ends[0], ends[-1]))
+    return _Hull(points, tuple(faces), tuple(edges), tuple(ends_of))
+
+
+def _direction(x: Vector, signed: bool) -> tuple[Real, ...]:
+    """Multiple of a direction that is the same for each of its multiples."""
+    first = next(value for value in x if value)
+    return tuple(value / (abs(first) if signed else first) for value in x)

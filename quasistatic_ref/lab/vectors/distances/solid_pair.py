@@ -1,0 +1,66 @@
+"""Closest points of two solids in exact numbers, by the road that suits them."""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.curved_pair import polytope_and_curved
+from quasistatic_ref.lab.vectors.distances.cylinder_pair import cylinder_and_curved
+from quasistatic_ref.lab.vectors.distances.plane_distance import solid_on_plane
+from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
+from quasistatic_ref.lab.vectors.distances.polytope_pair import polytope_pair
+from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
+
+CLOSED_FORMS = ("box", "cylinder", "cone", "ellipsoid", "halfspace")
+"""Shapes whose distance to a point has one of its own; that to the others is a polytope's."""
+
+
+def witnesses(a: Placed, b: Placed) -> list[Witness]:
+    """Closest points of two shapes, one for each point of a cloud.
+
+    Raises
+    ------
+    InputError
+        If both are clouds or half-spaces, or there is no closed form and no enclosure.
+    """
+    if a.kind == b.kind and a.kind in ("cloud", "halfspace"):
+        raise InputError(f"two {a.kind}s have no distance", field="alpha, beta", value=a.kind)
+    if b.kind == "cloud":
+        return [_point(a, b.world(x)) for x in b.points]
+    if a.kind == "cloud":
+        return [_point(b, a.world(x)).swapped() for x in a.points]
+    return [_pair(a, b)]
+
+
+def _point(solid: Placed, point: Vector) -> Witness:
+    if solid.kind in CLOSED_FORMS:
+        return point_on_solid(solid, point)
+    flat = core(solid)
+    assert flat is not None
+    return polytope_pair(flat, Core(fmpq(0), [point], [], [], []))
+
+
+def _pair(a: Placed, b: Placed) -> Witness:
+    if b.kind == "sphere":
+        return _point(a, b.t).inflated(fmpq(0), b.sizes[0])
+    if a.kind == "sphere":
+        return _point(b, a.t).inflated(fmpq(0), a.sizes[0]).swapped()
+    if a.kind == "halfspace":
+        return solid_on_plane(a, b)
+    if b.kind == "halfspace":
+        return solid_on_plane(b, a).swapped()
+    flat_a, flat_b = core(a), core(b)
+    if flat_a is not None and flat_b is not None:
+        return polytope_pair(flat_a, flat_b)
+    if flat_a is not None:
+        return polytope_and_curved(flat_a, b)
+    if flat_b is not None:
+        return polytope_and_curved(flat_b, a).swapped()
+    if a.kind == "cylinder":
+        return cylinder_and_curved(a, b)
+    if b.kind == "cylinder":
+        return cylinder_and_curved(b, a).swapped()
+    raise InputError("this pair has no closed form", field="alpha, beta", value=[a.kind, b.kind])

@@ -1,0 +1,101 @@
+"""The optimum in second-order cones, enclosed in balls that are small enough for 30 digits."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import inf
+from typing import Final
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq
+
+from quasistatic_ref.certify.enclosure import BITS as PROVED
+from quasistatic_ref.certify.enclosure import checked_pair, enclosed_error
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rounding import decimal_string, nearest_in
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.exact.rational import DIGITS, tolerance
+from quasistatic_ref.lab.vectors.expected import Expected
+from quasistatic_ref.step.data import StepData
+
+GAP: Final = arb(2) ** -280
+"""Duality gap asked for: an error of 2^-140, 1e-42 of the unconstrained step."""
+BITS: Final = 1536
+LAM: Final = arb(2) ** -20
+"""Relative tolerance of the multipliers, which are one choice of many: that of the interior."""
+ROOT: Final = arb(2) ** -26
+"""||x - x*||_H^2 is at most twice the duality gap, and float64 leaves 2^-53 of that."""
+
+
+def enclosed(step: StepData) -> Expected:
+    """The optimum of a step in the ellipsoid, each entry rounded from a ball that holds it.
+
+    Raises
+    ------
+    InputError
+        If no displacement strictly inside of all cones is found: such a case is not harvested.
+    """
+    form = exact_form(step)
+    found = checked_pair(step, GAP, BITS)
+    if found is None:
+        raise InputError("has no displacement strictly inside of all cones", field="second_order")
+    with ctx.workprec(BITS):
+        H, A = arb_mat(form.H), arb_mat(form.A)
+        inverse = H.inv()
+        radius = [(2 * found.gap * inverse[v, v]).sqrt().upper() for v in range(form.n)]
+        x = arb_mat(form.n, 1, [found.x[v, 0] + arb(0, radius[v]) for v in range(form.n)])
+        balls = {
+            "delta_q": _in_units(x, form.x_unit),
+            "A_lam": _in_units(H * x - arb_mat(form.g), form.net_unit),
+            "slack": _in_units(A * x - arb_mat(form.b), form.slack_unit),
+        }
+        lam = [float(v * form.lam_unit) + 0.0 for v in found.lam]
+        output = {name: [_nearest(v) for v in values] for name, values in balls.items()}
+        # Of anything off by ||x - x*||_H = e: sqrt(M H^-1 M') e, entry by entry.
+        e = ROOT * found.free
+        reach = {
+            "delta_q": _largest([e * inverse[v, v].sqrt() * form.x_unit for v in range(form.n)]),
+            "A_lam": _largest([e * H[v, v].sqrt() * form.net_unit for v in range(form.n)]),
+            "slack": _largest(
+                [
+                    e * (A * inverse * A.transpose())[i, i].sqrt() * form.slack_unit
+                    for i in range(form.m)
+                ]
+            ),
+            "lam": _largest([arb(v) * LAM for v in lam]),
+        }
+    with ctx.workprec(PROVED):  # what `verify` proves, in the precision that it works in
+        again = checked_pair(step)
+        error = inf if again is None else enclosed_error(form, again, np.array(output["delta_q"]))
+    why = "a duality gap of 1e-16, which float64 leaves, is an error of 1e-8 in the H norm"
+    return Expected(
+        output={**output, "lam": lam, "certificate": {"kind": "enclosure", "error_bound": error}},
+        digits={name: [_digits(v) for v in balls[name]] for name in ("delta_q", "A_lam")},
+        flags={"infeasible": False, "unique_multipliers": False},
+        tolerance={name: tolerance(size, why) for name, size in reach.items()},
+    )
+
+
+def _in_units(column: arb_mat, unit: fmpq) -> list[arb]:
+    return [v * unit for v in column.entries()]
+
+
+def _nearest(ball: arb) -> float:
+    """The float64 nearest to all of a ball; of one that may be zero, zero."""
+    if ball.contains(0):
+        return 0.0
+    value = nearest_in(ball)
+    return float(ball) if value is None else value
+
+
+def _digits(ball: arb) -> str:
+    return decimal_string(Fraction(0) if ball.contains(0) else _fraction(ball.mid()), DIGITS)
+
+
+def _fraction(point: arb) -> Fraction:
+    m, e = point.man_exp()
+    return Fraction(int(m)) * Fraction(2) ** int(e)
+
+
+def _largest(balls: list[arb]) -> Fraction:
+    return max((abs(_fraction(ball.upper())) for ball in balls), default=Fraction(0))

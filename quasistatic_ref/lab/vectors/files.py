@@ -1,0 +1,205 @@
+"""The files of the vectors: JSON with sorted keys, one case a line, floats as they round-trip.
+
+A shape that several cases use, such as a cloud of 992 points, stands once in the file's table
+``shapes``; a case names it as ``{"kind": "shared", "name": ...}``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.files import json_read, plain, text_written
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers import LAYERS
+
+VERSION: Final = 1
+INPUTS, EXPECTED, ANSWERS = (
+    f"quasistatic-ref/vectors-{k}" for k in ("inputs", "expected", "answers")
+)
+SHARED: Final = "shared"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One input of a layer.
+
+    Parameters
+    ----------
+    id : str
+        ``LAYER/FAMILY/NAME``.
+    provenance : str
+        One sentence: where its numbers come from.
+    input : dict
+        What the layer is given.
+    """
+
+    id: str
+    provenance: str
+    input: Json
+
+    @property
+    def json(self) -> dict[str, Json]:
+        """The case as it stands in the file."""
+        return {"id": self.id, "provenance": self.provenance, "input": self.input}
+
+
+def lines(record: dict[str, Json], listed: Sequence[str] = ("cases", "answers")) -> str:
+    """A JSON object with sorted keys; of the fields in `listed`, one entry a line."""
+    parts = []
+    for name in sorted(record):
+        if name in listed and record[name]:
+            entries = ",\n".join(line(entry) for entry in record[name])
+            parts.append(f"{line(name)}: [\n{entries}\n]")
+        else:
+            parts.append(f"{line(name)}: {line(record[name])}")
+    return "{" + ",\n".join(parts) + "}\n"
+
+
+def line(value: Any) -> str:
+    """One value as one line of JSON, keys sorted, -0.0 written 0.0; NaN is refused."""
+    return json.dumps(plain(value), sort_keys=True, allow_nan=False, ensure_ascii=False)
+
+
+def inputs_text(layer: str, cases: Sequence[Case]) -> str:
+    """The file of a layer's inputs; shapes that are met twice are moved to its table."""
+    shapes = _shapes_met_twice([case.input for case in cases])
+    record: dict[str, Json] = {
+        "format": INPUTS,
+        "version": VERSION,
+        "layer": layer,
+        "cases": [{**case.json, "input": _named(case.input, shapes)} for case in cases],
+    }
+    if shapes:
+        record["shapes"] = {name: json.loads(text) for text, name in shapes.items()}
+    return lines(record)
+
+
+def inputs_read(folder: str | Path, layer: str) -> list[Case]:
+    """The inputs of a layer from a folder of vectors, shared shapes in their places.
+
+    Raises
+    ------
+    InputError
+        Naming the file and the field.
+    """
+    path = Path(folder) / "inputs" / f"{layer}.json"
+    try:
+        top = _opened(path, INPUTS, layer)
+        shapes = top.take("shapes", {})
+        cases = []
+        for i, entry in enumerate(top.sequence("cases")):
+            one = Fields(entry, f"cases[{i}]")
+            case = Case(one.text("id"), one.text("provenance"), _placed(one.take("input"), shapes))
+            one.close()
+            cases.append(case)
+        top.close()
+        _check_ids([case.id for case in cases])
+    except InputError as error:
+        raise error.in_file(path) from None
+    return cases
+
+
+def expected_text(layer: str, records: Sequence[dict[str, Json]]) -> str:
+    """The file of what a layer is expected to answer, from `Expected.json` and each case's id."""
+    return lines({"format": EXPECTED, "version": VERSION, "layer": layer, "cases": list(records)})
+
+
+def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
+    """What a layer is expected to answer, by the id of the case."""
+    path = Path(folder) / "expected" / f"{layer}.json"
+    try:
+        top = _opened(path, EXPECTED, layer)
+        records = top.sequence("cases")
+        top.close()
+        ids = [Fields(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
+        _check_ids(ids)
+    except InputError as error:
+        raise error.in_file(path) from None
+    return dict(zip(ids, records, strict=True))
+
+
+def answers_text(layer: str, implementation: str, outputs: dict[str, Json]) -> str:
+    """The file of an implementation's answers, in the conventions of the package."""
+    record = {"format": ANSWERS, "version": VERSION, "layer": layer}
+    record |= {"implementation": implementation, "tangent": "body", "quaternion": "xyzw"}
+    answers = [{"id": name, "output": output} for name, output in outputs.items()]
+    return lines({**record, "answers": answers})
+
+
+def answers_written(
+    folder: str | Path, layer: str, implementation: str, outputs: dict[str, Json]
+) -> Path:
+    """Write the answers of one layer to a folder of answers, whole or not at all."""
+    text = answers_text(layer, implementation, outputs)
+    return text_written(Path(folder) / f"{layer}.json", text)
+
+
+def check_layer(name: str) -> str:
+    """Return a layer's name; InputError if it is none."""
+    if name not in LAYERS:
+        raise InputError(f"is no layer{suggestion(name, LAYERS)}", field="layer", value=name)
+    return name
+
+
+def _opened(path: Path, wanted: str, layer: str) -> Fields:
+    top = Fields(json_read(path))
+    top.text("format", choices=(wanted,))
+    version = top.integer("version")
+    if version != VERSION:
+        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.text("layer", choices=(layer,))
+    return top
+
+
+def _check_ids(ids: Sequence[str]) -> None:
+    twice = next((name for name in ids if ids.count(name) > 1), None)
+    if twice is not None:
+        raise InputError("is the id of two cases", field="id", value=twice)
+
+
+def _shapes_met_twice(inputs: Sequence[Json]) -> dict[str, str]:
+    """Names of the large shapes that occur more than once, by their text."""
+    counts: dict[str, int] = {}
+    for value in inputs:
+        for shape in _large_shapes(value):
+            counts[line(shape)] = counts.get(line(shape), 0) + 1
+    often = [text for text, count in counts.items() if count > 1]
+    return {text: f"{json.loads(text)['kind']}_{i}" for i, text in enumerate(often)}
+
+
+def _large_shapes(value: Json) -> list[Json]:
+    if isinstance(value, dict):
+        if value.get("kind") in ("cloud", "convex"):
+            return [value]
+        return [shape for v in value.values() for shape in _large_shapes(v)]
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [shape for v in value for shape in _large_shapes(v)]
+    return []
+
+
+def _named(value: Json, names: dict[str, str]) -> Json:
+    """The same with every shape of `names` replaced by a reference to it."""
+    if isinstance(value, dict):
+        if value.get("kind") in ("cloud", "convex"):
+            name = names.get(line(value))
+            return value if name is None else {"kind": SHARED, "name": name}
+        return {key: _named(v, names) for key, v in value.items()}
+    return [_named(v, names) for v in value] if isinstance(value, list) else value
+
+
+def _placed(value: Json, shapes: Json) -> Json:
+    """The same with every reference replaced by its shape."""
+    if isinstance(value, dict):
+        if value.get("kind") == SHARED:
+            name = Fields(value).text("name")
+            if name not in shapes:
+                raise InputError("is no shape of this file", field="shapes", value=name)
+            return shapes[name]
+        return {key: _placed(v, shapes) for key, v in value.items()}
+    return [_placed(v, shapes) for v in value] if isinstance(value, list) else value

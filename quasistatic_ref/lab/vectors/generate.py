@@ -1,0 +1,97 @@
+"""The folder of vectors from its inputs: every output anew, identical bytes on any machine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import IO, Final
+
+from tqdm import tqdm
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import bytes_read, text_written, writable_folder, written_whole
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.files import Case, answers_written, expected_text, inputs_read
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.manifest import MANIFEST, manifest_text
+
+COPIED: Final = ("README.md", "LICENSE*", "inputs/*.json", "schemas/*.json")
+"""What is taken over as it is."""
+
+
+def expected_record(name: str, case: Case) -> dict[str, Json]:
+    """What a layer is expected to answer to a case, as it stands in the file."""
+    try:
+        return {"id": case.id, **layer(name).expected(case.input).json()}
+    except InputError as error:
+        error.field = f"{case.id}: {error.field}" if error.field else case.id
+        raise
+
+
+def generated(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
+    """Compute every output of the inputs in a folder, and write the whole folder.
+
+    Parameters
+    ----------
+    source : Path
+        A folder of vectors.
+    out : Path
+        May be the same.
+    progress : bool
+        Whether to show a progress bar on standard error, where that is a terminal.
+
+    Returns
+    -------
+    dict of str to int
+        Number of cases of each layer.
+    """
+    writable_folder(out)
+    files = {
+        path.relative_to(source).as_posix(): bytes_read(path)
+        for pattern in COPIED
+        for path in sorted(source.glob(pattern))
+    }
+    counts = {}
+    for name in LAYERS:
+        cases = inputs_read(source, name)
+        records = [expected_record(name, case) for case in _shown(cases, name, progress)]
+        files[f"expected/{name}.json"] = expected_text(name, records).encode()
+        counts[name] = len(cases)
+    for path, content in files.items():
+        _copied(out / path, content)
+    text_written(out / MANIFEST, manifest_text(files))
+    return counts
+
+
+def own_written(source: Path, out: Path, names: Sequence[str], progress: bool = True) -> list[Path]:
+    """Write the package's own float64 answers, as anybody else's: a folder of answers.
+
+    Parameters
+    ----------
+    source : Path
+        A folder of vectors.
+    out : Path
+    names : sequence of str
+        Layers.
+    progress : bool
+    """
+    from quasistatic_ref import __version__
+
+    writable_folder(out)
+    paths = []
+    for name in names:
+        cases = _shown(inputs_read(source, name), name, progress)
+        outputs = {case.id: layer(name).own(case.input) for case in cases}
+        paths.append(answers_written(out, name, f"quasistatic_ref {__version__}", outputs))
+    return paths
+
+
+def _copied(path: Path, content: bytes) -> None:
+    def write(file: IO[bytes]) -> None:
+        file.write(content)
+
+    written_whole(path, write)
+
+
+def _shown(cases: list[Case], name: str, progress: bool) -> tqdm[Case]:
+    return tqdm(cases, desc=name, unit="case", disable=None if progress else True, leave=False)

@@ -1,0 +1,175 @@
+"""Layer `distance`: shapes and poses -> phi, alpha, beta, n."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Final
+
+from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded
+from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+
+CURVED: Final = ("cylinder", "cone", "ellipsoid")
+SIMPLE: Final = ("sphere", "halfspace", "cloud")
+"""Whatever meets these has its normal from one closed form."""
+
+FIELDS: Final = ("phi", "alpha", "beta", "n")
+EPS: Final = 2.0**-52
+
+ROUNDINGS: Final = 16.0
+"""Units of rounding that are allowed whatever the condition: two products with rotations, a
+normal, and the sum of the coordinates with margins."""
+
+SHIFT: Final = 4.0
+"""Units of rounding by which lengths and poses are changed to see what becomes of the answer: a
+rotation made from a quaternion is off by that much."""
+
+CHANGES: Final = 16
+"""How many such changes are tried: of parallel faces, each leaves the nearest corner where it was
+with a chance of 9/16 (two tilts, each the sum of two signs), and all of them with 1e-4."""
+
+JUMP: Final = 1e-4
+"""A change of the points, relative to the size of the case, or of n, above which they have become
+others: corners of faces that are parallel but for rounding. A point of capsules that cross at
+1e-6 rad jumps too; an n that is the difference of points 1e-9 m apart moves by 1e-6."""
+
+
+def expected(case_input: Json) -> Expected:
+    """Closest points; of a cloud, lists over its points."""
+    output, digits, unique = answer(case_input)
+    cloud = "cloud" in (case_input["alpha"]["kind"], case_input["beta"]["kind"])
+    if not cloud:
+        output, digits = ({key: value[0] for key, value in t.items()} for t in (output, digits))
+    tolerance, settled = _tolerance(case_input)
+    return Expected(output, digits, {"unique": all(unique) and settled}, tolerance)
+
+
+def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list[bool]]:
+    """Output and digits, as lists over the points of a cloud or of one, and what is unique."""
+    found: list[Witness] = []
+
+    def fields() -> dict[str, Any]:
+        found[:] = _witnesses(case)
+        return {key: [getattr(one, key) for one in found] for key in FIELDS}
+
+    output, digits = rounded(fields)
+    return output, digits, [one.unique for one in found]
+
+
+def _witnesses(case: dict[str, Any]) -> list[Witness]:
+    return witnesses(
+        placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
+    )
+
+
+def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
+    """What a change of the input by its own rounding does to the answer, and twice as much.
+
+    A field that the change turns to another of several answers is compared by the checker's
+    rules for those, not by its value: such changes are left out. And whether there was none where
+    the answer itself is unique.
+    """
+    output, _, unique = answer(case)
+    shapes = case["alpha"], case["beta"]
+    size = max(
+        abs(x)
+        for x in [
+            *case["pose_alpha"]["xyz"],
+            *case["pose_beta"]["xyz"],
+            *_leaves(output["alpha"]),
+            *_leaves(output["beta"]),
+            *_lengths(case["alpha"]),
+            *_lengths(case["beta"]),
+        ]
+    )
+    moves, settled = dict.fromkeys(FIELDS, 0.0), True
+    for seed in range(CHANGES):
+        other, _, still = answer(_changed(case, _signs(seed), size))
+        for k in range(len(unique)):
+            change = {key: _distance(other[key][k], output[key][k]) for key in FIELDS}
+            same = all(change[key] <= JUMP * (1.0 if key == "n" else size) for key in FIELDS)
+            settled = settled and (same or not unique[k])
+            for key in FIELDS if same and unique[k] and still[k] else ("phi",):
+                moves[key] = max(moves[key], change[key])
+    # Where neither solid's own normal is at hand, n is (beta - alpha) / phi, of the axes if
+    # there is a capsule; its error carries over to a point of the capsule.
+    thickness = sum(shape["radius"] for shape in shapes if shape["kind"] == "capsule")
+    normal = 0.0
+    if not any(shape["kind"] in SIMPLE for shape in shapes) and any(
+        shape["kind"] in CURVED for shape in shapes
+    ):
+        normal = SHIFT * EPS * size / (output["phi"][0] + thickness)
+    tolerance = {}
+    for key in FIELDS:
+        scale = 1.0 if key == "n" else size
+        floor = ROUNDINGS * EPS * scale
+        what = "unit vectors" if key == "n" else f"lengths up to {size:.3g} m"
+        reason = f"{ROUNDINGS:g} units of rounding of {what}"
+        floor += normal * {"phi": 0.0, "n": 1.0}.get(key, thickness)
+        if normal and key != "phi":
+            reason += f", and the {normal:.2g} of an n that is a difference of near points"
+        if 2 * moves[key] > floor:
+            by = f"{moves[key]:.2g} by which poses off by {SHIFT:g} units move it"
+            reason += f", and twice the {by}"
+        tolerance[key] = Tolerance(floor + 2 * moves[key], reason)
+    return tolerance, settled
+
+
+def _changed(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[str, Any]:
+    """The case with every length and pose changed by some units of rounding, exactly."""
+    unit = number(SHIFT * EPS)
+
+    def moved(value: float, scale: float) -> Real:
+        return number(value) + next(signs) * unit * number(scale)
+
+    changed = dict(case)
+    for side in ("alpha", "beta"):
+        pose = case[f"pose_{side}"]
+        longest = max(abs(x) for x in pose["quaternion"])
+        changed[f"pose_{side}"] = {
+            "xyz": [moved(x, size) for x in pose["xyz"]],
+            "quaternion": [moved(x, longest) for x in pose["quaternion"]],
+        }
+        # Vertices and points stay: a hull's corners would become others, and a pose moves them.
+        changed[side] = {
+            key: value if key in ("kind", "vertices", "points") else _each(value, moved)
+            for key, value in case[side].items()
+        }
+    return changed
+
+
+def _signs(seed: int) -> Iterator[int]:
+    """Signs without a pattern, the same everywhere (D. Knuth's MMIX generator)."""
+    state = seed
+    while True:
+        state = (6364136223846793005 * state + 1442695040888963407) % (1 << 64)
+        yield 1 if state >> 63 else -1
+
+
+def _each(value: Any, moved: Any) -> Any:
+    return (
+        [moved(x, abs(x)) for x in value] if isinstance(value, list) else moved(value, abs(value))
+    )
+
+
+def _lengths(shape: dict[str, Any]) -> list[float]:
+    return [x for key, value in shape.items() if key != "kind" for x in _leaves(value)]
+
+
+def _distance(first: Any, second: Any) -> float:
+    """The largest difference of two numbers in the same place."""
+    pairs = zip(_leaves(first), _leaves(second), strict=True)
+    return max(abs(x - y) for x, y in pairs)
+
+
+def _leaves(value: Any) -> list[float]:
+    return [x for part in value for x in _leaves(part)] if isinstance(value, list) else [value]
+
+
+def own(case_input: Json) -> Json:
+    """The package's closest points."""
+    from quasistatic_ref.lab.vectors.own.shapes import own_closest_points
+
+    return own_closest_points(case_input)

@@ -1,0 +1,244 @@
+"""Layer 5: min 1/2 x'Hx - g'x subject to Ax >= b, its float64 numbers taken as they are.
+
+lam and the working set are those of the cold run of the dual active-set method that adds the first
+violated row. In second-order cones, (F x + f)_0 >= |(F x + f)_1:3| for each block, the optimum is
+not rational: it is enclosed in balls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.certify.active_set import Farkas, least_index
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import ExactForm, exact_form_of
+from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
+from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
+from quasistatic_ref.lab.vectors.exact.rational import Exact, digits, rounded, tolerance
+from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.solution import Certificate
+
+UNIQUE = 1e-6
+"""Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
+FARKAS = 1e-9
+"""Relative size of A'y at which y counts as a proof: solvers stop at 1e-8 to 1e-12."""
+
+
+def expected(case_input: Json) -> Expected:
+    """The exact optimum, correctly rounded; or a Farkas vector; or an enclosure."""
+    if "second_order" in case_input:
+        return enclosed(cone_step(case_input))
+    form = form_of(case_input)
+    optimum = exact_optimum(form, (), least_index)
+    if isinstance(optimum, Farkas):
+        return _infeasible(form, optimum)
+    x, _, net, _ = solution_of(form, optimum.working_set)
+    bound = bounds(form, optimum.working_set)
+    return Expected(
+        output={
+            "delta_q": optimum.delta_q.tolist(),
+            "lam": optimum.lam.tolist(),
+            "A_lam": optimum.net.tolist(),
+            "slack": optimum.slack.tolist(),
+            "certificate": _certificate(optimum),
+        },
+        digits=digits(delta_q=x, A_lam=net),
+        flags=flags_of(optimum, bound),
+        tolerance=tolerances(bound),
+    )
+
+
+def own(case_input: Json) -> Json:
+    """The package's answer, by :func:`quasistatic_ref.solve.solve.solve_step`."""
+    from quasistatic_ref.solve.solve import solve_step
+    from quasistatic_ref.step.standard_form import standard_form
+
+    conic = "second_order" in case_input
+    step = cone_step(case_input) if conic else step_of(case_input)
+    try:
+        solution = solve_step(step)
+    except StepInfeasible as failure:
+        return {"farkas": failure.farkas.y.tolist()}
+    x = solution.delta_q
+    if conic:
+        form, lam = standard_form(step), solution.lam
+        A, b = form.A, form.b  # of each block F x + f
+    else:
+        A, b, lam = step.extra.A, step.extra.b, solution.lam_extra
+    return {
+        "delta_q": x.tolist(),
+        "lam": lam.tolist(),
+        "A_lam": (A.T @ lam).tolist(),
+        "slack": (A @ x - b).tolist(),
+    }
+
+
+def form_of(case_input: Json) -> ExactForm:
+    """The program of a case in integers."""
+    H, g, b = (np.array(case_input[key], dtype=np.float64) for key in ("H", "g", "b"))
+    A = np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g))
+    return exact_form_of(H, g, A, b)
+
+
+def step_of(case_input: Json) -> StepData:
+    """The same program as a step: h = 1, all coordinates actuated, K_q = H, tau_a = g.
+
+    That is the form in which :func:`quasistatic_ref.certify.certificate.verify` re-verifies it.
+    """
+    g, b = np.array(case_input["g"]), np.array(case_input["b"], dtype=np.float64)
+    A = np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g))
+    rows = Extra(tuple(f"row {i}" for i in range(len(b))), A, b)
+    return _step(case_input, _contacts(np.zeros((0, 4, len(g))), np.zeros(0)), extra=rows)
+
+
+def cone_step(case_input: Json) -> StepData:
+    """The same for second-order cones, each a contact with mu_v = mu_omega = 1; or InputError."""
+    blocks = case_input["second_order"]
+    F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(case_input["g"]))
+    f = np.array([block["f"] for block in blocks]).reshape(len(blocks), 4)
+    if f[:, 1:].any():
+        problem = "only its first entry may differ from 0: phi of a contact"
+        raise InputError(problem, field="second_order.f", value=f.tolist())
+    contacts = _contacts(F[:, [1, 2, 0, 3]], f[:, 0])
+    return _step(case_input, contacts, cone="ellipsoid")
+
+
+def claimed(case_input: Json, output: Json) -> Certificate:
+    """The certificate of an output, as `verify` takes it."""
+    written = output["certificate"]
+    if "second_order" in case_input:
+        return Certificate(kind="enclosure", error_bound=written["error_bound"])
+    return Certificate(
+        kind=written["kind"],
+        active=tuple((0, i) for i in written["working_set"]),  # of the step's own rows
+        multipliers_unique=written["multipliers_unique"],
+        differentiable=written["differentiable"],
+        smallest_inactive_slack=written["smallest_inactive_slack"],
+        smallest_active_multiplier=written["smallest_active_multiplier"],
+        error_bound=written["error_bound"],
+    )
+
+
+def tolerances(bound: Bounds) -> dict[str, Tolerance]:
+    """Tolerances of the fields of an optimum."""
+    why = (
+        "rounding of the data and of the KKT system, times its componentwise condition; "
+        "at least 8 roundings of the unconstrained step, in the H norm"
+    )
+    return {
+        "delta_q": tolerance(bound.x, why),
+        "lam": tolerance(bound.lam, why),
+        "A_lam": tolerance(bound.net, "that of delta_q, times H"),
+        "slack": tolerance(bound.slack, "that of delta_q, times A"),
+    }
+
+
+def optimum_of(form: ExactForm) -> ExactOptimum:
+    """The optimum of a program that is known to have one."""
+    optimum = exact_optimum(form, (), least_index)
+    assert isinstance(optimum, ExactOptimum)
+    return optimum
+
+
+def solution_of(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact, Exact, Exact]:
+    """delta_q, lam on the working set, A'lam and slacks as fractions."""
+    found = rational_solution(form, tuple(working))
+    x, lam, net, slack = (
+        np.array([_fraction(unit * v / found.denominator) for v in values], dtype=object)
+        for unit, values in (
+            (form.x_unit, found.x),
+            (form.lam_unit, found.lam),
+            (form.net_unit, found.net),
+            (form.slack_unit, found.slack),
+        )
+    )
+    return x, lam, net, slack
+
+
+def _fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+def _certificate(optimum: ExactOptimum) -> Json:
+    return {
+        "kind": "exact",
+        "working_set": list(optimum.working_set),
+        "multipliers_unique": optimum.multipliers_unique,
+        "differentiable": optimum.differentiable,
+        "smallest_inactive_slack": optimum.smallest_inactive_slack,
+        "smallest_active_multiplier": optimum.smallest_active_multiplier,
+        "error_bound": 0.0,
+    }
+
+
+def flags_of(optimum: ExactOptimum, bound: Bounds) -> dict[str, bool]:
+    """What may be compared, and what is delicate about an optimum.
+
+    Ties between rows that float64 data split in the last place count as ties: a solver cannot see
+    the difference.
+    """
+    idle = np.delete(optimum.slack, list(optimum.working_set))
+    pressed = optimum.lam[list(optimum.working_set)]
+    weak = bool((pressed <= float(bound.lam)).any())
+    tied = bool((idle <= float(bound.slack)).any())
+    known = float(bound.lam) <= UNIQUE * float(pressed.max(initial=1.0))
+    return {
+        "infeasible": False,
+        "degenerate": tied or weak,
+        "unique_multipliers": optimum.multipliers_unique and known and not tied,
+        "differentiable": optimum.differentiable,
+    }
+
+
+def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
+    """A combination y >= 0 of the rows with A'y = 0 and b'y > 0, its largest entry being 1."""
+    largest_y = max(proof.y.values())
+    y = [proof.y.get(i, fmpq(0)) / largest_y for i in range(form.m)]
+    return Expected(
+        output={
+            "farkas": rounded(np.array([_fraction(v) for v in y], dtype=object)),
+            "certificate": {"kind": "exact", "farkas": [str(v) for v in y]},
+        },
+        flags={
+            "infeasible": True,
+            "degenerate": False,
+            "unique_multipliers": False,
+            "differentiable": False,
+        },
+        tolerance={
+            "farkas": Tolerance(
+                FARKAS, "any y >= 0 whose A'y is that small beside |A|'y and b'y proves the same"
+            )
+        },
+    )
+
+
+def _step(case_input: Json, contacts: Contacts, **more: Any) -> StepData:
+    g = np.array(case_input["g"], dtype=np.float64)
+    return StepData(
+        h=1.0,
+        K_q=np.array(case_input["H"]),
+        M_u=np.zeros((0, 0)),
+        tau_a=g,
+        tau_u=np.zeros(0),
+        delta_q_bar_a=np.zeros(len(g)),
+        contacts=contacts,
+        **more,
+    )
+
+
+def _contacts(J: Array, phi: Array) -> Contacts:
+    """Contacts whose frame is the world's, so that J's rows 0-2 are along d1, d2 and n."""
+    axes, ones = np.tile(np.eye(3), (len(phi), 1, 1)), np.ones(len(phi))
+    names = tuple(f"block {j}" for j in range(len(phi)))
+    d1, d2, n = axes[:, 0], axes[:, 1], axes[:, 2]
+    rows = np.full(len(phi), 6, dtype=np.int64)
+    return Contacts(names, phi, n, d1, d2, J, ones, ones, rows)

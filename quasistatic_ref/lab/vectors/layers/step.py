@@ -1,0 +1,269 @@
+"""Layer `step`: everything at once, composed layer by layer.
+
+Each layer's correctly rounded answer is the next one's input: poses of the shapes, closest points,
+those that are kept, tangents, J, rows, the quadratic program, wrenches, the next configuration.
+Contacts of a pair stand in the order of their index. Gravity acts on the un-actuated coordinates:
+that of the others is compensated.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Final
+
+from flint import fmpq
+
+from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
+from quasistatic_ref.lab.vectors.exact.algebra import (
+    Vector,
+    cross,
+    dot,
+    moved,
+    product,
+    subtract,
+    unit,
+)
+from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.lab.vectors.exact.difference import difference
+from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
+from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
+from quasistatic_ref.lab.vectors.exact.precision import Real, least, number, numbers, rounded
+from quasistatic_ref.lab.vectors.exact.rational import tolerance
+from quasistatic_ref.lab.vectors.exact.rotation import quaternion_of, rotation
+from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
+from quasistatic_ref.step.cones import cone
+
+EPS: Final = 2.0**-52
+ROUNDINGS: Final = 16
+"""Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
+
+
+def expected(case_input: Json) -> Expected:
+    """All that one step comes to, and q after it."""
+    tree, q = mechanism(case_input["mechanism"]), case_input["q"]
+    found = _chosen(tree, case_input)
+    contacts, friction = _contacts(case_input, found)
+    jacobian = layer("jacobian").expected(
+        {"mechanism": case_input["mechanism"], "q": q, "contacts": contacts}
+    )
+    for contact, J in zip(contacts, jacobian.output["J"], strict=True):
+        contact["J"] = J
+    both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
+    rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
+    H, g, g_size = _objective(tree, case_input)
+    program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
+    errors, distances = _errors(case_input, program, found, jacobian, rows, g_size)
+    solved = _solved(program, errors)
+    base = {**program, "contacts": [_shown(contact) for contact in contacts]}
+    base_tolerance = {
+        **{f"contacts.{name}": t for name, t in distances.items()},
+        "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
+                                "that of the layer jacobian, and of the points"),
+        "H": tolerance(errors.H, f"{ROUNDINGS} units of rounding of the largest entry"),
+        "g": tolerance(errors.g, f"{ROUNDINGS} units of rounding of the largest term"),
+        "A": tolerance(errors.A, "that of the layer rows, and of J and the normals"),
+        "b": tolerance(errors.b, "that of phi"),
+    }  # fmt: skip
+    ties = {"tie": not all(one.clear for one in found)}
+    ties["unique"] = all(one.unique for one in found)
+    if "farkas" in solved.output:
+        return Expected(
+            {**base, "farkas": solved.output["farkas"]},
+            flags={**solved.flags, **ties},
+            tolerance={**base_tolerance, **solved.tolerance},
+        )
+    wrenches = _wrenches(case_input, both, solved)
+    after = layer("integrate").expected(
+        {"mechanism": case_input["mechanism"], "q": q, "delta_q": solved.output["delta_q"]}
+    )
+    step = solved.tolerance["delta_q"].absolute
+    return Expected(
+        output={
+            **base,
+            **{name: solved.output[name] for name in ("delta_q", "lam", "A_lam")},
+            "wrench": wrenches.output["wrench"],
+            "q_next": after.output["q"],
+        },
+        digits=solved.digits,
+        flags={**solved.flags, **ties},
+        tolerance={
+            **base_tolerance,
+            **{name: solved.tolerance[name] for name in ("delta_q", "lam", "A_lam")},
+            "wrench": tolerance(
+                _wrench_bound(case_input, friction, solved, wrenches), "that of lam, over h"
+            ),
+            "q_next": tolerance(
+                _plus(after.tolerance["q"], 4 * step), "that of delta_q, and of the layer integrate"
+            ),
+        },
+    )
+
+
+def own(case_input: Json) -> Json:
+    """The package's answer, through its own System, pairs and simulator."""
+    from quasistatic_ref.lab.vectors.own.step import own_step
+
+    return own_step(case_input)
+
+
+def _chosen(tree: Mechanism, case: Json) -> list[Chosen]:
+    """The contacts of each pair."""
+    names = {pair[side] for pair in case["pairs"] for side in ("alpha", "beta")}
+    places = {name: shape_pose(tree, case["q"], case["shapes"][name]) for name in sorted(names)}
+    found = []
+    for pair in case["pairs"]:
+        alpha, beta = (case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta"))
+        found.append(chosen(alpha, beta, places[pair["alpha"]], places[pair["beta"]], pair["k"]))
+    return found
+
+
+def shape_pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
+    """Pose of a shape in the world, rounded; one that is fixed there as it is given."""
+    body = tree.number(entry["body"])
+    if body is None:
+        return entry["pose"]
+
+    def world() -> Any:
+        at = poses(tree, q)
+        inside, t = rotation(numbers(entry["pose"]["quaternion"])), numbers(entry["pose"]["xyz"])
+        R = product(at.R[body], inside)
+        return {"xyz": moved(at.R[body], at.t[body], t), "quaternion": quaternion_of(R)}
+
+    return rounded(world)[0]
+
+
+def _contacts(case: Json, found: list[Chosen]) -> tuple[list[Json], list[Json]]:
+    """Contacts of all pairs, with their tangents, and each one's coefficients of friction."""
+    contacts, friction = [], []
+    for pair, one in zip(case["pairs"], found, strict=True):
+        bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
+        for contact in one.contacts:
+            tangents = _tangents(contact["n"])
+            contacts.append({"pair": pair["name"], **bodies, **contact, **tangents})
+            friction.append({key: pair[key] for key in ("mu_v", "mu_omega", "rows")})
+    return contacts, friction
+
+
+def _tangents(normal: list[float]) -> dict[str, Json]:
+    """d1, the projection of the world axis farthest from n, and d2 = n x d1, each rounded."""
+
+    def d1() -> Vector:
+        n = numbers(normal)
+        axis = least([abs(x) for x in n])
+        along = [fmpq(int(i == axis)) for i in range(3)]
+        return unit(subtract(along, [n[axis] * x for x in n]))
+
+    first = rounded(d1)[0]
+    return {"d1": first, "d2": rounded(lambda: cross(numbers(normal), numbers(first)))[0]}
+
+
+def _objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
+    """H and g of Eq. (13), each entry rounded once, and the largest term of g."""
+    h, n_a = number(case["h"]), tree.n_a
+    K = [numbers(row) for row in case["K_q"]]
+
+    def formed() -> Any:
+        at = poses(tree, case["q"])
+        M, tau = mass_matrix_u(tree, at), _forces(tree, at, case)
+        change = difference(tree, case["q"], case["q_bar_a"], actuated=True)
+        H = [[fmpq(0)] * tree.n_v for _ in range(tree.n_v)]
+        for i in range(tree.n_v):
+            for j in range(tree.n_v):
+                if i < n_a and j < n_a:
+                    H[i][j] = h * K[i][j]  # Eq. (13)
+                elif i >= n_a and j >= n_a:
+                    H[i][j] = M[i - n_a][j - n_a] / h
+        g = [h * x for x in tau]
+        sizes = [abs(x) for x in g]
+        for i in range(n_a):
+            g[i] += h * dot(K[i], change)  # Eqs. (1), (13)
+            sizes[i] += h * dot([abs(x) for x in K[i]], [abs(x) for x in change])
+        return {"H": H, "g": g, "sizes": sizes}
+
+    out = rounded(formed)[0]
+    return out["H"], out["g"], max(out["sizes"], default=0.0)
+
+
+def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
+    """Generalised forces besides the stiffness: gravity where nothing is actuated, and wrenches."""
+    weight = gravity_force(tree, at, case["gravity"])
+    tau: Vector = [fmpq(0)] * tree.n_a + weight[tree.n_a :]
+    for wrench in case.get("wrenches", []):
+        k = tree.number(wrench["body"])
+        if k is None:
+            continue
+        force, torque = numbers(wrench["force"]), numbers(wrench["torque"])
+        centre = moved(at.R[k], at.t[k], numbers(tree.bodies[k].table["com"]))
+        for v, (nu, omega) in at.point_columns(k, centre).items():
+            tau[v] += dot(nu, force) + dot(omega, torque)
+    return tau
+
+
+def _errors(
+    case: Json, program: Json, found: list[Chosen], jacobian: Expected, rows: Expected, size: float
+) -> tuple[Errors, dict[str, Tolerance]]:
+    """What rounding in the layers before leaves in the program, and in the contacts."""
+    points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
+    pose, size_of = ROUNDINGS * EPS, {"n": 1.0}
+    worst = {
+        name: max([one.tolerance[name] for one in found], default=0.0)
+        + pose * size_of.get(name, max(points, default=0.0))
+        for name in FIELDS
+    }
+    distances = {name: tolerance(worst[name], "that of the layer distance, and of the poses")
+                 for name in FIELDS}  # fmt: skip
+    for name in ("d1", "d2"):
+        distances[name] = tolerance(4 * worst["n"], "that of n")
+    reach = max([abs(x) for J in jacobian.output["J"] for row in J for x in row], default=0.0)
+    mu = max([max(pair["mu_v"], pair["mu_omega"]) for pair in case["pairs"]], default=0.0)
+    moved_J = jacobian.tolerance["J"].absolute + 2 * max(worst["alpha"], worst["beta"])
+    A = (1 + 2 * mu) * (3 * moved_J + 12 * reach * worst["n"]) + rows.tolerance["A"].absolute
+    largest = max([abs(x) for row in program["H"] for x in row], default=0.0)
+    return Errors(
+        H=Fraction(ROUNDINGS * EPS * largest),
+        g=Fraction(ROUNDINGS * EPS * size),
+        A=Fraction(A if program["A"] else 0.0),
+        b=Fraction(worst["phi"] if program["A"] else 0.0),
+    ), distances
+
+
+def _solved(program: Json, errors: Errors) -> Expected:
+    """The answer of the layer `qp`, its tolerances those of a program that is formed in float64."""
+    solved = layer("qp").expected(program)
+    if solved.flags["infeasible"]:
+        return solved
+    form = form_of(program)
+    bound = bounds(form, solved.output["certificate"]["working_set"], errors)
+    return Expected(
+        solved.output, solved.digits, flags_of(optimum_of(form), bound), tolerances(bound)
+    )
+
+
+def _wrenches(case: Json, contacts: list[Json], solved: Expected) -> Expected:
+    lam, entries, at, table = solved.output["lam"], [], 0, cone(case["cone"])
+    for contact in contacts:
+        count = len(table.row_names) if contact["rows"] == 6 else table.short
+        entries.append({**contact, "lam": lam[at : at + count]})
+        at += count
+    return layer("wrench").expected(
+        {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
+    )
+
+
+def _wrench_bound(
+    case: Json, friction: list[Json], solved: Expected, wrenches: Expected
+) -> Fraction:
+    rows = len(solved.output["lam"]) // max(len(friction), 1) + 1
+    mu = max([1.0, *(max(one["mu_v"], one["mu_omega"]) for one in friction)])
+    own_error = Fraction(wrenches.tolerance["wrench"].absolute)
+    return own_error + Fraction(rows * mu * solved.tolerance["lam"].absolute) / Fraction(case["h"])
+
+
+def _shown(contact: Json) -> Json:
+    return {key: contact[key] for key in ("pair", "index", *FIELDS, "d1", "d2", "J")}
+
+
+def _plus(given: Tolerance, more: float) -> Real:
+    return Fraction(given.absolute) + Fraction(more)

@@ -1,0 +1,72 @@
+"""What a folder of vectors holds: each file's SHA-256, the number of cases, the release."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.fields import Fields
+from quasistatic_ref.files import bytes_read, json_read
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.files import VERSION, lines
+
+MANIFEST: Final = "manifest.json"
+FORMAT: Final = "quasistatic-ref/vectors-manifest"
+RELEASE: Final = 2
+"""Counted up whenever an input or an expected output changes."""
+
+
+def manifest_text(files: dict[str, bytes]) -> str:
+    """The manifest of a folder, given the content of its other files.
+
+    Parameters
+    ----------
+    files : dict of str to bytes
+        By path inside the folder, with forward slashes.
+    """
+    listed = [
+        {"path": path, "bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+        for path, content in sorted(files.items())
+    ]
+    cases = {
+        Path(path).stem: len(json.loads(content)["cases"])
+        for path, content in files.items()
+        if path.startswith("expected/")
+    }
+    record: dict[str, Json] = {
+        "format": FORMAT,
+        "version": VERSION,
+        "release": RELEASE,
+        "cases": cases,
+        "files": listed,
+    }
+    return lines(record, listed=("files",))
+
+
+def manifest_complaints(folder: str | Path) -> list[str]:
+    """What of a folder is not as its manifest says, one sentence each.
+
+    Raises
+    ------
+    InputError
+        If there is no manifest, or it is none.
+    """
+    folder = Path(folder)
+    path = folder / MANIFEST
+    try:
+        top = Fields(json_read(path))
+        top.text("format", choices=(FORMAT,))
+        entries = [Fields(entry, f"files[{i}]") for i, entry in enumerate(top.sequence("files"))]
+        said = {entry.text("path"): entry.text("sha256") for entry in entries}
+    except InputError as error:
+        raise error.in_file(path) from None
+    complaints = []
+    for name, sha256 in said.items():
+        if not (folder / name).is_file():
+            complaints.append(f"{name} is missing")
+        elif hashlib.sha256(bytes_read(folder / name)).hexdigest() != sha256:
+            complaints.append(f"{name} is not the file that the manifest names")
+    return complaints

@@ -1,0 +1,103 @@
+"""A whole step by the package itself: its System, pairs, simulator and solver, in float64."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.own.shapes import own_rotation, own_shape
+from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
+from quasistatic_ref.model.shapes import PlacedShape
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.standard_form import standard_form
+
+
+def own_step(case_input: Json) -> Json:
+    """The answer of the layer `step`."""
+    mine = own_system(case_input["mechanism"])
+    system, n_a = mine.system, mine.system.n_a
+    pairs = [_pair(pair, case_input["shapes"], mine) for pair in case_input["pairs"]]
+    K_q = np.zeros((n_a, n_a))
+    K_q[np.ix_(mine.v[:n_a], mine.v[:n_a])] = np.reshape(case_input["K_q"], (n_a, n_a))
+    simulator = Simulator(
+        system,
+        pairs,
+        h=case_input["h"],
+        K_q=K_q,
+        gravity=case_input["gravity"],
+        cone=case_input["cone"],
+    )
+    q = mine.model_q(case_input["q"])
+    n_q_a = len(case_input["q_bar_a"])
+    target = mine.model_q([*case_input["q_bar_a"], *case_input["q"][n_q_a:]])
+    kinematics = system.kinematics(q)
+    points = closest_points(pairs, kinematics)
+    # Pairs keep their order; within one the contacts stand by index here, by distance there.
+    order = np.lexsort((points.point, np.repeat(np.arange(len(pairs)), [p.n_c for p in pairs])))
+    points = points.chosen(order)
+    force = _force(case_input, mine, q)
+    step = simulator.step_data(q, target[: system.n_q_a], force, points, kinematics)
+    at = step.contacts
+    output = _program(step, mine)
+    output["contacts"] = [
+        {
+            "pair": simulator.layout.names[j],
+            "index": int(points.point[j]),
+            "alpha": points.alpha[j].tolist(),
+            "beta": points.beta[j].tolist(),
+            **{key: _plain(at, key, j, mine) for key in ("phi", "n", "d1", "d2", "J")},
+        }
+        for j in range(at.n_c)
+    ]
+    try:
+        solution = simulator.solved(step)
+    except StepInfeasible as failure:
+        return {**output, "farkas": failure.farkas.y.tolist()}
+    after = system.integrate(q, solution.delta_q)
+    return {
+        **output,
+        "delta_q": solution.delta_q[mine.v].tolist(),
+        "lam": solution.lam.tolist(),
+        "A_lam": (np.array(output["A"]).reshape(-1, system.n_v).T @ solution.lam).tolist(),
+        "wrench": solution.wrench.tolist(),
+        "q_next": (after[mine.q] + 0.0).tolist(),
+    }
+
+
+def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
+    sides = []
+    for side in ("alpha", "beta"):
+        entry = shapes[pair[side]]
+        R = own_rotation(entry["pose"]["quaternion"])
+        t = np.array(entry["pose"]["xyz"], dtype=np.float64)
+        shape = own_shape(entry["shape"])
+        sides.append(PlacedShape(pair[side], mine.links[entry["body"]], R, t, shape))
+    mu_v, mu_omega, rows, k = (pair[key] for key in ("mu_v", "mu_omega", "rows", "k"))
+    return ContactPair(pair["name"], sides[0], sides[1], mu_v, mu_omega, rows, k)
+
+
+def _force(case: Json, mine: OwnSystem, q: Array) -> Array:
+    """Generalised force of the wrenches, each at its body's own centre of mass."""
+    bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
+    kinematics, force = mine.system.kinematics(q), np.zeros(mine.system.n_v)
+    for wrench in case.get("wrenches", []):
+        link = mine.links[wrench["body"]]
+        arm = kinematics.R[link] @ np.array(bodies[wrench["body"]]["com"])
+        torque = np.array(wrench["torque"]) + np.cross(arm, wrench["force"])
+        force += kinematics.J[link].T @ np.concatenate([wrench["force"], torque])
+    return force
+
+
+def _program(step: StepData, mine: OwnSystem) -> Json:
+    form, v = standard_form(step), mine.v
+    H, A = form.H[np.ix_(v, v)], form.A[:, v]
+    return {"H": H.tolist(), "g": form.g[v].tolist(), "A": A.tolist(), "b": form.b.tolist()}
+
+
+def _plain(at: Contacts, key: str, j: int, mine: OwnSystem) -> Json:
+    value = getattr(at, key)[j]
+    return value[:, mine.v].tolist() if key == "J" else value.tolist()

@@ -1,0 +1,193 @@
+"""A mechanism of the vectors as the package knows it: URDFs in a System.
+
+What `own` answers must go the way that users' robots go; so each tree becomes the text of a URDF.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
+from quasistatic_ref.lab.vectors.own.shapes import own_rotation
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.step.data import Array
+
+_BASES = ("floating", "planar")
+_UNITS = {"floating": 3, "planar": 2, "continuous": 0}
+"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
+
+
+@dataclass(frozen=True, eq=False)
+class OwnSystem:
+    """A System, and where the mechanism's coordinates and bodies are in it.
+
+    Parameters
+    ----------
+    system : System
+    q, v : ndarray of int
+        Which entry of the System's q and delta_q each of the mechanism's is.
+    units : tuple of slice
+        The quaternions and (cos, sin) in the mechanism's q.
+    links : dict of str to int
+        Link of each body.
+    """
+
+    system: System
+    q: NDArray[np.int64]
+    v: NDArray[np.int64]
+    units: tuple[slice, ...]
+    links: dict[str | None, int]
+
+    def model_q(self, q: Sequence[float]) -> Array:
+        """Configuration (n_q,) of the System, its quaternions normalised, as pinocchio does not."""
+        unit = np.array(q, dtype=np.float64)
+        for part in self.units:
+            unit[part] /= np.hypot.reduce(unit[part])
+        return _scattered(unit, self.q)
+
+    def model_v(self, delta_q: Sequence[float]) -> Array:
+        """Vector of delta_q of the System, shape (n_v,)."""
+        return _scattered(np.array(delta_q, dtype=np.float64), self.v)
+
+
+def own_system(mechanism: dict[str, Any]) -> OwnSystem:
+    """The System of a mechanism.
+
+    Raises
+    ------
+    ModelError
+        If the mechanism is none that the package can hold: a floating or planar joint between
+        two bodies, a floating base with a frame of its own, a planar base that is not upright.
+    """
+    bodies = mechanism["bodies"]
+    tree: dict[str, int] = {}
+    for k, body in enumerate(bodies):
+        tree[body["name"]] = k if body["parent"] is None else tree[body["parent"]]
+    with TemporaryDirectory() as folder:
+        trees = []
+        for root in dict.fromkeys(tree.values()):
+            members = [k for k, body in enumerate(bodies) if tree[body["name"]] == root]
+            trees.append(_tree(bodies, root, members, Path(folder) / f"t{root}.urdf"))
+        system = System(trees)
+    names = {f"t{tree[body['name']]}/{_joint(body, k)}": k for k, body in enumerate(bodies)}
+    joints = {names[joint.name]: joint for joint in system.joints}
+    q: list[int] = []
+    v: list[int] = []
+    units = []
+    for actuated in (True, False):
+        for k, body in enumerate(bodies):
+            if k in joints and joints[k].actuated == actuated:
+                if joints[k].kind in _UNITS:
+                    start = len(q) + _UNITS[joints[k].kind]
+                    units.append(slice(start, len(q) + SIZES[body["joint"]][0]))
+                q += range(joints[k].q.start, joints[k].q.stop)
+                v += range(joints[k].v.start, joints[k].v.stop)
+    links: dict[str | None, int] = {None: 0}
+    for k, body in enumerate(bodies):
+        links[body["name"]] = system.link(f"t{tree[body['name']]}/b{k}")
+    return OwnSystem(system, np.array(q, np.int64), np.array(v, np.int64), tuple(units), links)
+
+
+def _joint(body: dict[str, Any], k: int) -> str:
+    return "base" if body["joint"] in _BASES else _joint_name(k)
+
+
+def _joint_name(k: int) -> str:
+    # Pinocchio visits joints by name, and wants one that is followed before those that follow it.
+    return f"j{k:04d}"
+
+
+def _tree(bodies: list[dict[str, Any]], root: int, members: list[int], path: Path) -> Body:
+    first = bodies[root]
+    base = first["joint"] if first["joint"] in _BASES else "fixed"
+    xyz, rpy = first["placement"]["xyz"], _rpy(first["placement"]["quaternion"])
+    if (base == "floating" and (any(xyz) or any(rpy))) or (
+        base == "planar" and (any(xyz[:2]) or any(rpy))
+    ):
+        problem = "must be the identity, but for the height of a planar base"
+        raise ModelError(problem, field=f"{first['name']}.placement", value=first["placement"])
+    elements = ['<link name="anchor"/>'] if base == "fixed" else []
+    for k in members:
+        body = bodies[k]
+        elements.append(_link(k, body))
+        if k == root and base != "fixed":
+            continue
+        if body["joint"] in _BASES:
+            problem = "must be a joint of the world"
+            raise ModelError(problem, field=f"{body['name']}.joint", value=body["joint"])
+        names = [other["name"] for other in bodies]
+        parent = "anchor" if k == root else f"b{names.index(body['parent'])}"
+        elements.append(_urdf_joint(k, body, parent, names))
+    path.write_text(f'<robot name="t{root}">{"".join(elements)}</robot>', encoding="utf-8")
+    actuated = [
+        _joint(bodies[k], k)
+        for k in members
+        if bodies[k].get("actuated") and bodies[k]["joint"] != "fixed" and "mimic" not in bodies[k]
+    ]
+    place = (0.0, 0.0, xyz[2]) if base == "planar" else (0.0, 0.0, 0.0)
+    return Body(f"t{root}", path, base=base, actuated=actuated, xyz=place)
+
+
+def _link(k: int, body: dict[str, Any]) -> str:
+    mass, com = body.get("mass", 1.0), body.get("com", [0.0] * 3)
+    inertia = body.get("inertia", np.eye(3).tolist())
+    moments = " ".join(
+        f'i{"xyz"[i]}{"xyz"[j]}="{inertia[i][j]!r}"' for i in range(3) for j in range(i, 3)
+    )
+    return (
+        f'<link name="b{k}"><inertial><origin xyz="{_words(com)}"/><mass value="{mass!r}"/>'
+        f"<inertia {moments}/></inertial></link>"
+    )
+
+
+def _urdf_joint(k: int, body: dict[str, Any], parent: str, names: list[str]) -> str:
+    place = body["placement"]
+    kind = body["joint"]
+    more = "" if kind == "fixed" else f'<axis xyz="{_words(body["axis"])}"/>'
+    if "mimic" in body:
+        follow = body["mimic"]
+        more += (
+            f'<mimic joint="{_joint_name(names.index(follow["of"]))}" '
+            f'multiplier="{follow["multiplier"]!r}" offset="{follow["offset"]!r}"/>'
+        )
+    if kind in ("revolute", "prismatic"):
+        more += '<limit lower="-9" upper="9" effort="1" velocity="1"/>'
+    return (
+        f'<joint name="{_joint_name(k)}" type="{kind}"><parent link="{parent}"/>'
+        f'<child link="b{k}"/>'
+        f'<origin xyz="{_words(place["xyz"])}" rpy="{_words(_rpy(place["quaternion"]))}"/>'
+        f"{more}</joint>"
+    )
+
+
+def _words(values: Sequence[float]) -> str:
+    return " ".join(repr(float(x)) for x in values)
+
+
+def _rpy(quaternion: Sequence[float]) -> list[float]:
+    """Roll, pitch, yaw with Rz(yaw) Ry(pitch) Rx(roll) = R, also where the pitch is a quarter turn.
+
+    The yaw is taken after the roll, from what the roll leaves: each may be arbitrary there, but
+    not both.
+    """
+    R = own_rotation(quaternion)
+    roll = np.arctan2(R[2, 1], R[2, 2])
+    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
+    c, s = np.cos(roll), np.sin(roll)
+    yaw = np.arctan2(s * R[0, 2] - c * R[0, 1], c * R[1, 1] - s * R[1, 2])
+    return [float(roll) + 0.0, float(pitch) + 0.0, float(yaw) + 0.0]
+
+
+def _scattered(values: Array, at: NDArray[np.int64]) -> Array:
+    out = np.empty(at.size)
+    out[at] = values
+    return out
