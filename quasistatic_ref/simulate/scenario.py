@@ -22,7 +22,8 @@ from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twi
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.paths import OwnWord
-from quasistatic_ref.simulate.simulator import GRAVITY, Force, Simulator, simulate
+from quasistatic_ref.simulate.simulate import Force, simulate
+from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
 from quasistatic_ref.solve.backends import DEFAULT, NONE

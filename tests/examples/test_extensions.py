@@ -15,7 +15,7 @@ from docs.examples.weld import weld
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import simulate
+from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step

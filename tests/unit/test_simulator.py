@@ -11,7 +11,8 @@ from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError, ModelError, RunFailed, StepDataError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import Simulator, simulate
+from quasistatic_ref.simulate.simulate import simulate
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from tests.scenes import BALL, written_scenario

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.piles import pile
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import simulate
+from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem, reachable

@@ -9,7 +9,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError, RunFailed, StepNotSolved
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import simulate
+from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.simulate.trajectory import trajectory_read, worst_residual
 from quasistatic_ref.step.files import step_read, step_written
 from quasistatic_ref.step.standard_form import standard_form

@@ -112,13 +112,7 @@ class Keeper:
         root = str(Path(quasistatic_ref.__file__).parents[1])
         path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
         self._process = subprocess.Popen(
-            [
-                sys.executable,
-                "-m",
-                WORKER,
-                str(theirs_in),
-                str(theirs_out),
-            ],
+            [sys.executable, "-m", WORKER, str(theirs_in), str(theirs_out)],
             pass_fds=(theirs_in, theirs_out),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,  # solvers print
