@@ -15,7 +15,7 @@ from importlib import import_module
 from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
-from quasistatic_ref.errors import InputError, QuasistaticError, suggestion
+from quasistatic_ref.errors import InputError, QuasistaticError, nearest_name, suggestion
 
 CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
 COMMANDS = {
@@ -37,13 +37,16 @@ LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that suggests the nearest command, or action of a command."""
+    """An argument parser that suggests the nearest command, action of a command or option."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with status 2 and a sentence."""
-        unknown = re.search(r"invalid choice: '(\w*)'", message)
         said, _, choices = message.partition(" (choose from")
-        hint = suggestion(unknown[1], re.findall(r"\w+", choices)) if unknown else ""
+        hint = ""
+        if unknown := re.search(r"invalid choice: '(\w*)'", message):
+            hint = suggestion(unknown[1], re.findall(r"\w+", choices))
+        elif unknown := re.search(r"unrecognized arguments: (--[\w-]+)", message):
+            hint = nearest_name(unknown[1], self._option_string_actions)
         super().error(f"{said}{hint}")
 
 
@@ -70,12 +73,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    asked = next((argument for argument in given if not argument.startswith("-")), None)
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
         # Only the command that is used declares its options: their modules may be heavy.
-        if name in given:
+        if name == asked:
             _module(name).add_options(command)
-    options = parser.parse_args(given)
+    options, unknown = parser.parse_known_args(given)
+    if unknown:  # in the words of the command, whose usage is printed
+        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
     try:
         return _status(options)
     except InputError as error:

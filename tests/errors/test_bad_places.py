@@ -126,6 +126,8 @@ def test_a_scenario_that_does_not_exist_is_refused(refused, name):
         (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: backends, bench, demo"),
         (["run"], "the following arguments are required: scenario"),
         (["run", "x.toml", "--fast"], "unrecognized arguments: --fast"),
+        (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),
+        (["run", "x.toml", "--fast"], "usage: quasistatic-ref run "),
         (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
     ],
 )

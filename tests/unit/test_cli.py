@@ -344,6 +344,14 @@ def test_wrong_usage_is_status_2(capsys, arguments, says):
     assert says in capsys.readouterr().err
 
 
+def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
+    """A folder called bench is a folder: the module of that command is not even imported."""
+    monkeypatch.setitem(sys.modules, "quasistatic_ref.lab.commands.bench", None)
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", scene, "--out", "bench"]) == 0
+    assert (tmp_path / "bench" / "scene.npz").is_file()
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_has_help(capsys, command):
     with pytest.raises(SystemExit) as caught:
