@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.convex_mesh import ConvexMesh, hull_of_mesh
+from quasistatic_ref.model.dae import check_dae
 
 Array = NDArray[np.float64]
 MESHES = (".stl", ".obj", ".dae")
@@ -34,7 +35,8 @@ def mesh_path(address: str, folder: Path, package_dirs: Sequence[str | Path]) ->
     ------
     ModelError
         If there is no such file, its kind is unknown, or it lies (links resolved) neither in
-        `folder` nor in one of the package folders: what is loaded is never a surprise.
+        `folder` nor in one of the package folders: what is loaded is never a surprise. Or if it
+        is a COLLADA file that would take a mesh library's memory.
     """
     if Path(address).suffix.lower() not in MESHES:
         hint = suggestion(Path(address).suffix.lower(), MESHES)
@@ -63,6 +65,8 @@ def mesh_path(address: str, folder: Path, package_dirs: Sequence[str | Path]) ->
             "move the mesh, or name its folder in package_dirs"
         )
         raise ModelError(problem, value=address)
+    if found.suffix.lower() == ".dae":
+        check_dae(found)
     return found
 
 

@@ -31,14 +31,14 @@ def xml_root(text: str) -> Element:
     ------
     ModelError
         If the text is not well-formed, is nested without end, or declares a document type:
-        entities of its own are never needed in a URDF, and can expand without bound.
+        entities of its own are never needed in a model, and can expand without bound.
     """
     builder = TreeBuilder()
     parser = expat.ParserCreate()
     parser.buffer_text = True
 
     def refusal(*_: object) -> None:
-        problem = "a DOCTYPE is not allowed in a URDF: no entity is ever expanded"
+        problem = "a DOCTYPE is not allowed: no entity is ever expanded"
         raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
 
     parser.StartDoctypeDeclHandler = refusal
@@ -58,6 +58,7 @@ def xml_root(text: str) -> Element:
         builder.end(name)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = builder.data
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:

@@ -8,6 +8,7 @@ unpacked.
 from __future__ import annotations
 
 import io
+import tokenize
 import zipfile
 import zlib
 from pathlib import Path
@@ -31,6 +32,7 @@ UNREADABLE: tuple[type[Exception], ...] = (
     RuntimeError,
     NotImplementedError,
     SyntaxError,
+    tokenize.TokenError,  # an array's header with an open bracket
     zipfile.BadZipFile,
     zlib.error,
 )

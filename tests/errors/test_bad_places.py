@@ -233,6 +233,19 @@ def test_standard_output_that_is_full_is_one_sentence(tmp_path):
     assert step.exists()
 
 
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_a_closed_stream_takes_what_is_printed_without_a_traceback(tmp_path, stream):
+    """As the shell does by >&- or 2>&-: Python then has no such stream at all."""
+    command = f"import sys; sys.{stream} = None; from quasistatic_ref.cli.main import main; "
+    ended = subprocess.run(
+        [sys.executable, "-c", command + "sys.exit(main(['backends']))"],
+        capture_output=True, text=True, check=False, cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+    )  # fmt: skip
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout == "" or stream == "stderr"
+
+
 def test_a_closed_pipe_is_no_error(monkeypatch):
     class Closed(io.StringIO):
         def write(self, text):

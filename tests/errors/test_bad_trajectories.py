@@ -124,6 +124,9 @@ CAUSES = {
     "a header of code": (
         lambda run: rewritten(run, {"t": npy(ZEROS, "open('x','w')")}), NOT_ONE,
     ),
+    "a header with an open bracket": (
+        lambda run: rewritten(run, {"t": npy(ZEROS, "(3, (   ")}), NOT_ONE,
+    ),
     "no header": (lambda run: rewritten(run, {"header": None}), f"{NOT_ONE}: it has no header"),
     "a header of numbers": (
         lambda run: rewritten(run, {"header": npy(ZEROS)}), f"{NOT_ONE}: it has no header",

@@ -74,3 +74,48 @@ def test_a_mesh_that_is_not_where_it_may_be_is_refused(
     (home / "link.obj").symlink_to(secret)
     with pytest.raises(ModelError, match=words):
         mesh_path(address.format(root=tmp_path), home, ())
+
+
+COLLADA = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="s">
+<float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array>
+<technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="sc"><node><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#sc"/></scene></COLLADA>
+"""
+# Each of these took all of the memory, or lost a triangle without a word.
+HOSTILE = {
+    "a letter for an index": ("0 3 2 1", "0 3 x 1", r"<p>: must be a whole number.*\(got 'x'\)"),
+    "a fraction": ("0 3 2 1", "0 3 2.5 1", "<p>: must be a whole number"),
+    "a negative index": ("0 3 2 1", "0 3 -1 1", "<p>: must be a whole number"),
+    "an index of 33 bits": ("0 3 2 1", "0 3 4294967296 1", "<p>: is larger than 2147483647"),
+    "triangles that are not there": ('"4"><input', '"4000000000"><input', "<triangles count>"),
+    "numbers that are not there": ('count="12"', 'count="4000000000"', "<float_array count>"),
+    "an offset": ('offset="0"', 'offset="4000000000"', "<input offset>: is larger than"),
+    "a bomb": ("<COLLADA", "<!DOCTYPE a [<!ENTITY b 'c'>]><COLLADA", "DOCTYPE is not allowed"),
+}
+
+
+def test_a_collada_mesh_is_loaded(tmp_path: Path) -> None:
+    written(tmp_path, COLLADA, "a.dae")
+    hull = mesh_hull(mesh_path("a.dae", tmp_path, ()), np.ones(3))
+    assert len(hull.vertices) == len(hull.triangles) == 4
+    np.testing.assert_allclose(hull.volume, 1 / 6, rtol=EXACT, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)
+def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(
+    tmp_path: Path, right: str, wrong: str, words: str
+) -> None:
+    assert COLLADA.count(right) == 1
+    written(tmp_path, COLLADA.replace(right, wrong), "a.dae")
+    with pytest.raises(ModelError, match=words) as caught:
+        mesh_path("a.dae", tmp_path, ())
+    assert "a.dae" in str(caught.value)
