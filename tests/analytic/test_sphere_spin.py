@@ -116,7 +116,7 @@ def test_sticking_ends_exactly_at_mu_omega_m_g(beyond):
 @every_backend
 @every_step_size
 def test_the_boundary_layer_at_a_fixed_torque_is_proportional_to_h_squared(backend, h):
-    # delta_z = mu_omega delta_theta from phi = 0; the errata say h^2 where the paper says h.
+    # delta_z = mu_omega delta_theta from phi = 0; the paper speaks of a rate, the next test.
     step = spun(2 * LIMIT, h=h)
     lift = solve_step(step, backend).delta_q[2]
     expected = h**2 * MU_OMEGA * LIMIT / (INERTIA + M * MU_OMEGA**2)

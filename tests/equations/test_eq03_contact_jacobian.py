@@ -50,6 +50,23 @@ def test_every_column_is_a_central_difference(system, rng):
             np.testing.assert_allclose(J[j, :, k], expected, rtol=DIFFERENCE, atol=10 * DIFFERENCE)
 
 
+def test_erratum_the_transpose_of_J_maps_a_force_and_a_torque_to_generalized_forces(system, rng):
+    # J, 4 x n_v, cannot multiply a force in R^3. At every velocity v the generalized forces
+    # J'[f; tau_n] do the work that f and tau_n do on the motion (2): (J'[f; tau_n])'v.
+    q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
+    a, b, alpha, beta, n = contacts_in(system, q, rng)
+    J = contact_jacobian(system.kinematics(q), a, b, alpha, beta, n)
+    assert J.shape[2] not in (3, 4)
+    for j in range(len(a)):
+        wrench, v = rng.uniform(-1, 1, size=4), rng.uniform(-1, 1, size=system.n_v)
+        motion = relative_velocity(system, q, v, a[j], b[j], alpha[j], beta[j], n[j])
+        work = sum(wrench[r] * motion[r] for r in range(4))
+        # Motions reach some metres a second, as in the test above.
+        np.testing.assert_allclose(
+            (J[j].T @ wrench) @ v, work, rtol=DIFFERENCE, atol=10 * DIFFERENCE
+        )
+
+
 def test_every_kind_of_joint_is_seen_to_move_something(system, rng):
     q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
     J = contact_jacobian(system.kinematics(q), *contacts_in(system, q, rng))

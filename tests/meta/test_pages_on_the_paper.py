@@ -1,0 +1,137 @@
+"""The pages on the paper name what exists: tests, claims, files, scenarios, examples, pages.
+
+Everything between backticks is a name and must be found; each row of a table ends with evidence.
+"""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.cli.main import COMMANDS
+from quasistatic_ref.examples.gallery import EXAMPLES
+from quasistatic_ref.validate.registry import BY_NAME
+
+ROOT = Path(__file__).parents[2]
+THEORY, TESTS = ROOT / "docs" / "theory", ROOT / "tests"
+PAGES = ("errata.md", "the_paper.md")
+CITED = re.compile(r"\{cite:[pt]\}`(\w+)`")
+NAMED = re.compile(r"`([^`]+)`")
+LIST = r"((?:`\w+`(?:, | and )?)+)"
+LINK = re.compile(r"\]\(([^)#]+)[^)]*\)")
+FOLDERS = (ROOT, ROOT / "quasistatic_ref", TESTS)
+"""Where a file or folder that a page names may lie."""
+
+
+def listed(word, text):
+    """Names that follow a word: claim `a`; claims `a`, `b` and `c`."""
+    runs = re.findall(rf"\b{word}s? {LIST}", text)
+    return [name for run in runs for name in NAMED.findall(run)]
+
+
+def functions_of(path):
+    """The names of the test functions of a file; none of a file that does not exist."""
+    if not path.is_file():
+        return set()
+    functions = [n for n in ast.parse(path.read_text()).body if isinstance(n, ast.FunctionDef)]
+    return {f.name for f in functions if f.name.startswith("test_")}
+
+
+def evidence(text):
+    """Tests and claims that a text names and that exist; a test is of the file before it."""
+    claims = [name for name in listed("claim", text) if name in BY_NAME]
+    tests, inside = [], set()
+    for name in NAMED.findall(text):
+        if name.endswith(".py"):
+            inside = functions_of(TESTS / name)
+        elif name in inside:
+            tests.append(name)
+    return claims + tests
+
+
+def unknown(text):
+    """What a text names and what does not exist."""
+    text = CITED.sub("", text)
+    known = {
+        *evidence(text),
+        *(name for name in listed("example", text) if name in EXAMPLES),
+        *(
+            name
+            for name in listed("scenario", text)
+            if (ROOT / "models" / name / f"{name}.toml").is_file()
+        ),
+        *(f"quasistatic-ref {command}" for command in COMMANDS),
+    }
+    return [
+        name
+        for name in NAMED.findall(text)
+        if name not in known and not ("/" in name and any((f / name).exists() for f in FOLDERS))
+    ]
+
+
+def rows(markdown):
+    """The rows of all tables, without their heads and rules."""
+    tables = re.findall(r"(?:^\|.*\n)+", markdown, re.MULTILINE)
+    return [row for table in tables for row in table.splitlines()[2:]]
+
+
+EQ11 = "`equations/test_eq11_dual_feasibility.py`"
+
+
+@pytest.mark.parametrize(
+    ("text", "missing"),
+    [
+        (f"{EQ11}: `test_positive_multipliers_leave_no_residual`", []),
+        (f"{EQ11}: `test_no_residual`", ["test_no_residual"]),
+        (
+            f"`unit/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
+            ["test_half_way_values_round_to_even"],
+        ),
+        ("`unit/test_inexact.py`", ["unit/test_inexact.py"]),
+        ("claims `grasp` and `octahedron`; claim `icosahedron`", ["icosahedron"]),
+        ("`octahedron`, which is not said to be a claim", ["octahedron"]),
+        ("`step/problem.py` and `step/problems.py`", ["step/problems.py"]),
+        ("scenario `door`, examples `door` and `window`", ["window"]),
+        ("scenario `window`", ["window"]),
+        ("`quasistatic-ref validate`, `quasistatic-ref falsify`", ["quasistatic-ref falsify"]),
+    ],
+)
+def test_what_does_not_exist_is_noticed(text, missing):
+    assert unknown(text) == missing
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_everything_named_exists(page):
+    # Line by line: a name and its kind stand in one row or in one line.
+    lines = (THEORY / page).read_text().splitlines()
+    assert [name for line in lines for name in unknown(line)] == []
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_row_ends_with_a_test_or_a_claim(page):
+    found = rows((THEORY / page).read_text())
+    assert len(found) > 20
+    assert [row for row in found if not evidence(row.rstrip("| ").rpartition(" | ")[2])] == []
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_page_and_every_work_referred_to_exists(page):
+    text, works = (THEORY / page).read_text(), (ROOT / "docs" / "references.bib").read_text()
+    links = [link for link in LINK.findall(text) if not link.startswith("http")]
+    assert links
+    assert [link for link in links if not (THEORY / link).is_file()] == []
+    assert [work for work in CITED.findall(text) if f"{{{work}," not in works] == []
+
+
+def test_every_erratum_that_a_test_shows_is_in_the_errata():
+    page = (THEORY / "errata.md").read_text()
+    shown = {t for path in TESTS.rglob("test_eq*.py") for t in functions_of(path)}
+    assert {t for t in shown if t.startswith("test_erratum_")} <= set(NAMED.findall(page))
+
+
+def test_every_claim_about_the_paper_is_on_its_page():
+    named = set(listed("claim", (THEORY / "the_paper.md").read_text()))
+    about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
+    assert about
+    assert about <= named
