@@ -95,8 +95,8 @@ CLAIM = Claim(
     "solver's call, the answer in SI units. A majority is more than a half. Where one is claimed, "
     "or denied, solve : rest was measured at 1.8 times or more from 1 (Clarabel, brute force, is "
     "the nearest), and other processes hardly move medians of steps that take turns; near a half "
-    "is 1/3 to 3. Some steps take OSQP thousands of iterations, so that its mean step is a matter "
-    "of its own. The paper's 90 us are those of another method, language and machine "
+    "is 1/3 to 3. OSQP iterates far longer in some steps, so that its mean step is a matter of its "
+    "own. The paper's 90 us are those of another method, language and machine "
     "(docs/speed.md).",
     measure=evidence,
     engine="daqp",
