@@ -98,6 +98,12 @@ RESULTS = (
         output="validation/load_robots.md",
     ),
     Result(
+        "step_profile",
+        ("validation.step_profile",),
+        ("validation/step_profile.md",),
+        output="validation/step_profile.md",
+    ),
+    Result(
         "exact_everywhere",
         ("validation.exact_everywhere", "--out", "validation/results/exact_everywhere.txt"),
         ("validation/results/exact_everywhere.txt",),

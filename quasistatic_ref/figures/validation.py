@@ -13,6 +13,7 @@ from quasistatic_ref.figures.style import scaled, sized, styled
 
 Picture = Mapping[str, Any]
 MARKS = ("o", "s", "^", "D", "v", "P")
+GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
 
 
 def _caption(h: float) -> str:
@@ -84,18 +85,39 @@ def boundary_layer(picture: Picture) -> Figure:
 
 
 def step_time(picture: Picture) -> Figure:
-    """Shares of the parts of a step."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 1.9))
-    shares = dict(reversed(list(picture["shares"].items())))
-    axes.set_axisbelow(True)
-    axes.barh(list(shares), [100 * s for s in shares.values()], color="0.6", edgecolor="black")
-    for k, share in enumerate(shares.values()):
-        axes.annotate(f" {100 * share:.1f} %", (100 * share, k), va="center", fontsize="small")
-    axes.set(xlabel="share of the time of a step [%]", xlim=(0, 110))
+    """Parts of a step by backend and by distances, stacked from the solve on."""
+    figure, axes = plt.subplots(figsize=sized(6.3, 3.9), layout="constrained")
+    profiles = picture["profiles"].all
+    # Two bars of a backend touch, backends stand apart.
+    at = -np.array([k + 0.5 * (k // 2) for k in range(len(profiles))])
+    times = np.array([list(p.typical.values()) for p in profiles])
+    whole = times.sum(axis=1)
+    shares = 100 * times / whole[:, None]
+    left = np.zeros(len(profiles))
+    for part, width, grey in zip(profiles[0].typical, shares.T, GREYS, strict=True):
+        axes.barh(at, width, 0.9, left=left, label=part, color=grey, edgecolor="black",
+                  linewidth=scaled(0.5))  # fmt: skip
+        left += width
+    for y, p, total in zip(at, profiles, whole, strict=True):
+        text = f"solve {100 * p.solve:.0f} % of {_duration(total)}"
+        axes.annotate(text, (102, y), va="center", fontsize="small")
+    axes.axvline(50, color="black", linestyle=":", linewidth=scaled(1.2))
+    axes.set_yticks(at, [p.name for p in profiles])
+    axes.grid(False)
+    axes.set(xlabel="share of the time of a step, medians [%]", xlim=(0, 140))
+    axes.set_xticks(range(0, 101, 25))
     axes.set_title(
-        f"{_caption(picture['h'])}; {picture['milliseconds']:.1f} ms a step", loc="right"
+        f"{_caption(picture['h'])}; {picture['all']} distances by brute force, "
+        f"{picture['tracked']:.0f} by the tracker",
+        loc="right",
     )
+    figure.legend(loc="outside upper center", ncols=len(GREYS))
     return figure
+
+
+def _duration(microseconds: float) -> str:
+    ms = microseconds >= 1000
+    return f"{microseconds / 1000:.1f} ms" if ms else rf"{microseconds:.0f} $\mu$s"
 
 
 def sliding_threshold(picture: Picture) -> Figure:

@@ -15,7 +15,6 @@ from matplotlib import pyplot as plt
 from quasistatic_ref.figures import faults
 from quasistatic_ref.lab.examples import grasp, grasp_rotation, solver_digits
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
-from quasistatic_ref.lab.examples.runs import ran
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.validate.paper import step_time
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -36,8 +35,7 @@ def runs_of_the_demo(demo, monkeypatch):
     for module in (grasp, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
-    # A file has no times: a short run has.
-    monkeypatch.setattr(step_time, "grasp", lambda case: ran("bunny_grasp", "steps=10"))
+    monkeypatch.setattr(step_time, "STEPS", 20)
 
 
 @pytest.fixture(autouse=True)
@@ -142,10 +140,15 @@ def test_the_bunny_turns_without_torsion_only():
     assert with_torsion < 1 < 30 < without
 
 
-def test_the_shares_of_a_step_s_time_add_up_to_one():
-    milliseconds, *shares = numbers("time_of_a_step").values()
-    assert milliseconds > 0
-    np.testing.assert_allclose(sum(shares), 1.0, rtol=ROUNDING)
+def test_all_distances_make_a_step_longer_and_the_share_of_its_solve_smaller():
+    everything, tracked, *profiles = numbers("time_of_a_step").values()
+    assert everything == 3 * 992 > 2 * tracked
+    profiles = np.reshape(profiles, (-1, 2, 2))  # backends, tracker and brute force, time and share
+    assert (profiles[:, 0, 0] < profiles[:, 1, 0]).all()
+    assert (profiles[:, 0, 1] > profiles[:, 1, 1]).all()
+    # Only the distances differ: the solve itself is the same.
+    solve = profiles.prod(axis=2)
+    np.testing.assert_allclose(solve[:, 0], solve[:, 1], rtol=ROUNDING)
 
 
 def test_more_accuracy_means_more_digits_but_never_all():

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.cli.main import COMMANDS
-from quasistatic_ref.examples.gallery import EXAMPLES
-from quasistatic_ref.validate.registry import BY_NAME
+from quasistatic_ref.lab.examples.gallery import EXAMPLES
+from quasistatic_ref.lab.validate.registry import BY_NAME
 
 ROOT = Path(__file__).parents[2]
 THEORY, TESTS = ROOT / "docs" / "theory", ROOT / "tests"

@@ -9,7 +9,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.lab.study.bench.grasp import places
+from quasistatic_ref.lab.study.bench.grasp import DEFAULT_STEP, places
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.adapters.bare import BareDaqp
@@ -106,9 +106,10 @@ def test_the_page_says_why_mujoco_was_not_run(tmp_path):
     part = {"engine": "native", "backend": "daqp", "unsolved": 0, "distances": 1.0, "rows": 1.0,
             "selection": 1.0, "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
     tables = {
-        "machine": {"system": "x", "python": "3", "numpy": "2", "load": "y"}, "roads": ROADS,
+        "machine": dict.fromkeys(("processor", "cores", "system", "python", "numpy", "load"), "x"),
+        "roads": ROADS,
         "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
-        "parts": [part], "certification": {"off": 1.0}, "clouds": [],
+        "parts": [part], "certification": {"off": 1.0, DEFAULT_STEP: 2.0}, "clouds": [],
         "chains": [], "contacts": [], "heaps": [],
     }  # fmt: skip
     assert "| not run | MuJoCo is not installed |" in page(tables)

@@ -17,9 +17,10 @@ from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, r
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.bare import BareDaqp
-from quasistatic_ref.solve.backends import installed_backends
+from quasistatic_ref.solve.backends import DEFAULT, installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
 
 SETTINGS = ["solver.certify=off", "record=light"]
@@ -163,6 +164,10 @@ def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
     return row | {"unsolved": failed}
 
 
+DEFAULT_STEP = f"{CERTIFY[0]}, {DEFAULT} (default)"
+"""The step that a scenario takes if it asks for nothing else."""
+
+
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
     simulator.problem = None
     simulator.step(q, goal)
@@ -173,10 +178,10 @@ def _brute_force(simulator: Simulator, q: Array) -> None:
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
-    """What each kind of certificate adds to the native step [us]."""
-    simulators = {
-        kind: replace(at.scenario, certify=kind).simulator() for kind in ("off", "residual", "full")
-    }
+    """The native step with each kind of certificate, and that of a scenario by default [us]."""
+    scenarios = {kind: replace(at.scenario, certify=kind) for kind in CERTIFY}
+    scenarios[DEFAULT_STEP] = replace(at.scenario, certify=CERTIFY[0], backend=DEFAULT)
+    simulators = {kind: scenario.simulator() for kind, scenario in scenarios.items()}
     rounds = [
         {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
         for q, g in zip(at.q, at.goals, strict=True)

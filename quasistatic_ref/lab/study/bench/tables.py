@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import platform
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study import environment
 from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
 from quasistatic_ref.lab.study.bench.clouds import clouds
 from quasistatic_ref.lab.study.bench.grasp import certification, parts, places, roads
@@ -49,7 +49,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
         raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
     steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
-    load = f"{os.cpu_count()} processors, load before the run {_load()}"
+    load = f"load before the run {_load()}"
     at = places(steps)
     tell("roads")
     found["roads"] = roads(at, repeat)
@@ -78,14 +78,9 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     return found
 
 
-def machine() -> dict[str, str]:
-    """What was measured on."""
-    return {
-        "quasistatic_ref": __version__,
-        "python": platform.python_version(),
-        "numpy": np.__version__,
-        "system": f"{platform.system()} {platform.machine()}",
-    }
+def machine() -> dict[str, Any]:
+    """What was measured on, and what was measured."""
+    return {"quasistatic_ref": __version__, "numpy": np.__version__, **environment.machine()}
 
 
 def _load() -> str:

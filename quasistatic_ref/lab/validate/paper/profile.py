@@ -1,0 +1,202 @@
+"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache, partial
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.lab.study.bench.timing import seconds
+from quasistatic_ref.model.shapes import PointCloud
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.solve.adapters.program import Adapter, Reply
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.step.data import Array
+
+BACKENDS: Final = ("clarabel", "piqp", "osqp", "daqp")
+"""Two interior-point methods, operator splitting, and a dual active-set method."""
+
+SOLVE: Final = ("solver's call", "rest of the solve")
+"""The lap ``solve`` of the simulator's stopwatch, in two. The call is that of the solver's own
+interface: new data handed over, solution, its arrays copied. The rest makes the program (A and b of
+Eq. (8), H and g of Eq. (13), natural units) and the answer (SI units, checks, and the certificate
+where one is asked for)."""
+
+PARTS: Final = (*SOLVE, "distances", "rows", "integrate")
+"""Parts of a step. ``distances`` are the closest points, their selection and normals; ``rows`` are
+J, M_u, tau and delta_q_bar_a; ``integrate`` is the new configuration and its kinematics."""
+
+TRACKER, BRUTE_FORCE = "tracker", "brute force"
+"""Where the distances come from: the simulator's default, or all of them in every step."""
+
+CERTIFIED, UNCERTIFIED = "full", "off"
+
+TURN = 10
+"""Steps that one backend takes before the next one's turn: most of them find the processor's caches
+as in a run of their own, and a drift of the machine's speed meets all backends alike."""
+
+Microseconds = Mapping[str, float]
+"""Part of ``PARTS`` -> time [us]."""
+
+
+def share(times: Microseconds, *parts: str) -> float:
+    """Share of some parts in the sum of all [-]."""
+    return sum(times[part] for part in parts) / sum(times.values())
+
+
+class Profile(NamedTuple):
+    """The parts of a step of one backend.
+
+    Parameters
+    ----------
+    backend, certify : str
+    distances : str
+        ``TRACKER`` or ``BRUTE_FORCE``.
+    typical, mean : mapping of str to float
+        Median and mean of each part over all steps [us].
+    """
+
+    backend: str
+    certify: str
+    distances: str
+    typical: Microseconds
+    mean: Microseconds
+
+    @property
+    def name(self) -> str:
+        """Backend and distances, and whether the step is certified."""
+        certified = "" if self.certify == UNCERTIFIED else " certified"
+        return f"{self.backend}{certified}, {self.distances}"
+
+    @property
+    def solve(self) -> float:
+        """Share of the whole solve in the typical step [-]."""
+        return share(self.typical, *SOLVE)
+
+
+class Profiles(NamedTuple):
+    """The profiles of all backends, which took turns.
+
+    Parameters
+    ----------
+    all : tuple of Profile
+    brute_force : float
+        Median time of all signed distances of a step and the selection among them [us].
+    gap : float
+        Largest difference between tracker and brute force in a selected distance [m].
+    """
+
+    all: tuple[Profile, ...]
+    brute_force: float
+    gap: float
+
+    def profile(self, backend: str, distances: str, certify: str = UNCERTIFIED) -> Profile:
+        """The one profile with these properties."""
+        asked = (backend, certify, distances)
+        return next(p for p in self.all if (p.backend, p.certify, p.distances) == asked)
+
+
+@cache
+def profiles(steps: int) -> Profiles:
+    """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS`` that is there.
+
+    They are uncertified; the default of a scenario, Clarabel with a certificate, is added.
+    """
+    names = [name for name in BACKENDS if name in native_backends()]
+    runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]
+    brute, gaps = [], []
+    for first in range(0, steps, TURN):
+        turn = range(first, min(first + TURN, steps))
+        for run in runs:
+            taken = [run.step(k) for k in turn]
+        for q, phi in taken:  # those of the certified run
+            all_points = partial(closest_points, run.scenario.pairs, run.kinematics(q))
+            brute.append(seconds(all_points))
+            gaps.append(np.abs(all_points().phi - phi).max())
+    every = np.array(brute)
+    found = [p for run in runs for p in (run.profile(TRACKER), run.profile(BRUTE_FORCE, every))]
+    return Profiles(tuple(found), 1e6 * float(np.median(every)), float(max(gaps)))
+
+
+class _Run:
+    """A run of the grasp with one backend, and what the parts of its steps took."""
+
+    def __init__(self, backend: str, certify: str) -> None:
+        self.backend, self.certify = backend, certify
+        self.scenario = grasp_scenario(backend, certify)
+        self.simulator, self.q = self.scenario.simulator(), self.scenario.system.q_start
+        self.kinematics = self.scenario.system.kinematics
+        self.calls: list[float] = []
+        self.laps: list[list[float]] = []
+        # The problem that the simulator makes for itself, with a clock at the solver's call.
+        first = self.simulator.step(self.q, self.scenario.targets(self.scenario.h))
+        self.simulator.problem = problem = NativeProblem(first.step, backend)
+        problem.adapter = _clocked(problem.adapter, self.calls)
+
+    def step(self, k: int) -> tuple[Array, Array]:
+        """Take step k: the configuration (n_q,) where it starts, and phi (n_c,) [m] there."""
+        self.calls.clear()
+        q = self.q
+        result = self.simulator.step(q, self.scenario.targets(self.scenario.h * (k + 1)))
+        self.q, lap, call = result.q, result.seconds, sum(self.calls)
+        rest = (lap["solve"] - call, lap["distances"], lap["rows"], lap["integrate"])
+        self.laps.append([call, *rest])
+        return q, result.points.phi
+
+    def profile(self, distances: str, brute_force: Array | None = None) -> Profile:
+        """Median and mean of each part; with the times (n,) [s] of other distances, if given."""
+        times = dict(zip(PARTS, 1e6 * np.array(self.laps).T, strict=True))
+        if brute_force is not None:
+            times["distances"] = 1e6 * brute_force
+        typical = {part: float(np.median(t)) for part, t in times.items()}
+        mean = {part: float(np.mean(t)) for part, t in times.items()}
+        return Profile(self.backend, self.certify, distances, typical, mean)
+
+
+def _clocked(adapter: type[Adapter], calls: list[float]) -> type[Adapter]:
+    """The same adapter, which notes what each of its calls took [s]."""
+
+    def reply(self: Adapter, same_H: bool, warm: bool) -> Reply:
+        found: list[Reply] = []
+        calls.append(seconds(lambda: found.append(adapter.reply(self, same_H, warm))))
+        return found[0]
+
+    return type(adapter.__name__, (adapter,), {"reply": reply})
+
+
+def grasp_scenario(backend: str, certify: str) -> Scenario:
+    """``bunny_grasp``, solved natively: the default of a scenario."""
+    settings = (f"solver.backend={backend}", f"solver.certify={certify}", "record=light")
+    return load_scenario("bunny_grasp", settings)
+
+
+def all_distances(scenario: Scenario) -> int:
+    """Signed distances in a step by brute force: the points of each pair's cloud, added up."""
+    shapes = [pair.beta.shape for pair in scenario.pairs]
+    return sum(len(shape.points) for shape in shapes if isinstance(shape, PointCloud))
+
+
+def tracked_distances(scenario: Scenario, steps: int) -> Array:
+    """Signed distances that the tracker evaluates in each of the first `steps`, shape (steps,).
+
+    Those of its lists; and where a list does not suffice, those of all points of the pair, from
+    which a new one is made, and of the new lists. The first list of a pair takes the normal that it
+    starts from out of all points too. (Clouds of more points than ``ball_tree.SMALL`` have a tree,
+    and lists that are made from fewer.)
+    """
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    clouds, counts = simulator.tracker.clouds, np.zeros(steps)
+    assert clouds is not None
+    a_pair = all_distances(scenario) // len(scenario.pairs)
+    for k in range(steps):
+        before, listed = clouds.lists_made, sum(len(some.index) for some in clouds.lists)
+        q = simulator.step(q, scenario.targets(scenario.h * (k + 1))).q
+        made = clouds.lists_made - before
+        counts[k] = listed if k else all_distances(scenario)
+        if made:
+            counts[k] += made * a_pair + sum(len(some.index) for some in clouds.lists)
+    return counts
