@@ -12,7 +12,12 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.examples import grasp, grasp_rotation, solver_digits
+from quasistatic_ref.examples import (
+    grasp,
+    grasp_against_mu_omega,
+    grasp_rotation,
+    solver_digits,
+)
 from quasistatic_ref.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.examples.runs import ran
 from quasistatic_ref.figures import faults
@@ -33,7 +38,7 @@ def runs_of_the_demo(demo, monkeypatch):
         path = demo.folder / f"bunny_grasp_{case.replace(' ', '_')}.npz"
         return load_scenario("bunny_grasp", CASES[case]), trajectory_read(path)
 
-    for module in (grasp, grasp_rotation, solver_digits):
+    for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
     # A file has no times: a short run has.
@@ -59,7 +64,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 18
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 19
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -119,8 +124,9 @@ def test_a_slider_turns_as_lynch_says_when_it_is_slow():
 def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():
     stuck, limit, spin, lift = numbers("boundary_layer").values()
     np.testing.assert_allclose(stuck, limit, rtol=SCENARIO)
-    # phi = mu_omega h omega, in um.
-    np.testing.assert_allclose(lift, 1e6 * 0.01 * 0.01 * spin, rtol=SCENARIO)
+    # phi = mu_omega h omega, in mm.
+    np.testing.assert_allclose(lift, 1e3 * 0.01 * 0.01 * spin, rtol=SCENARIO)
+    assert 1 < lift < 10  # a fraction of a centimetre
 
 
 def test_the_laws_of_the_boundary_layer_are_h_and_h_squared():
@@ -140,6 +146,16 @@ def test_the_grasp_lifts_and_every_step_is_exact():
 def test_the_bunny_turns_without_torsion_only():
     with_torsion, without = numbers("grasp_rotation").values()
     assert with_torsion < 1 < 30 < without
+
+
+def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
+    slips, holds, needed, used, limit = numbers("grasp_against_mu_omega").values()
+    assert holds < 0.25 < 1 < slips
+    # (R9): the forces of a step that sticks, between the runs with 1.75 and 1.80 mm.
+    np.testing.assert_allclose(needed, 1.775, atol=0.025)
+    # (R15), Hertz: a patch as wide as the finger, of 24 mm, with mu_v = 0.6.
+    np.testing.assert_allclose(limit, 1e3 * 3 * np.pi / 16 * 0.6 * 0.012, rtol=ROUNDING)
+    assert needed < used < limit
 
 
 def test_the_shares_of_a_step_s_time_add_up_to_one():
