@@ -134,8 +134,8 @@ BEARS: Final = 1e-9
 1e-12 of it on contacts that do not touch."""
 
 SLOW: Final = 0.1
-"""Largest quasi-dynamic number Pi = v / (mu g h) that passes without a word: forces on moving
-bodies are then wrong by a tenth of friction."""
+"""Largest share of the friction that contacts can bear which the spurious drag may take without a
+word: forces on moving bodies are then wrong by a tenth of friction."""
 
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.step.data import Array
 
 DEPENDENT = 1e-9
-"""Singular values below this share of the largest count as zero; a wrong guess costs a walk."""
+"""Singular values, and entries of a dependence, below this share of the largest count as zero; a
+wrong guess costs a walk."""
 
 
 def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
@@ -44,8 +45,9 @@ def _basic(A: Array, lam: Array) -> Array:
     dependences = _null_space(A.T)
     while dependences.shape[1]:
         d = dependences[:, 0]
-        d = d if d.max() > 0 else -d
-        falling = np.flatnonzero(d > 0)
+        rounding = DEPENDENT * np.abs(d).max()
+        d = d if d.max() > rounding else -d
+        falling = np.flatnonzero(d > rounding)
         first = int(falling[np.argmin(lam[falling] / d[falling])])
         lam = np.maximum(lam - lam[first] / d[first] * d, 0)
         lam[first] = 0

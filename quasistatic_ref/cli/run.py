@@ -63,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
         "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],
+        "largest_drag_share": trajectory.header["largest_drag_share"],
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
         "free_bodies": {
             body: {
@@ -82,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
     worst = _worst(summary["worst_residual"])
     asked = f"{summary['backend']} ({summary['engine']})"
     print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
-    print(_artifacts(summary["quasi_dynamic_number"], summary["largest_boundary_layer"]))
+    print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
@@ -95,9 +96,15 @@ def _worst(x: object) -> str:
     return "not computed" if x is None else f"{x:.1e} (natural units)"
 
 
-def _artifacts(Pi: float | None, layer: float) -> str:
+def _artifacts(header: Mapping[str, Any]) -> str:
+    drag, Pi = header["largest_drag_share"], header["quasi_dynamic_number"]
+    share = "not defined" if drag is None else f"{drag:.2g} of what friction can bear"
     number = "not defined" if Pi is None else f"{Pi:.2g}"
-    return f"largest quasi-dynamic number {number}, largest boundary layer {1e6 * layer:.3g} um"
+    layer = 1e6 * header["largest_boundary_layer"]
+    return (
+        f"largest drag {share}, largest quasi-dynamic number {number}, "
+        f"largest boundary layer {layer:.3g} um"
+    )
 
 
 def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:

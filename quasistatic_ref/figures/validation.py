@@ -67,13 +67,13 @@ def contact_geometry(picture: Picture) -> Figure:
 def boundary_layer(picture: Picture) -> Figure:
     """Spin and lift-off against torque; size of the layer against the time step."""
     figure, (left, right) = plt.subplots(1, 2, figsize=sized(6.3, 2.8), layout="constrained")
-    left.plot(1e3 * picture["torque"], 1e6 * picture["lift"])
+    left.plot(1e3 * picture["torque"], 1e3 * picture["lift"])
     left.axvline(1e3 * picture["limit"], color="black", linestyle=":", linewidth=1)
     left.annotate(
         r"$\mu_\omega\,m\,g$", (1e3 * picture["limit"], 0.6), xycoords=("data", "axes fraction"),
         xytext=(-4, 0), textcoords="offset points", ha="right",
     )  # fmt: skip
-    left.set(xlabel="applied torque [mN m]", ylabel=r"lift-off [$\mu$m]")
+    left.set(xlabel="applied torque [mN m]", ylabel="lift-off [mm]")
     left.set_title(_caption(picture["h"]), loc="right")
     sizes = 1e3 * picture["sizes"]
     right.loglog(sizes, 1e6 * picture["at_rate"], marker="o", label="fixed rate: slope 1")

@@ -1,4 +1,4 @@
-"""How far a run is from physics: its quasi-dynamic number and its boundary layer."""
+"""How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer."""
 
 from __future__ import annotations
 
@@ -7,16 +7,74 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import BEARS, SLOW
 
 
-def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:
-    """Pi = v / (mu_v g h) of one step: the spurious drag m v / h over the friction mu_v m g.
+def drag_share(system: System, step: StepData, solution: StepSolution, g: float) -> float | None:
+    """Spurious drag on a free body over the friction that its contacts can bear, (R13).
 
-    v is that of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
+    Of a floating base that is not actuated, the drag is the force ||M_u delta_q_u / h^2|| on its
+    translation, and what its contacts can bear is the sum of mu_v f_n. Where they bear nothing by
+    friction, the drag is taken over the body's weight: in free fall it is all of it.
+
+    Parameters
+    ----------
+    system : System
+    step : StepData
+    solution : StepSolution
+    g : float
+        Length of gravity [m/s^2].
+
+    Returns
+    -------
+    float or None
+        Of the body that has the largest share; None where nothing floats, or neither rubs nor
+        weighs.
+    """
+    force = step.M_u @ solution.delta_q[step.n_a :] / step.h**2
+    friction = _friction(step, solution)
+    shares = []
+    for base in _free_bases(system):
+        x = base.v.start
+        drag = float(np.linalg.norm(force[x - step.n_a : x - step.n_a + 3]))
+        weight = system.mass(base.name.removesuffix("/base")) * g
+        bears = float(friction[x]) if friction[x] > BEARS * drag else weight
+        if bears > 0:
+            shares.append(drag / bears)
+    return max(shares, default=None)
+
+
+def _free_bases(system: System) -> list[Joint]:
+    return [j for j in system.joints if j.kind == "floating" and not j.actuated]
+
+
+def _friction(step: StepData, solution: StepSolution) -> Array:
+    """Sum of mu_v f_n [N] over the contacts whose bodies a coordinate of a base translates.
+
+    Shape (n_v,) at least. Such a coordinate moves the points of its body's contacts by one metre
+    per metre, and others not at all.
+    """
+    contacts, f_n = step.contacts, solution.wrench[:, 2]
+    bears = contacts.mu_v * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
+    blocks = contacts.blocks
+    J = contacts.J if blocks is None else blocks.J
+    moved = np.linalg.norm(J[:, :3], axis=1) > 0.5  # it is 1 or 0, but for rounding
+    if blocks is None:
+        return np.asarray(bears @ moved)
+    friction = np.zeros(blocks.n_v + 1)
+    np.add.at(friction, blocks.column, bears[:, None] * moved)
+    return friction
+
+
+def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:
+    """Pi = v / (mu_v g h) of one step: the drag m v / h over the friction mu_v m g.
+
+    That is what a body can bear which rests on its own weight, not one which is held. v is
+    that of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
 
     Parameters
     ----------
@@ -31,7 +89,7 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     float or None
         None where nothing floats, nothing rubs or nothing weighs.
     """
-    bases = [j.v.start for j in system.joints if j.kind == "floating" and not j.actuated]
+    bases = [base.v.start for base in _free_bases(system)]
     rough = step.contacts.mu_v[step.contacts.mu_v > 0]
     if not (bases and rough.size and g > 0):
         return None
@@ -49,12 +107,12 @@ def boundary_layer(step: StepData, solution: StepSolution) -> float:
 
 
 def warning(header: Mapping[str, Any]) -> str | None:
-    """One sentence on a run whose Pi is not small, or None."""
-    Pi = header["quasi_dynamic_number"]
-    if Pi is None or Pi <= SLOW:
+    """One sentence on a run whose drag is not small beside what contacts bear, or None."""
+    share = header["largest_drag_share"]
+    if share is None or share <= SLOW:
         return None
     return (
-        f"the quasi-dynamic number of this run reaches {Pi:.2g}: the spurious drag m v / h is that "
-        "many times friction at the fastest moment; move more slowly or take larger steps "
-        "(the documentation's page 'Where the model is wrong')"
+        f"the spurious drag m v / h on a free body reaches {share:.2g} times the friction that its "
+        "contacts can bear (its weight, where they bear none); move more slowly or take larger "
+        "steps (the documentation's page 'Where the model is wrong')"
     )

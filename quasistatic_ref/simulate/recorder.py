@@ -9,7 +9,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.artifacts import boundary_layer, quasi_dynamic_number
+from quasistatic_ref.simulate.artifacts import (
+    boundary_layer,
+    drag_share,
+    quasi_dynamic_number,
+)
 from quasistatic_ref.simulate.trajectory import CONSTANT, FORMAT, RECORDS, VERSION, Trajectory
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array
@@ -55,6 +59,7 @@ class Recorder:
         self.extra: tuple[str, ...] = ()
         self.q, self.g = [q], g
         self.Pi: float | None = None
+        self.drag: float | None = None
         self.layer = 0.0
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
@@ -64,8 +69,10 @@ class Recorder:
     def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded."""
         step, solution, points = result.step, result.solution, result.points
-        Pi = quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
-        self.Pi = Pi if self.Pi is None or Pi is None else max(Pi, self.Pi)
+        self.Pi = _larger(
+            self.Pi, quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
+        )
+        self.drag = _larger(self.drag, drag_share(self.system, step, solution, self.g))
         self.layer = max(self.layer, boundary_layer(step, solution))
         row: dict[str, Any] = {
             "t": t,
@@ -116,6 +123,7 @@ class Recorder:
             "steps": len(self.rows),
             "failed": failed,
             "quasi_dynamic_number": self.Pi,
+            "largest_drag_share": self.drag,
             "largest_boundary_layer": self.layer,
             "contacts": self.names if self.record == "full" else [],
         }
@@ -131,6 +139,10 @@ def _stacked(values: list[Any]) -> NDArray[Any]:
     """One array of all steps, in which zero is 0.0, never -0.0."""
     array = np.array(values)
     return array + 0.0 if array.dtype == np.float64 else array
+
+
+def _larger(x: float | None, y: float | None) -> float | None:
+    return max((value for value in (x, y) if value is not None), default=None)
 
 
 def _or_nan(value: float | None) -> float:

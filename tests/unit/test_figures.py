@@ -132,7 +132,7 @@ def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
     top, bottom = figures["boundary layer"].axes
     limit = 1e3 * 0.01 * 0.3 * 9.81
     torque, spin = top.lines[0].get_data()
-    np.testing.assert_allclose(torque, np.linspace(58.86 / 200, 58.86, 200), rtol=ROUNDING)
+    np.testing.assert_allclose(torque, np.linspace(147.15 / 200, 147.15, 200), rtol=ROUNDING)
     assert (np.abs(spin[torque < 0.999 * limit]) < 1e-6).all()
     assert (spin[torque > 1.001 * limit] > 1e-3).all()
     for axes in (top, bottom):

@@ -22,12 +22,12 @@ def run_of(out, scenario, *settings):
 def test_a_run_tells_how_far_a_free_body_turned_and_rose(tmp_path, capsys):
     # The sphere spins about the vertical only: its angle is the sum of the steps' turns, and its
     # rise the height above its start.
-    run_of(tmp_path, "sphere_spin", "steps=150")
+    run_of(tmp_path, "sphere_spin", "steps=80")
     told = json.loads(capsys.readouterr().out)["free_bodies"]["sphere"]
     run = trajectory_read(tmp_path / "sphere_spin.npz")
     turned = np.degrees(run["delta_q"][:, 5].sum())
     rise = 1e3 * (run["q"][:, 2] - run["q"][0, 2]).max()
-    assert turned > 1.0
+    assert 1.0 < turned < 180.0
     np.testing.assert_allclose(told["largest_rotation_deg"], turned, rtol=1e3 * ROUNDING, atol=0.0)
     np.testing.assert_allclose(told["largest_rise_mm"], rise, rtol=ROUNDING, atol=0.0)
 

@@ -103,6 +103,7 @@ def test_equal_runs_make_equal_files(tmp_path, scenario, run):
 def test_the_header_says_what_the_run_was(run):
     header = dict(run.header)
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
+    assert header.pop("largest_drag_share") > 0
     assert header.pop("largest_boundary_layer") > 0
     assert header == {
         "format": "quasistatic-ref/trajectory",

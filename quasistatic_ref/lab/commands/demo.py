@@ -72,6 +72,7 @@ def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
             "{:.3f}",
         ),
         "lift_mm": (f"lift height, t = {CLOSED:g} to {TOP:g} s [mm]", "{:.2f}"),
+        "drag_share": ("largest drag / friction that contacts can bear [-]", "{:.3f}"),
         "certified": ("certified", "{}"),
         "worst_residual": ("worst residual [natural units]", "{:.1e}"),
         "variables": ("variables", "{}"),

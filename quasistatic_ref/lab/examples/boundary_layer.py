@@ -21,7 +21,7 @@ RADIUS, MU_OMEGA, M, G = 0.05, 0.01, 0.3, 9.81
 
 
 def main() -> Numbers:
-    """Where it begins to move, and how high it has risen at twice that torque."""
+    """Where it begins to move, and how high it has risen at five times that torque."""
     scenario, run = ran("sphere_spin")
     (wrenches,) = scenario.wrenches
     torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
@@ -30,7 +30,7 @@ def main() -> Numbers:
         "largest torque without motion [mN m]": 1e3 * torque[~moves].max(),
         "mu_omega m g [mN m]": 1e3 * MU_OMEGA * M * G,
         "spin at the end [rad/s]": run["delta_q"][-1, 5] / scenario.h,
-        "lift-off at the end [um]": 1e6 * (run["q"][-1, 2] - RADIUS),
+        "lift-off at the end [mm]": 1e3 * (run["q"][-1, 2] - RADIUS),
     }
 
 

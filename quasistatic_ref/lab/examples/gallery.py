@@ -21,6 +21,7 @@ EXAMPLES: Final = (
     "pinch_threshold",
     "grasp",
     "grasp_rotation",
+    "grasp_against_mu_omega",
     "time_of_a_step",
     "solver_digits",
     "door",

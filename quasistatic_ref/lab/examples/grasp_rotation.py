@@ -23,7 +23,8 @@ def main() -> Numbers:
     for case in CASES:
         scenario, run = grasp(case)
         motion = link_motion(scenario.system, run, "bunny")
-        angle = np.degrees(motion.rotation_since(CLOSED)[motion.index(CLOSED) : motion.index(TOP)])
+        lift = slice(motion.index(CLOSED), motion.index(TOP) + 1)
+        angle = np.degrees(motion.rotation_since(CLOSED)[lift])
         found[f"rotation {case} [deg]"] = float(angle.max())
     return found
 

@@ -1,4 +1,4 @@
-"""A slider on one soft contact, pushed along the plane: its closed form (R28) and its step."""
+"""A slider on one soft contact, pushed along the plane: (R28), in the ellipsoid, and its step."""
 
 from __future__ import annotations
 

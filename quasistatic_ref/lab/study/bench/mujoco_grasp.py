@@ -13,19 +13,19 @@ from quasistatic_ref.resources import models_folder
 
 MJCF = """<mujoco>
 <option timestep="0.01" integrator="implicitfast" cone="pyramidal" gravity="0 0 -9.81"/>
-<default><geom condim="4" friction="0.4 0.02 0.0001"/></default>
+<default><geom condim="4" friction="0.5 0.003 0.0001"/></default>
 <asset><mesh name="bunny" file="bunny.obj"/></asset>
 <worldbody>
-  <geom type="plane" size="1 1 1" friction="0.5 0.02 0.0001"/>
+  <geom type="plane" size="1 1 1" friction="0.5 0.003 0.0001"/>
   <body name="palm" pos="0.02 -0.011 0.175">
     <joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>
     <joint name="z" type="slide" axis="0 0 1"/>
     <joint name="rx" axis="1 0 0"/><joint name="ry" axis="0 1 0"/><joint name="rz" axis="0 0 1"/>
     <inertial pos="0 0 0" mass="0.6" diaginertia="1.2e-3 4e-4 1.2e-3"/>
     <body name="left" pos="0 0.0415 -0.075"><joint name="left" type="slide" axis="0 1 0"/>
-      <geom type="box" size="0.012 0.006 0.06" mass="0.1"/></body>
+      <geom type="box" size="0.012 0.006 0.06" mass="0.1" friction="0.6 0.003 0.0001"/></body>
     <body name="right" pos="0 -0.0415 -0.075"><joint name="right" type="slide" axis="0 -1 0"/>
-      <geom type="box" size="0.012 0.006 0.06" mass="0.1"/></body>
+      <geom type="box" size="0.012 0.006 0.06" mass="0.1" friction="0.6 0.003 0.0001"/></body>
   </body>
   <body name="bunny"><freejoint/><geom type="mesh" mesh="bunny" mass="0.2"/></body>
 </worldbody>

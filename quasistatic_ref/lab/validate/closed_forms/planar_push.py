@@ -157,7 +157,7 @@ CLAIM = Claim(
     sentence="A slider pushed on the plane moves along the normal of its ellipsoidal limit "
     "surface: as Lynch, Maekawa and Tanie say while the quasi-dynamic number Pi is small, and at "
     "any Pi with their c^2 replaced by (c^2 + Pi rho^2) / (1 + Pi).",
-    where="docs/derivations.md (R28); Lynch, Maekawa & Tanie (1992)",
+    where="docs/derivations.md (R28), in the ellipsoid; Lynch, Maekawa & Tanie (1992)",
     sweep="four points, two directions, two mu_v, two mu_omega / mu_v, two Pi, from the floor and "
     "in steady motion, with a pusher that sticks and one without friction; the limit from 16 more "
     "pushes at four Pi; turns at nine Pi for three mu_omega / mu_v",
