@@ -109,6 +109,11 @@ RESULTS = (
         ("validation/results/exact_everywhere.txt",),
     ),
     Result(
+        "same_bits",
+        ("validation.same_bits", "--out", "validation/results/same_bits.json"),
+        ("validation/results/same_bits.json",),
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),
