@@ -11,8 +11,8 @@ from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Contacts, StepData
-from validation.random_steps import grasp_step
 
 X, Y, Z = np.eye(3)
 ULP = 2.0**-52

@@ -8,9 +8,9 @@ import pytest
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.data import Contacts, Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
-from tests.helpers import no_contacts
 
 
 def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.simulator import Simulator, StepResult

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import GRAVITY, exact, grid, point_step
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.rigid import point_step
+from quasistatic_ref.lab.scenes.systems import (
     link_text,
     robot_text,
     simulator_of,
     steps_of,
     system_of,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 STEPS = 10

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import contacts_of, exact, grid
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import exact, grid
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
@@ -19,9 +20,9 @@ def free_evidence() -> Evidence:
             B = rng.normal(size=(n_a, n_a))
             K_q = 500 * (B @ B.T / n_a + np.eye(n_a))
             tau_a, target = rng.normal(size=n_a), 1e-3 * rng.normal(size=n_a)
-            none, no_contact = np.zeros(0), contacts_of((), (), np.zeros((0, 4, n_a)), ())
+            none = np.zeros(0)
             h = float(rng.choice([1e-3, 1e-2, 1e-1]))
-            step = StepData(h, K_q, np.zeros((0, 0)), tau_a, none, target, no_contact)
+            step = StepData(h, K_q, np.zeros((0, 0)), tau_a, none, target, no_contacts(n_a))
             moved.append(exact(step).delta_q)
             wanted.append(target)
             sagged.append(np.linalg.solve(step.K_q, tau_a))

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY, grid
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
     cloud_on,
     joint_text,
     link_text,
@@ -18,6 +17,8 @@ from quasistatic_ref.lab.validate.scenes import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.model.shapes import Box, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM

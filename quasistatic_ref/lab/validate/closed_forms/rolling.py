@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import grid
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.systems import (
     link_text,
     on_link,
     robot_text,
@@ -16,6 +14,8 @@ from quasistatic_ref.lab.validate.scenes import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -10,9 +10,8 @@ from qpsolvers import solve_qp
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
     joint_text,
     link_text,
     on_link,
@@ -21,6 +20,7 @@ from quasistatic_ref.lab.validate.scenes import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
 from quasistatic_ref.model.shapes import Box, Sphere
 from quasistatic_ref.step.data import Array
 

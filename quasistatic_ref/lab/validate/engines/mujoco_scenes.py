@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.scenes import joint_text, link_text, robot_text, system_of
+from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
