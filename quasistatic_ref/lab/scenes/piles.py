@@ -7,13 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.scenes.systems import (
-    link_text,
-    on_link,
-    robot_text,
-    system_of,
-    world_plane,
-)
+from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of, world_plane
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
@@ -37,7 +31,7 @@ motions that contradict each other."""
 PUSH = 3.0
 """Force on the first body for each there is [N]; friction with the floor holds 2.45 N of it."""
 
-BOX = robot_text(link_text("box", 0.5, (2.1e-4,) * 3, f'<box size="{SIDE} {SIDE} {SIDE}"/>'))
+BOX = body_text(0.5, (2.1e-4,) * 3, f'<box size="{SIDE} {SIDE} {SIDE}"/>')
 
 
 @dataclass(frozen=True, eq=False)

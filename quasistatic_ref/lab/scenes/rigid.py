@@ -1,4 +1,4 @@
-"""Steps of one free body against fixed surfaces, without a robotics stack.
+"""Steps of one kind of coordinates, and of one free body against fixed surfaces.
 
 The coordinates of a body are its twist at the centre of mass, axes along the world's.
 """
@@ -16,6 +16,14 @@ def free_step(M: ArrayLike, force: ArrayLike, contacts: Contacts, h: float) -> S
     """A step without anything actuated."""
     none = np.zeros(0)
     return StepData(h, np.zeros((0, 0)), np.asarray(M), none, np.asarray(force), none, contacts)
+
+
+def actuated_step(
+    K_q: ArrayLike, tau_a: ArrayLike, delta_q_bar_a: ArrayLike, contacts: Contacts, h: float
+) -> StepData:
+    """A step with nothing but actuated coordinates."""
+    K_q, tau_a, target = (np.asarray(x, dtype=np.float64) for x in (K_q, tau_a, delta_q_bar_a))
+    return StepData(h, K_q, np.zeros((0, 0)), tau_a, np.zeros(0), target, contacts)
 
 
 def rigid_step(

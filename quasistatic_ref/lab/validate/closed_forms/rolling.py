@@ -6,9 +6,8 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import (
-    link_text,
+    body_text,
     on_link,
-    robot_text,
     simulator_of,
     steps_of,
     system_of,
@@ -26,7 +25,7 @@ def evidence() -> Evidence:
     """Forces along several directions; every step against the one before it."""
     turned, wanted, heights, dips, closed, ahead, along = [], [], [], [], [], [], []
     for force, azimuth, h in grid([0.05, 0.3, 1.0], [0.0, 0.7, 2.5], [0.01, 0.03]):
-        text = robot_text(link_text("ball", M, (INERTIA,) * 3))
+        text = body_text(M, (INERTIA,) * 3)
         system = system_of({"ball": text}, ball={"xyz": (0.1, -0.2, RADIUS)})
         ball = on_link(system, "ball", Sphere(RADIUS))
         pair = ContactPair("floor", world_plane(), ball, MU_V, 0.0, 4, 1)
