@@ -13,7 +13,7 @@ JUDGE = "daqp"
 
 
 def changed(contacts, **changes):
-    """A copy of contacts with some fields changed, validated anew."""
+    """A copy of contacts with some fields changed, checked as any other."""
     return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
 
 
