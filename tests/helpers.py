@@ -1,53 +1,20 @@
-"""Builders of steps, and the one definition of error, written without the package's formulas."""
+"""Steps of tests, and the one definition of error, written without the package's formulas."""
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
+from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.step.data import Contacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp")
 ROADS = (*REQUIRED, *(f"qpsolvers:{name}" for name in (*REQUIRED, "daqp")))
 JUDGE = "daqp"
-X, Y, Z = np.eye(3)
-
-
-def cross_matrix(r):
-    """[r]x, so that [r]x @ a = r x a."""
-    return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
-
-
-def contacts_of(phi, frames, J, mu_v, mu_omega, rows):
-    """Contacts from frames [d1, d2, n], each 3 x 3 with these as its rows."""
-    n_c = len(rows)
-    frames = np.reshape(frames, (n_c, 3, 3))
-    return Contacts(
-        name=tuple(f"c{j}" for j in range(n_c)),
-        phi=np.broadcast_to(phi, n_c),
-        n=frames[:, 2],
-        d1=frames[:, 0],
-        d2=frames[:, 1],
-        J=J,
-        mu_v=np.broadcast_to(mu_v, n_c),
-        mu_omega=np.broadcast_to(mu_omega, n_c),
-        rows=np.array(rows, dtype=int),
-    )
-
-
-def no_contacts(n_v):
-    """No contact at all."""
-    return contacts_of(0.0, np.zeros((0, 3, 3)), np.zeros((0, 4, n_v)), 0.0, 0.0, ())
 
 
 def changed(contacts, **changes):
-    """A copy of contacts with some fields changed, validated anew."""
-    names = ("name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-    return Contacts(**{name: getattr(contacts, name) for name in names} | changes)
-
-
-def reordered(contacts, order):
-    """The contacts numbered in `order`, which may repeat some and drop others."""
-    names = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-    picked = {name: getattr(contacts, name)[list(order)] for name in names}
-    return Contacts(name=tuple(f"c{j}" for j in range(len(order))), **picked)
+    """A copy of contacts with some fields changed, checked as any other."""
+    return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
 
 
 def random_frame(rng):
@@ -130,17 +97,7 @@ def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
 
 def point_on_floor(m=0.3, mu_v=0.5, phi=0.0, force=(0.0, 0.0, 0.0), h=0.01):
     """A point mass above a floor z = 0; delta_q is its displacement."""
-    J = np.zeros((1, 4, 3))
-    J[0, :3] = np.eye(3)
-    return StepData(
-        h=h,
-        K_q=np.zeros((0, 0)),
-        M_u=m * np.eye(3),
-        tau_a=(),
-        tau_u=force,
-        delta_q_bar_a=(),
-        contacts=contacts_of(phi, np.eye(3), J, mu_v, 0.0, (4,)),
-    )
+    return point_step(m, force, mu_v, phi, h)
 
 
 def sphere_on_floor(
@@ -155,47 +112,14 @@ def sphere_on_floor(
     rows=6,
 ):
     """A sphere above a floor z = 0; delta_q is its twist at the centre, wrench its load."""
-    J = np.zeros((1, 4, 6))
-    J[0, :3, :3] = np.eye(3)
-    J[0, :3, 3:] = -cross_matrix(-radius * Z)  # omega x r = -[r]x omega
-    J[0, 3, 3:] = Z
-    return StepData(
-        h=h,
-        K_q=np.zeros((0, 0)),
-        M_u=np.diag([m, m, m, inertia, inertia, inertia]),
-        tau_a=(),
-        tau_u=wrench,
-        delta_q_bar_a=(),
-        contacts=contacts_of(phi, np.eye(3), J, mu_v, mu_omega, (rows,)),
+    return sphere_step(
+        m, inertia, radius, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=phi, h=h, rows=rows
     )
 
 
 def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02, stiffness=1000.0, h=0.01):
-    """A bar held by two fingers on the axis x, `offset` [m] along y from its centre of mass.
-
-    q_a: how far the left finger (along +x) and the right one (along -x) have closed, touching;
-    delta_q_bar_a = grip / stiffness presses each with `grip` [N]. q_u: the bar's twist at its
-    centre. Gravity pulls along -z, a pyramid axis of both contacts.
-    """
-    half_width = 0.03
-    frames, J = [], np.zeros((2, 4, 8))
-    for j, side in enumerate((1.0, -1.0)):
-        n = side * X
-        r = np.array([-side * half_width, offset, 0.0])
-        frames.append([Y, np.cross(n, Y), n])
-        J[j, :3, j] = -n
-        J[j, :3, 2:5] = np.eye(3)
-        J[j, :3, 5:] = -cross_matrix(r)
-        J[j, 3, 5:] = n
-    return StepData(
-        h=h,
-        K_q=stiffness * np.eye(2),
-        M_u=np.diag([m, m, m, 1e-4, 1e-4, 1e-4]),
-        tau_a=np.zeros(2),
-        tau_u=[0.0, 0.0, -9.81 * m, 0.0, 0.0, 0.0],
-        delta_q_bar_a=[grip / stiffness, grip / stiffness],
-        contacts=contacts_of(0.0, frames, J, mu_v, mu_omega, (6, 6)),
-    )
+    """A bar held by two fingers on the axis x, `offset` [m] along y from its centre of mass."""
+    return pinch_step(grip, offset, mu_v, mu_omega, m=m, stiffness=stiffness, h=h)
 
 
 def hessian(step):

@@ -25,13 +25,13 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.ask import backend_answer
 from quasistatic_ref.solve.units import natural_units, to_natural
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
-from validation.random_steps import grasp_step
 
 GRASP = "bunny_grasp, 13 x 80"
 FAMILIES = {

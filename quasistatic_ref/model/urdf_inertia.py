@@ -106,8 +106,6 @@ def _refusal(link: str, defect: tuple[str, str, object]) -> ModelError:
 
 def _spatial_inertia(link: FileLink) -> Array:
     """(6, 6) about the link's frame, linear part first."""
-    x, y, z = link.com
-    c = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    m = link.mass
+    m, c = link.mass, pin.skew(link.com)
     top, bottom = np.hstack([m * np.eye(3), -m * c]), np.hstack([m * c, link.inertia - m * c @ c])
     return np.vstack([top, bottom])

@@ -141,8 +141,7 @@ def link_poses(
 
 def turn(axis: Array, angle: float) -> Array:
     """Rotation (3, 3) by an angle [rad] about a unit axis (3,), by Rodrigues' formula."""
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    cross = np.cross(axis, np.eye(3)).T  # [axis x]
     R: Array = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
     return R
 

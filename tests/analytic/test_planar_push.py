@@ -7,7 +7,7 @@ is held against what it has to satisfy, and steps against laws that do not need 
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.validate.slider import push, push_step, sliding_motion, sticking_motion
+from quasistatic_ref.lab.scenes.slider import push, push_step, sliding_motion, sticking_motion
 from quasistatic_ref.solve.solve import solve_step
 from tests.tolerances import ROUNDING
 

@@ -19,6 +19,7 @@ ROOMS = (
     "figures",
     "cli",
     "lab/grasp",
+    "lab/scenes",
     "lab/vectors",
     "lab/study",
     "lab/validate",
@@ -41,6 +42,18 @@ WALLS = {
     "meshcat": ("figures",),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
     "flint": ("certify", "lab/vectors"),
+}
+
+# What a room may not import although it comes before: figures draw what they are given.
+CLOSED = {
+    "figures": (
+        "solve",
+        "certify",
+        "contact",
+        "simulate/simulator",
+        "step/data/StepData",
+        "step/data/Contacts",
+    ),
 }
 
 DYNAMIC = ("import_module", "__import__")
@@ -95,6 +108,12 @@ def names_of_the_lab(tree):
             yield node.lineno
 
 
+def closed_to(room, parts):
+    """Whether a room may not import a name, from the name's parts below the package."""
+    path = "/".join(parts) + "/"
+    return any(path.startswith(place + "/") for place in CLOSED.get(room, ()))
+
+
 def violations(root: Path, rooms=ROOMS, walls=WALLS):
     """Sentences, one for each import that crosses a wall."""
     found = []
@@ -124,6 +143,8 @@ def violations(root: Path, rooms=ROOMS, walls=WALLS):
                     found.append(f"{inside}:{line}: imports {name}, which is no room")
                 elif own is None or rooms.index(room) > rooms.index(own):
                     found.append(f"{inside}:{line}: imports {name} from a later room")
+                elif closed_to(own, rest):
+                    found.append(f"{inside}:{line}: imports {name}, which is closed to {own}")
             elif top in walls and not any(
                 inside.as_posix() == place or own == place for place in walls[top]
             ):

@@ -40,6 +40,11 @@ PLANTED = {
         "from quasistatic_ref.lab.validate import claim",
         "later room",
     ),
+    "vectors in the scenes": (
+        "lab/scenes/a.py",
+        "from quasistatic_ref.lab.vectors import files",
+        "later room",
+    ),
     "an unknown room of the lab": ("lab/attic/a.py", "x = 1", "not a room"),
     "an unknown room": ("attic/a.py", "x = 1", "not a room"),
     "from an unknown room": ("step/a.py", "import quasistatic_ref.attic", "no room"),
@@ -50,6 +55,21 @@ PLANTED = {
     "pinocchio in contact": ("contact/a.py", "import pinocchio as pin", "imports pinocchio"),
     "coal in simulate": ("simulate/a.py", "import coal", "imports coal"),
     "matplotlib in cli": ("cli/a.py", "import matplotlib.pyplot as plt", "imports matplotlib"),
+    "a solver in figures": (
+        "figures/a.py",
+        "from quasistatic_ref.solve.solve import solve_step",
+        "closed to figures",
+    ),
+    "the simulator in figures": (
+        "figures/a.py",
+        "from quasistatic_ref.simulate.simulator import Simulator",
+        "closed to figures",
+    ),
+    "a step in figures": (
+        "figures/a.py",
+        "from quasistatic_ref.step.data import StepData",
+        "closed to figures",
+    ),
     "flint in solve": ("solve/a.py", "from flint import fmpq", "imports flint"),
 }
 
@@ -61,6 +81,14 @@ ALLOWED = {
     "coal in contact": ("contact/a.py", "import coal"),
     "the core in the lab": ("lab/study/a.py", "from quasistatic_ref.solve import solve"),
     "the lab's name in the door": ("cli/main.py", "x = 'quasistatic_ref.lab.commands'"),
+    "a run in figures": (
+        "figures/a.py",
+        "from quasistatic_ref.simulate.trajectory import Trajectory",
+    ),
+    "scenes in the vectors": (
+        "lab/vectors/a.py",
+        "from quasistatic_ref.lab.scenes.grasps import grasp_step",
+    ),
     "flint in the vectors": ("lab/vectors/a.py", "from flint import fmpq"),
     "for a type checker": (
         "errors.py",

@@ -11,12 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.scenes import link_text, robot_text, system_of
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.systems import link_text, robot_text, system_of
 from quasistatic_ref.model.shapes import Box, HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import changed, random_frame, random_step, reordered
+from tests.helpers import changed, random_frame, random_step
 from tests.tolerances import EXACT, SCENE
 
 GAP = 1e-4
@@ -173,7 +174,7 @@ def test_contacts_given_twice_and_in_another_order_leave_the_same_bits(seed):
     _, result = answer(numbers(rng))
     n_c = result.step.contacts.n_c
     again = [*rng.permutation(n_c), *rng.permutation(n_c)[:2]]
-    twice = result.step.replace(contacts=reordered(result.step.contacts, again))
+    twice = result.step.replace(contacts=repeated(result.step.contacts, again))
     delta_q = solve_step(twice, "none").delta_q
     np.testing.assert_allclose(delta_q, result.solution.delta_q, rtol=EXACT, atol=EXACT)
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.slabs import slab_step
 from quasistatic_ref.lab.study.families.made import Made
-from quasistatic_ref.lab.study.families.slab import slab_step
 
 FAKES = '''
 import ctypes, os, signal

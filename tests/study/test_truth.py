@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.bound import enclosed_answer
+from quasistatic_ref.lab.scenes.slabs import tower_step
 from quasistatic_ref.lab.study import truth
 from quasistatic_ref.lab.study.ask import NEAR, neighbour
-from quasistatic_ref.lab.study.families.tower import tower_step
 from quasistatic_ref.lab.study.grade import exam, grades
 from quasistatic_ref.lab.study.qp import condition, in_units, units_of
 from quasistatic_ref.lab.study.truth import NoAnswer, answer_of

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve import solve as solve_module
 from quasistatic_ref.solve.backends import BACKENDS, DEFAULT, backend, installed_backends
@@ -21,7 +22,6 @@ from tests.helpers import (
     planted_step,
     point_on_floor,
     random_step,
-    reordered,
 )
 from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM
 
@@ -40,7 +40,7 @@ SHAPES = [
 def opposing_walls():
     """A point 1 mm deep in a floor and 1 mm deep in a ceiling: no delta_q is feasible."""
     step = point_on_floor(phi=-1e-3)
-    walls = reordered(step.contacts, [0, 0])
+    walls = repeated(step.contacts, [0, 0])
     n, d2 = walls.n.copy(), walls.d2.copy()
     n[1], d2[1] = -n[1], -d2[1]
     return step.replace(contacts=changed(walls, n=n, d2=d2, mu_v=[0.0, 0.0]))
@@ -112,7 +112,7 @@ def test_a_step_gives_the_same_bits_whatever_was_solved_before(road):
 @pytest.mark.parametrize("far", [0.01, 1.0, 10.0, 1e4])
 def test_a_contact_far_away_does_not_spoil_the_answer(backend_name, far, rng):
     step, delta_q, _ = planted_step(rng, 3, 4, (6, 4))
-    contacts = reordered(step.contacts, [0, 1, 1])
+    contacts = repeated(step.contacts, [0, 1, 1])
     contacts = changed(contacts, phi=[*step.contacts.phi, far])
     answer = solve_step(step.replace(contacts=contacts), backend_name)
     np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)

@@ -5,10 +5,10 @@ import pytest
 
 from quasistatic_ref.certify.bound import error_bound, opening_direction
 from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.unit.test_farkas import EAST, point_between_walls
-from validation.random_steps import grasp_step
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-14, 1e-9, 1e-4, 1.0, 10.0])

@@ -8,11 +8,11 @@ import pytest
 from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import Certificate
 from tests.helpers import point_on_floor
 from tests.unit.test_exact import resting_point
-from validation.random_steps import grasp_step
 
 
 @pytest.fixture(scope="module")

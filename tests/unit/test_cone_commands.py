@@ -7,10 +7,10 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.figures.cones import bar_step, limit_surfaces, pinch_thresholds
+from quasistatic_ref.figures.cones import limit_surfaces
+from quasistatic_ref.lab.examples import pinch_threshold
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.files import step_read, step_written
 from tests.helpers import pinch
 from tests.scenes import written_scenario
@@ -92,7 +92,7 @@ def test_the_figure_of_limit_surfaces_shows_each_with_its_name():
 
 
 def test_the_figure_of_the_pinch_draws_the_thresholds_and_no_step_against_them():
-    figure = pinch_thresholds(offsets=4)
+    figure = pinch_threshold.figure(offsets=4)
     (axes,) = figure.axes
     lines = [line for line in axes.lines if line.get_linestyle() != "None"]
     d, slide = np.linspace(0, 0.06, 4), 0.2 * 9.81 / (2 * 0.5)
@@ -110,11 +110,3 @@ def test_the_figure_of_the_pinch_draws_the_thresholds_and_no_step_against_them()
     # Two kinds of mark for each cone, and a mark only where the step does what the line says.
     assert [len(mark.get_ydata()) for mark in marks] == [4] * 6
     plt.close(figure)
-
-
-def test_the_bar_of_the_figure_is_the_one_of_the_tests():
-    ours, theirs = bar_step(0.2, 5.0, 0.2, 0.5, 0.02), pinch(grip=5.0, offset=0.2)
-    for name in ("pyramid", "product"):
-        one, two = (solve_step(step.replace(cone=name)).delta_q for step in (ours, theirs))
-        np.testing.assert_allclose(one, two, rtol=ROUNDING, atol=1e-18)
-    assert cone(ours.cone).polyhedral

@@ -7,10 +7,10 @@ import pytest
 
 from quasistatic_ref.certify.digits import correct_digits, digits_of_error
 from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.unit.test_farkas import EAST, point_between_walls
-from validation.random_steps import grasp_step
 
 HALF_DIGIT = 0.5
 """Rounding in the norms moves a digit count by far less."""

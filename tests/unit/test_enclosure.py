@@ -12,13 +12,14 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.optimality import ellipsoid_residuals
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution_files import solution_read, solution_text
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import (
-    contacts_of,
     error,
     pinch,
     planted_step,
@@ -27,7 +28,6 @@ from tests.helpers import (
     sphere_on_floor,
 )
 from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
-from validation.random_steps import grasp_step
 
 CONED = ("clarabel", "scs")
 

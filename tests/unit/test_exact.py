@@ -11,10 +11,10 @@ from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.data import Contacts, StepData
-from validation.random_steps import grasp_step
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
 
-X, Y, Z = np.eye(3)
 ULP = 2.0**-52
 LEAST = 5e-324
 
@@ -23,25 +23,11 @@ def resting_point(
     tau_x=0.0, weight=2.0, phi=0.0, mu_v=0.5, mu_omega=0.25, contacts=1, mass=1.0, h=0.5
 ):
     """A body that moves along x, y, z and turns about z, on a floor below it, J = I."""
-    return StepData(
-        h=h,
-        K_q=np.zeros((0, 0)),
-        M_u=mass * np.eye(4),
-        tau_a=[],
-        tau_u=[tau_x, 0.0, -weight, 0.0],
-        delta_q_bar_a=[],
-        contacts=Contacts(
-            name=tuple(f"c{j}" for j in range(contacts)),
-            phi=np.full(contacts, phi),
-            n=np.tile(Z, (contacts, 1)),
-            d1=np.tile(X, (contacts, 1)),
-            d2=np.tile(Y, (contacts, 1)),
-            J=np.tile(np.eye(4), (contacts, 1, 1)),
-            mu_v=np.full(contacts, mu_v),
-            mu_omega=np.full(contacts, mu_omega),
-            rows=np.full(contacts, 6),
-        ),
+    each = (contacts, 1, 1)
+    at = contacts_of(
+        phi, np.tile(np.eye(3), each), np.tile(np.eye(4), each), mu_v, mu_omega, rows=6
     )
+    return free_step(mass * np.eye(4), [tau_x, 0.0, -weight, 0.0], at, h)
 
 
 @pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])

@@ -8,36 +8,17 @@ import pytest
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
-from quasistatic_ref.step.data import Contacts, Extra, StepData
+from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
-from tests.helpers import no_contacts
 
 
 def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
     """A point mass of 1 kg, free along x, y, z, between frictionless walls."""
     n = np.array(normals)
-    d1 = np.cross(n, [0.0, 0.0, 1.0])
-    J = np.zeros((len(n), 4, 3))
-    J[:, :3] = np.eye(3)
-    return StepData(
-        h=0.01,
-        K_q=np.zeros((0, 0)),
-        M_u=np.eye(3),
-        tau_a=[],
-        tau_u=force,
-        delta_q_bar_a=[],
-        contacts=Contacts(
-            name=tuple(f"wall/{j}" for j in range(len(n))),
-            phi=np.broadcast_to(phi, len(n)),
-            n=n,
-            d1=d1,
-            d2=np.cross(n, d1),
-            J=J,
-            mu_v=np.zeros(len(n)),
-            mu_omega=np.zeros(len(n)),
-            rows=np.full(len(n), 4),
-        ),
-    )
+    J = np.tile(np.eye(4, 3), (len(n), 1, 1))
+    return free_step(np.eye(3), force, contacts_of(phi, frames_about(n, -Z), J, 0.0), 0.01)
 
 
 EAST, NORTH = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]
@@ -53,9 +34,9 @@ def test_walls_that_overlap_are_infeasible_and_named():
     assert isinstance(error, StepNotSolved)
     assert error.step is step
     assert error.status == "infeasible"
-    assert set(error.farkas.owners) == {"wall/1", "wall/2"}
-    assert "wall/1" in str(error)
-    assert "wall/2" in str(error)
+    assert set(error.farkas.owners) == {"c1", "c2"}
+    assert "c1" in str(error)
+    assert "c2" in str(error)
     assert "contradict" in str(error)
     y = [F(text) for text in error.farkas.exact]
     assert max(y) == 1

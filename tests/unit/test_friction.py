@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.friction import contact_wrenches, friction_rows, pyramid
-from tests.helpers import changed, no_contacts, random_step
+from tests.helpers import changed, random_step
 from tests.tolerances import ROUNDING
 
 

@@ -3,12 +3,13 @@
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
 from quasistatic_ref.lab.validate.engines import mujoco_rows
 from quasistatic_ref.lab.validate.engines.mujoco_rows import rows_of, tangent_map
 from quasistatic_ref.lab.validate.engines.mujoco_scenes import heap
 from quasistatic_ref.step.friction import friction_rows
-from tests.helpers import changed, contacts_of, random_frame
+from tests.helpers import changed, random_frame
 from tests.tolerances import ROUNDING
 
 

@@ -8,11 +8,11 @@ from quasistatic_ref.certify.optimality import (
     ellipsoid_residuals,
     optimality_residuals,
 )
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.data import Extra
 from tests.helpers import (
     changed,
     contact_row,
-    no_contacts,
     planted_step,
     random_step,
     sphere_on_floor,

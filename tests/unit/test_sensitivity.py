@@ -17,10 +17,17 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.sensitivity import sensitivity
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.solve.solve import solve_step
-from tests.helpers import changed, pinch, point_on_floor, random_step, reordered, sphere_on_floor
+from tests.helpers import (
+    changed,
+    pinch,
+    point_on_floor,
+    random_step,
+    sphere_on_floor,
+)
 from tests.tolerances import EXACT, ROUNDING
-from validation.random_steps import random_step as any_step
+from validation.random_steps import any_step
 
 WAYS = ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 TINY = F(1, 2**80)
@@ -166,7 +173,7 @@ def test_a_sliding_point_has_the_derivatives_of_its_closed_form():
 
 def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative_but_forces_do():
     step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
-    step = step.replace(contacts=reordered(step.contacts, [0, 0]))
+    step = step.replace(contacts=repeated(step.contacts, [0, 0]))
     found = found_at(step)
     assert set(found.why_not) == {"phi[c0]", "phi[c1]"}
     assert found.why_not["phi[c0]"] == "the equations of c0 and c1 would contradict each other"
@@ -191,7 +198,7 @@ def test_exactly_at_the_limit_of_friction_a_push_has_no_derivative_but_far_thing
     # mu W = 1.5 exactly: rows stick without using all of their share.
     step = point_on_floor(0.3, 0.5, force=(1.5, 0.0, -3.0))
     far = changed(step.contacts, phi=[1.0])
-    both = reordered(step.contacts, [0, 0])
+    both = repeated(step.contacts, [0, 0])
     step = step.replace(contacts=changed(both, phi=[0.0, float(far.phi[0])]))
     found = found_at(step)
     assert "tau_u[0]" in found.why_not

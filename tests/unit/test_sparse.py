@@ -9,9 +9,9 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
-from quasistatic_ref.lab.study import piles
+from quasistatic_ref.lab.scenes import piles
+from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.large import exponent, large_step, table
-from quasistatic_ref.lab.study.piles import pile
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.scenario import load_scenario

@@ -9,6 +9,7 @@ import pytest
 
 from quasistatic_ref.certify.optimality import Residuals
 from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.files import (
@@ -19,7 +20,7 @@ from quasistatic_ref.step.files import (
     step_written,
 )
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
-from tests.helpers import no_contacts, point_on_floor, random_step
+from tests.helpers import point_on_floor, random_step
 from tests.tolerances import EXACT
 
 RNG = np.random.default_rng(11)

@@ -5,9 +5,9 @@ import pytest
 
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.standard_form import standard_form
 from tests.unit.test_exact import resting_point
-from validation.random_steps import grasp_step
 
 
 def test_open_rows_are_left_out_and_the_most_pressed_comes_first():

@@ -15,7 +15,8 @@ import numpy as np
 
 from quasistatic_ref.figures import draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, ran, script
-from quasistatic_ref.lab.validate.bodies import GRAVITY, Z, rigid_step
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
+from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 

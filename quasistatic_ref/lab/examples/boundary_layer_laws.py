@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.figures import panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
-from quasistatic_ref.lab.validate.bodies import slope
+from quasistatic_ref.lab.validate.measures import slope
 from quasistatic_ref.lab.validate.paper.boundary_layer import LIMIT, layer_at_rate, layer_at_torque
 from quasistatic_ref.step.data import Array
 

@@ -15,8 +15,8 @@ import numpy as np
 from quasistatic_ref.figures import styled
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.scenes.slider import GYRATION, H
 from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
-from quasistatic_ref.lab.validate.slider import GYRATION, H
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:

@@ -15,7 +15,8 @@ import numpy as np
 
 from quasistatic_ref.figures import panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
-from quasistatic_ref.lab.validate.bodies import GRAVITY, sphere_step
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form

@@ -17,8 +17,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_written, written_whole
 from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
 from quasistatic_ref.lab.study.families.made import Made
-from quasistatic_ref.lab.study.families.slab import scaled
-from quasistatic_ref.lab.study.families.tower import towers
+from quasistatic_ref.lab.study.families.scaled import slabs, towers
 from quasistatic_ref.lab.study.qp import Answer, Facts, Problem, condition, in_units, units_of
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.truth import answer_of
@@ -42,11 +41,11 @@ def made(test_set: TestSet) -> Iterator[Made]:
     share = _shares(count["scenarios"], len(names))
     yield from chain.from_iterable(harvested(n, c) for n, c in zip(names, share, strict=True) if c)
     if n := count["contacts"]:
-        yield from scaled("contacts", "contacts", _scale(1, MOST_CONTACTS, n).round(), seed)
+        yield from slabs("contacts", "contacts", _scale(1, MOST_CONTACTS, n).round(), seed)
     if n := count["mass_ratio"]:
-        yield from scaled("mass_ratio", "ratio", _scale(1, MOST_RATIO, n), seed)
+        yield from slabs("mass_ratio", "ratio", _scale(1, MOST_RATIO, n), seed)
     if n := count["time_step"]:
-        yield from scaled("time_step", "h", _scale(TIME_STEPS[0], TIME_STEPS[-1], -(-n // 2)), seed)
+        yield from slabs("time_step", "h", _scale(TIME_STEPS[0], TIME_STEPS[-1], -(-n // 2)), seed)
         share = _shares(n // 2, len(TIME_STEPS))
         for i, (h, c) in enumerate(zip(TIME_STEPS, share, strict=True)):
             yield from asked_again("time_step", AGAIN, [f"h={h}"], c, i)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import contacts_of, exact, free_step, twist_jacobian
+from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.validate.measures import exact
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
@@ -15,8 +17,8 @@ M, INERTIA, RADIUS, H = (0.3, 0.5), (2e-4, 4e-4), (0.03, 0.04), 0.01
 def pressed(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) -> StepData:
     """Two balls, pressed together and sheared by opposite forces at their centres."""
     J = np.zeros((1, 4, 12))
-    J[0, :, :6] = -twist_jacobian(RADIUS[0] * n, n)  # alpha
-    J[0, :, 6:] = twist_jacobian(-RADIUS[1] * n, n)  # beta
+    J[0, :, :6] = -point_jacobian(RADIUS[0] * n, n)  # alpha
+    J[0, :, 6:] = point_jacobian(-RADIUS[1] * n, n)  # beta
     moments = np.repeat(np.stack([M, INERTIA], axis=1), 3, axis=1).ravel()
     load = np.concatenate([force, np.zeros(3), -force, np.zeros(3)])
     contact = contacts_of(phi, [[d1, np.cross(n, d1), n]], J, 0.6, 0.01, rows=6)

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import GRAVITY, exact, grid, point_step
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.rigid import point_step
+from quasistatic_ref.lab.scenes.systems import body_text, simulator_of, steps_of, system_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
-    link_text,
-    robot_text,
-    simulator_of,
-    steps_of,
-    system_of,
-)
+from quasistatic_ref.lab.validate.measures import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 STEPS = 10
@@ -25,9 +21,7 @@ def fall_evidence() -> Evidence:
     for h in (1e-3, 1e-2, 1e-1):
         for _ in range(4):
             com, rpy = rng.uniform(-0.1, 0.1, 3), tuple(rng.uniform(-1.5, 1.5, 3))
-            text = robot_text(
-                link_text("body", float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com)
-            )
+            text = body_text(float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com)
             system = system_of({"body": text}, body={"rpy": rpy})
             results = steps_of(simulator_of(system, (), h), STEPS)
             q = np.array([r.q for r in results])

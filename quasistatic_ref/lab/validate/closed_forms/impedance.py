@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import contacts_of, exact, grid
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.lab.validate.measures import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 
@@ -19,9 +20,8 @@ def free_evidence() -> Evidence:
             B = rng.normal(size=(n_a, n_a))
             K_q = 500 * (B @ B.T / n_a + np.eye(n_a))
             tau_a, target = rng.normal(size=n_a), 1e-3 * rng.normal(size=n_a)
-            none, no_contact = np.zeros(0), contacts_of((), (), np.zeros((0, 4, n_a)), ())
             h = float(rng.choice([1e-3, 1e-2, 1e-1]))
-            step = StepData(h, K_q, np.zeros((0, 0)), tau_a, none, target, no_contact)
+            step = actuated_step(K_q, tau_a, target, no_contacts(n_a), h)
             moved.append(exact(step).delta_q)
             wanted.append(target)
             sagged.append(np.linalg.solve(step.K_q, tau_a))
@@ -38,12 +38,8 @@ def pressed_evidence() -> Evidence:
         J = np.zeros((1, 4, 1))
         J[0, 0, 0] = -1.0  # towards the wall, along -n
         frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-        none, target = np.zeros(0), np.array([phi + beyond])
         wall = contacts_of(phi, frame, J, 0.5)
-        step = StepData(
-            0.01, np.array([[K]]), np.zeros((0, 0)), np.array([tau]), none, target, wall
-        )
-        answer = exact(step)
+        answer = exact(actuated_step([[K]], [tau], [phi + beyond], wall, 0.01))
         load = K * beyond + tau
         moved.append(answer.delta_q[0])
         gaps.append(phi + min(load, 0.0) / K)

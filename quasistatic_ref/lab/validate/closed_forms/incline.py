@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY, grid
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
+    body_text,
     cloud_on,
-    link_text,
-    robot_text,
     simulator_of,
     steps_of,
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.simulate.simulator import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
@@ -31,7 +31,7 @@ def block_steps(slope: float, mu_v: float, c: float, steps: int) -> list[StepRes
     inertia = (M / 3 * (WIDTH**2 + c**2), M / 3 * (L**2 + c**2), M / 3 * (L**2 + WIDTH**2))
     normal = np.array([np.sin(slope), 0.0, np.cos(slope)])
     start = {"rpy": (0.0, slope, 0.0), "xyz": tuple(c * normal)}
-    system = system_of({"block": robot_text(link_text("block", M, inertia))}, block=start)
+    system = system_of({"block": body_text(M, inertia)}, block=start)
     corners = cloud_on(system, "block", grid([-L, L], [-WIDTH, WIDTH], [-c]))
     pair = ContactPair("base", world_plane(normal), corners, mu_v, 0.0, 4, 4)
     return steps_of(simulator_of(system, (pair,), H), steps)

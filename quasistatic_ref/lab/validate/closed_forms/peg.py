@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import X, Y, Z, exact, grid, rigid_step, threshold
+from quasistatic_ref.lab.scenes.contacts import X, Y, Z
+from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.validate.measures import exact, grid, threshold
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 

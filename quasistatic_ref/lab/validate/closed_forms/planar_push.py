@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import exact, grid, slope
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.validate.slider import (
+from quasistatic_ref.lab.scenes.slider import (
     GYRATION,
     STIFFNESS,
     H,
@@ -18,6 +16,8 @@ from quasistatic_ref.lab.validate.slider import (
     sticking_motion,
     turned,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.lab.validate.measures import exact, grid, slope
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CLOSED_FORM, FITTED

@@ -5,19 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY, grid
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
+    RAIL,
+    body_text,
     cloud_on,
-    joint_text,
-    link_text,
     on_link,
-    robot_text,
     simulator_of,
     steps_of,
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.model.shapes import Box, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
@@ -26,19 +26,14 @@ M, L, C, STIFFNESS = 0.2, 0.06, 0.03, 2e4
 STEPS = 40
 """After these the transient, at most 0.3 of what it was in each step, is below rounding."""
 
-FINGER = robot_text(
-    link_text("rail", 1.0, (1, 1, 1)),
-    link_text("finger", 0.1, (1e-4, 1e-4, 1e-4)),
-    joint_text("slide", "prismatic", "rail", "finger", "1 0 0"),
-)
-BLOCK = robot_text(link_text("block", M, (2e-4, 3e-4, 4e-4)))
+BLOCK = body_text(M, (2e-4, 3e-4, 4e-4))
 
 
 def pushed(v: float, mu_v: float, h: float) -> Array:
     """Steady lag of the finger, largest and least gap [m], load of the base [N], shape (4,)."""
     start = {"xyz": (L, 0.0, C)}
     rail = {"base": "fixed", "actuated": "all", "xyz": (-0.005, 0.0, C)}
-    system = system_of({"finger": FINGER, "block": BLOCK}, finger=rail, block=start)
+    system = system_of({"finger": RAIL, "block": BLOCK}, finger=rail, block=start)
     middle = system.q_start[system.n_q_a]
     tip = on_link(system, "finger/finger", Box(np.array([0.005, 0.02, 0.02])))
     # The finger's face starts at x = 0 and touches a ball about the block's centre.

@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import grid
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.scenes import (
-    link_text,
+from quasistatic_ref.lab.scenes.systems import (
+    body_text,
     on_link,
-    robot_text,
     simulator_of,
     steps_of,
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.tolerances import CLOSED_FORM
 
@@ -26,7 +25,7 @@ def evidence() -> Evidence:
     """Forces along several directions; every step against the one before it."""
     turned, wanted, heights, dips, closed, ahead, along = [], [], [], [], [], [], []
     for force, azimuth, h in grid([0.05, 0.3, 1.0], [0.0, 0.7, 2.5], [0.01, 0.03]):
-        text = robot_text(link_text("ball", M, (INERTIA,) * 3))
+        text = body_text(M, (INERTIA,) * 3)
         system = system_of({"ball": text}, ball={"xyz": (0.1, -0.2, RADIUS)})
         ball = on_link(system, "ball", Sphere(RADIUS))
         pair = ContactPair("floor", world_plane(), ball, MU_V, 0.0, 4, 1)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import GRAVITY, exact, grid, sphere_step
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.validate.measures import exact, grid
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 

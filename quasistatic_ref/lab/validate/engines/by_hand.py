@@ -10,17 +10,16 @@ from qpsolvers import solve_qp
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY
-from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.scenes import (
-    joint_text,
-    link_text,
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
+    RAIL,
+    body_text,
     on_link,
-    robot_text,
     simulator_of,
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
 from quasistatic_ref.model.shapes import Box, Sphere
 from quasistatic_ref.step.data import Array
 
@@ -110,14 +109,8 @@ def by_hand() -> Array:
 
 def by_us() -> Array:
     """The same from a URDF, through System and Simulator, shape (STEPS, 13)."""
-    rail = robot_text(
-        link_text("rail", 1.0, (1, 1, 1)),
-        link_text("finger", 0.1, (1e-4,) * 3),
-        joint_text("slide", "prismatic", "rail", "finger", "1 0 0"),
-    )
-    ball = robot_text(link_text("ball", M, (INERTIA,) * 3))
     system = system_of(
-        {"rail": rail, "ball": ball},
+        {"rail": RAIL, "ball": body_text(M, (INERTIA,) * 3)},
         rail={"base": "fixed", "actuated": "all", "xyz": (-0.01, 0.0, RADIUS)},
         ball={"xyz": tuple(START)},
     )

@@ -9,8 +9,8 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.scenes import joint_text, link_text, robot_text, system_of
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.validate.engines.mujoco_scenes import Heap, heap
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import friction_rows
 
 SCENES = 12
@@ -94,8 +95,7 @@ def rows_of(scene: Heap) -> dict[str, Array]:
     kinematics = system.kinematics(system.q_start)
     alpha, beta = point - half, point + half
     J = contact_jacobian(kinematics, link[:, 0], link[:, 1], alpha, beta, n)
-    names = tuple(str(i) for i in range(len(phi)))
-    ours = Contacts(names, phi, n, d1, d2, J, mu[:, 0], mu[:, 2], np.full(len(phi), 6))
+    ours = contacts_of(phi, np.stack([d1, d2, n], axis=1), J, mu[:, 0], mu[:, 2], rows=6)
     # (R20), one contact point instead of two: (phi/2) (n x t_k).(omega_1 + omega_2), times +- mu_k.
     t1, t2 = (
         phi[:, None] / 2 * np.einsum("cr,crv->cv", np.cross(n, t), theirs["omega"])

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.scenes import joint_text, link_text, robot_text, system_of
+from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array
 
 FREE = ("ball", "brick", "pill", "drum", "pebble")
 """Free bodies; the arm turns about a hinge. MuJoCo's order of coordinates is this, then the arm."""
@@ -61,18 +60,18 @@ def heap(seed: int) -> Heap:
         placed = {"xyz": tuple(xyz), "rpy": tuple(rpy)}
         if name == "arm":
             base = link_text("base", 1.0, (1, 1, 1))
-            turn = joint_text("hinge", "revolute", "base", "arm", _words(axis))
+            turn = joint_text("hinge", "revolute", "base", "arm", words(axis))
             texts[name] = robot_text(base, link, turn)
             settings[name] = {"base": "fixed", "actuated": "all", **placed}
-            joint = f'<joint type="hinge" axis="{_words(axis)}"/>'
+            joint = f'<joint type="hinge" axis="{words(axis)}"/>'
         else:
             texts[name], settings[name] = robot_text(link), placed
             joint = "<freejoint/>"
         kind, size = GEOMS[name]
         bodies.append(
-            f'<body name="{name}" pos="{_words(xyz)}" euler="{_words(rpy)}">{joint}'
-            f'<inertial pos="{_words(com)}" mass="{mass!r}" diaginertia="{_words(inertia)}"/>'
-            f'<geom name="{name}" type="{kind}" size="{_words(size)}" '
+            f'<body name="{name}" pos="{words(xyz)}" euler="{words(rpy)}">{joint}'
+            f'<inertial pos="{words(com)}" mass="{mass!r}" diaginertia="{words(inertia)}"/>'
+            f'<geom name="{name}" type="{kind}" size="{words(size)}" '
             f'friction="{friction[0]!r} {friction[1]!r} 0.001"/></body>'
         )
     mjcf = (
@@ -82,7 +81,3 @@ def heap(seed: int) -> Heap:
         f"{''.join(bodies)}</worldbody></mujoco>"
     )
     return Heap(mjcf, system_of(texts, **settings), (*free, "arm"))
-
-
-def _words(numbers: Array | tuple[float, ...] | list[float]) -> str:
-    return " ".join(repr(float(x)) for x in numbers)

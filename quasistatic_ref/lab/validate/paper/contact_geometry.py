@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, on_link, system_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.scenes import cloud_on, link_text, on_link, robot_text, system_of
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array, Contacts
@@ -38,7 +38,7 @@ DIFFERENCE_TOLERANCE = 1e-6
 
 def pair_system() -> System:
     """Two free bodies."""
-    text = robot_text(link_text("body", 1.0, (1e-3, 1e-3, 1e-3), com=(0.01, 0.02, -0.01)))
+    text = body_text(1.0, (1e-3, 1e-3, 1e-3), com=(0.01, 0.02, -0.01))
     return system_of({"one": text, "two": text})
 
 

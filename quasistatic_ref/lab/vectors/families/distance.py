@@ -7,10 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.families.curved_corners import CURVED_CORNERS
-from quasistatic_ref.lab.vectors.families.mechanisms import Rng, Table, random_pose
+from quasistatic_ref.lab.vectors.families.mechanisms import random_pose
 from quasistatic_ref.lab.vectors.families.polytope_corners import POLYTOPE_CORNERS
-from quasistatic_ref.lab.vectors.families.shapes import SHAPES, cloud, mixed_points
+from quasistatic_ref.lab.vectors.families.shapes import SHAPES, Table, cloud, mixed_points
 from quasistatic_ref.lab.vectors.layers.distance import answer
 
 Case = tuple[str, str, Table]

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.lab.vectors.families.mechanisms import (
-    Table,
     free_body,
     gripper,
     link,
@@ -15,6 +14,7 @@ from quasistatic_ref.lab.vectors.families.mechanisms import (
     random_step,
     random_tree,
 )
+from quasistatic_ref.lab.vectors.families.shapes import Table
 
 Case = tuple[str, str, Table]
 

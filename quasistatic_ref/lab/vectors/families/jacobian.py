@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.families.mechanisms import (
-    Rng,
-    Table,
     few_digits,
     free_body,
     gripper,
@@ -17,6 +16,7 @@ from quasistatic_ref.lab.vectors.families.mechanisms import (
     random_q,
     random_tree,
 )
+from quasistatic_ref.lab.vectors.families.shapes import Table
 
 Case = tuple[str, str, Table]
 

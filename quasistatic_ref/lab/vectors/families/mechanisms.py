@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-Table = dict[str, Any]
-Rng = np.random.Generator
+from quasistatic_ref.lab.scenes.at_random import Rng
+from quasistatic_ref.lab.vectors.families.shapes import Table, at
 
 KINDS = ("revolute", "prismatic", "continuous", "fixed")
-AT_ORIGIN: Table = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
 
 
 def few_digits(values: Any, digits: int = 3) -> list[float]:
@@ -33,7 +32,7 @@ def random_pose(rng: Rng, size: float = 1.0) -> Table:
 
 def link(name: str, parent: str | None, joint: str, **more: Any) -> Table:
     """One body of a mechanism, massless and at the parent's origin unless told."""
-    table: Table = {"name": name, "parent": parent, "placement": AT_ORIGIN, "joint": joint}
+    table: Table = {"name": name, "parent": parent, "placement": at(0.0, 0.0, 0.0), "joint": joint}
     table |= {"axis": [0.0, 0.0, 1.0], "actuated": False}
     return table | more
 
@@ -67,7 +66,7 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
             actuated=bool(joint != "fixed" and rng.integers(2)),
         )
         if joint == "planar":
-            body["placement"] = AT_ORIGIN | {"xyz": [0.0, 0.0, *few_digits(rng.uniform(0, 1, 1))]}
+            body["placement"] = at(0.0, 0.0, few_digits(rng.uniform(0, 1, 1))[0])
         elif joint != "floating":
             body["placement"] = random_pose(rng, 0.5)
         bodies.append(body | (mass(rng) if masses else {}))
@@ -112,7 +111,7 @@ def gripper(base: str = "floating", actuated: bool = True) -> Table:
             "base",
             "prismatic",
             axis=[side, 0.0, 0.0],
-            placement={"xyz": [0.02 * side, 0.0, -0.05], "quaternion": [0.0, 0.0, 0.0, 1.0]},
+            placement=at(0.02 * side, 0.0, -0.05),
             actuated=True,
             mass=0.1,
             com=[0.0, 0.0, -0.02],

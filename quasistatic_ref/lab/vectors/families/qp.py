@@ -6,8 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.steps import contacts, grasp, program, repeated, step
+from quasistatic_ref.lab.vectors.families.steps import program
 from quasistatic_ref.step.data import Contacts
 
 Case = tuple[str, str, Json]
@@ -28,12 +31,12 @@ def qp_cases() -> Iterator[Case]:
 def _grasps(rng: np.random.Generator) -> Iterator[Case]:
     for i in range(8):
         why = "a body squeezed between two fingers over a floor: 13 coordinates, 80 rows"
-        yield f"qp/grasp/{i}", why, program(grasp(rng))
+        yield f"qp/grasp/{i}", why, program(aligned_grasp_step(rng))
     for cone in CONES[:3]:
         why = f"the same in the cone {cone}"
-        yield f"qp/grasp/{cone}", why, program(grasp(rng).replace(cone=cone))
+        yield f"qp/grasp/{cone}", why, program(aligned_grasp_step(rng).replace(cone=cone))
     why = "two bodies in one gripper: 19 coordinates"
-    yield "qp/grasp/two_bodies", why, program(grasp(rng, grip=8, floor=4, n_bodies=2))
+    yield "qp/grasp/two_bodies", why, program(aligned_grasp_step(rng, grip=8, floor=4, n_bodies=2))
 
 
 def _random(rng: np.random.Generator) -> Iterator[Case]:
@@ -41,13 +44,13 @@ def _random(rng: np.random.Generator) -> Iterator[Case]:
         n_a, n_u, n_c = (int(v) for v in rng.integers(0, 6, 3))
         n_u += n_a + n_u == 0
         ratio = (1.0, 1e4, 1e8)[i % 3]
-        at = contacts(rng, n_c, n_a + n_u, phi=abs(1e-3 * rng.standard_normal(n_c)))
+        at = random_contacts(rng, n_c, n_a + n_u, phi=abs(1e-3 * rng.standard_normal(n_c)))
         why = f"a random step of {n_c} contacts, masses and stiffness {ratio:g} apart"
-        yield f"qp/random/{i}", why, program(step(rng, n_a, n_u, at, ratio))
+        yield f"qp/random/{i}", why, program(random_step(rng, n_a, n_u, at, ratio))
 
 
 def _corners(rng: np.random.Generator) -> Iterator[Case]:
-    free = contacts(rng, 3, 6, phi=1e-4)
+    free = random_contacts(rng, 3, 6, phi=1e-4)
     split = free.phi * (1 + ULP * np.arange(3))
     for name, at, why in (
         ("duplicated", repeated(free, [0, 0, 1, 1, 1, 2]), "each contact there several times"),
@@ -72,29 +75,33 @@ def _corners(rng: np.random.Generator) -> Iterator[Case]:
             yield (
                 f"qp/corner/{name}_{n_a}_{n_u}",
                 f"{why}; {what}",
-                program(step(rng, n_a, n_u, at)),
+                program(random_step(rng, n_a, n_u, at)),
             )
-    heavy = contacts(rng, 4, 8, phi=abs(1e-3 * rng.standard_normal(4)))
+    heavy = random_contacts(rng, 4, 8, phi=abs(1e-3 * rng.standard_normal(4)))
     for ratio in (1e6, 1e9, 1e12):
         why = f"masses and stiffness {ratio:g} apart"
-        yield f"qp/ratio/{ratio:g}", why, program(step(rng, 4, 4, heavy, ratio))
+        yield f"qp/ratio/{ratio:g}", why, program(random_step(rng, 4, 4, heavy, ratio))
     for n_a, n_u in ((5, 0), (0, 5), (3, 3)):
         why = f"no contacts: H^-1 g, with {n_a} actuated and {n_u} free coordinates"
-        none = contacts(rng, 0, n_a + n_u)
-        yield f"qp/no_contacts/{n_a}_{n_u}", why, program(step(rng, n_a, n_u, none))
+        none = random_contacts(rng, 0, n_a + n_u)
+        yield f"qp/no_contacts/{n_a}_{n_u}", why, program(random_step(rng, n_a, n_u, none))
 
 
 def _ellipsoid(rng: np.random.Generator) -> Iterator[Case]:
     for i in range(10):
         n_c = 1 + i % 4
-        at = contacts(rng, n_c, 6, phi=abs(1e-3 * rng.standard_normal(n_c)))
+        at = random_contacts(rng, n_c, 6, phi=abs(1e-3 * rng.standard_normal(n_c)))
         why = f"a random step of {n_c} contacts in the ellipsoid"
-        yield f"qp/ellipsoid/{i}", why, program(step(rng, 3, 3, at, cone="ellipsoid"))
+        yield f"qp/ellipsoid/{i}", why, program(random_step(rng, 3, 3, at, cone="ellipsoid"))
     why = "a body squeezed between two fingers, in the ellipsoid"
-    yield "qp/ellipsoid/grasp", why, program(grasp(rng, 4, 2).replace(cone="ellipsoid"))
-    flat = contacts(rng, 2, 6, mu_omega=0.0, rows=6, phi=1e-4)
+    yield (
+        "qp/ellipsoid/grasp",
+        why,
+        program(aligned_grasp_step(rng, 4, 2).replace(cone="ellipsoid")),
+    )
+    flat = random_contacts(rng, 2, 6, mu_omega=0.0, rows=6, phi=1e-4)
     why = "an ellipsoid without torsion: a second-order cone in the plane"
-    yield "qp/ellipsoid/flat", why, program(step(rng, 2, 4, flat, cone="ellipsoid"))
+    yield "qp/ellipsoid/flat", why, program(random_step(rng, 2, 4, flat, cone="ellipsoid"))
 
 
 def _with(given: Contacts, **changes: float) -> Contacts:

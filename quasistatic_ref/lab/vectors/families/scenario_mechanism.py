@@ -12,6 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.shapes import at
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.rotation import quaternion
@@ -32,8 +33,6 @@ from quasistatic_ref.model.urdf_tree import FileJoint
 from quasistatic_ref.model.world import world_of
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.step.data import Array
-
-HERE = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
 
 
 def mechanism_of(scenario: Scenario) -> Json:
@@ -120,10 +119,10 @@ def _tree(body: Body, file: UrdfFile) -> list[Json]:
 
 def _base(body: Body) -> tuple[Json, str]:
     if body.base == "floating":
-        return HERE, "floating"
+        return at(0.0, 0.0, 0.0), "floating"
     xyz = np.asarray(body.xyz)
     if body.base == "planar":
-        return {**HERE, "xyz": [0.0, 0.0, float(xyz[2])]}, "planar"
+        return at(0.0, 0.0, float(xyz[2])), "planar"
     return {"xyz": xyz.tolist(), "quaternion": quaternion(np.asarray(body.rpy)).tolist()}, "fixed"
 
 

@@ -8,23 +8,17 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import AT_ORIGIN, link
+from quasistatic_ref.lab.vectors.families.mechanisms import link
+from quasistatic_ref.lab.vectors.families.shapes import FLOOR, UPRIGHT, at, box, cloud, sphere
 
 Case = tuple[str, str, Json]
 GRAVITY = [0.0, 0.0, -9.81]
-FLOOR: Json = {
-    "body": None,
-    "pose": AT_ORIGIN,
-    "shape": {"kind": "halfspace", "normal": [0.0, 0.0, 1.0], "offset": 0.0},
-}
-BALL: Json = {"kind": "sphere", "radius": 0.05}
-BRICK: Json = {"kind": "box", "size": [0.1, 0.08, 0.06]}
+BALL, BRICK = sphere(0.05), box(0.1, 0.08, 0.06)
 MASS: Json = {
     "mass": 0.5,
     "com": [0.0, 0.0, 0.0],
     "inertia": [[0.001, 0.0, 0.0], [0.0, 0.0012, 0.0], [0.0, 0.0, 0.0014]],
 }
-UPRIGHT = [0.0, 0.0, 0.0, 1.0]
 TILTED = [0.1, -0.05, 0.2, 0.97]
 
 
@@ -53,12 +47,12 @@ def step_cases() -> Iterator[Case]:
 def _ball(xyz: list[float], *, quaternion: Any = UPRIGHT, **more: Any) -> Json:
     body = {key: more.pop(key) for key in ("mass", "com", "inertia") if key in more}
     ball = link("ball", None, "floating", **{**MASS, **body})
-    shapes = {"floor": FLOOR, "ball": _on("ball", BALL)}
+    shapes = {"floor": _on(None, FLOOR), "ball": _on("ball", BALL)}
     return _scene([ball], shapes, [*xyz, *quaternion], **{"pairs": [_pair("ball")], **more})
 
 
 def _bricks() -> Iterator[Case]:
-    shapes = {"floor": FLOOR, "brick": _on("brick", BRICK)}
+    shapes = {"floor": _on(None, FLOOR), "brick": _on("brick", BRICK)}
     for name, quaternion, z in (("tilted", TILTED, 0.06), ("leaning", [0.3, 0.1, 0.0, 0.9], 0.07)):
         brick = link("brick", None, "floating", **MASS)
         pairs = [{**_pair("brick"), "k": 4}]
@@ -67,23 +61,19 @@ def _bricks() -> Iterator[Case]:
         yield f"step/brick/{name}", why, _scene([brick], shapes, q, pairs=pairs)
     rng = np.random.default_rng(81)
     points = [[round(float(x), 4) for x in row] for row in rng.uniform(-0.05, 0.05, (60, 3))]
-    cloud = {"floor": FLOOR, "brick": _on("brick", {"kind": "cloud", "points": points})}
+    sampled = {"floor": _on(None, FLOOR), "brick": _on("brick", cloud(points))}
     for quaternion in (UPRIGHT, TILTED):
         pairs = [{**_pair("brick"), "k": 5}]
         name = "upright" if quaternion is UPRIGHT else "tilted"
         q = [0.0, 0.0, 0.0495, *quaternion]
         why = "a body given by 60 random points, the five nearest to the floor"
         brick = link("brick", None, "floating", **MASS)
-        yield f"step/cloud/{name}", why, _scene([brick], cloud, q, pairs=pairs)
+        yield f"step/cloud/{name}", why, _scene([brick], sampled, q, pairs=pairs)
 
 
 def _mechanisms() -> Iterator[Case]:
-    wall = {
-        "body": None,
-        "pose": AT_ORIGIN,
-        "shape": {"kind": "halfspace", "normal": [-1.0, 0.0, 0.0], "offset": -0.3},
-    }
-    tip = _on("tip", {"kind": "sphere", "radius": 0.02}, [0.1, 0.0, 0.0])
+    wall = _on(None, {"kind": "halfspace", "normal": [-1.0, 0.0, 0.0], "offset": -0.3})
+    tip = _on("tip", sphere(0.02), 0.1)
     arm = [
         link("upper", None, "revolute", axis=[0.0, 1.0, 0.0], actuated=True, **MASS),
         link(
@@ -92,7 +82,7 @@ def _mechanisms() -> Iterator[Case]:
             "revolute",
             axis=[0.0, 1.0, 0.0],
             actuated=True,
-            placement={"xyz": [0.2, 0.0, 0.0], "quaternion": UPRIGHT},
+            placement=at(0.2, 0.0, 0.0),
             **MASS,
         ),
     ]
@@ -119,10 +109,9 @@ def _mechanisms() -> Iterator[Case]:
         why,
         _scene(round_, shapes, q, pairs=touch, K_q=[[50.0]], q_bar_a=target),
     )
-    pusher = link("tip", None, "planar", actuated=True)
-    pusher["placement"] = {"xyz": [0.0, 0.0, 0.05], "quaternion": UPRIGHT}
+    pusher = link("tip", None, "planar", actuated=True, placement=at(0.0, 0.0, 0.05))
     puck = link("ball", None, "floating", **MASS)
-    both = {"floor": FLOOR, "tip": _on("tip", BALL), "ball": _on("ball", BALL)}
+    both = {"floor": _on(None, FLOOR), "tip": _on("tip", BALL), "ball": _on("ball", BALL)}
     pairs = [_pair("ball"), {**_pair("ball"), "name": "push", "alpha": "tip"}]
     yield (
         "step/planar/push",
@@ -153,20 +142,16 @@ def _mechanisms() -> Iterator[Case]:
 
 
 def _wedged() -> Json:
-    lid = {
-        "body": None,
-        "pose": AT_ORIGIN,
-        "shape": {"kind": "halfspace", "normal": [0.0, 0.0, -1.0], "offset": -0.095},
-    }
-    shapes = {"floor": FLOOR, "lid": lid, "ball": _on("ball", BALL)}
+    lid = _on(None, {"kind": "halfspace", "normal": [0.0, 0.0, -1.0], "offset": -0.095})
+    shapes = {"floor": _on(None, FLOOR), "lid": lid, "ball": _on("ball", BALL)}
     pairs = [_pair("ball"), {**_pair("ball"), "name": "lid", "alpha": "lid"}]
     ball = link("ball", None, "floating", **MASS)
     return _scene([ball], shapes, [0.0, 0.0, 0.048, *UPRIGHT], pairs=pairs)
 
 
-def _on(body: str, shape: Json, xyz: list[float] | None = None) -> Json:
-    pose = {"xyz": [0.0, 0.0, 0.0] if xyz is None else xyz, "quaternion": UPRIGHT}
-    return {"body": body, "pose": pose, "shape": shape}
+def _on(body: str | None, shape: Json, x: float = 0.0) -> Json:
+    """A shape on a body, or in the world, x [m] from its origin."""
+    return {"body": body, "pose": at(x, 0.0, 0.0), "shape": shape}
 
 
 def _pair(beta: str) -> Json:

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.steps import contact_entries, contacts
+from quasistatic_ref.lab.vectors.families.steps import contact_entries
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Array, Contacts
 
@@ -76,7 +77,7 @@ def wrench_input(at: Contacts, cone: str, h: float, lam: Array, points: Json, bo
 
 
 def _random(rng: np.random.Generator, n_c: int, cone: str, **fixed: float) -> Json:
-    at = contacts(rng, n_c, 1, **fixed)
+    at = random_contacts(rng, n_c, 1, **fixed)
     names = [None, "a", "b", "c"]
     points = []
     for n, phi in zip(at.n, at.phi, strict=True):

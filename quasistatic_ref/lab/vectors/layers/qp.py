@@ -19,6 +19,8 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form_of
 from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
 from quasistatic_ref.lab.vectors.exact.rational import Exact, digits, rounded, tolerance
@@ -223,22 +225,9 @@ def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
 
 def _step(case_input: Json, contacts: Contacts, **more: Any) -> StepData:
     g = np.array(case_input["g"], dtype=np.float64)
-    return StepData(
-        h=1.0,
-        K_q=np.array(case_input["H"]),
-        M_u=np.zeros((0, 0)),
-        tau_a=g,
-        tau_u=np.zeros(0),
-        delta_q_bar_a=np.zeros(len(g)),
-        contacts=contacts,
-        **more,
-    )
+    return actuated_step(case_input["H"], g, np.zeros(len(g)), contacts, h=1.0).replace(**more)
 
 
 def _contacts(J: Array, phi: Array) -> Contacts:
     """Contacts whose frame is the world's, so that J's rows 0-2 are along d1, d2 and n."""
-    axes, ones = np.tile(np.eye(3), (len(phi), 1, 1)), np.ones(len(phi))
-    names = tuple(f"block {j}" for j in range(len(phi)))
-    d1, d2, n = axes[:, 0], axes[:, 1], axes[:, 2]
-    rows = np.full(len(phi), 6, dtype=np.int64)
-    return Contacts(names, phi, n, d1, d2, J, ones, ones, rows)
+    return contacts_of(phi, np.tile(np.eye(3), (len(phi), 1, 1)), J, 1.0, 1.0, rows=6)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.vectors.exact.rational import (
     UNIT,
     digits,
@@ -69,8 +70,5 @@ def own(case_input: Json) -> Json:
 
 def contacts_of(entries: Json) -> Contacts:
     """Contacts of the package from those of a case, of which there is at least one."""
-    columns = {
-        key: np.array([entry[key] for entry in entries])
-        for key in ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-    }
+    columns = {key: np.array([entry[key] for entry in entries]) for key in NUMBERS}
     return Contacts(name=tuple(f"c{j}" for j in range(len(entries))), **columns)

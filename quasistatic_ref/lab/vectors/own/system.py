@@ -7,17 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
 from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
 from quasistatic_ref.lab.vectors.own.shapes import own_rotation
-from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
@@ -72,12 +70,11 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
     tree: dict[str, int] = {}
     for k, body in enumerate(bodies):
         tree[body["name"]] = k if body["parent"] is None else tree[body["parent"]]
-    with TemporaryDirectory() as folder:
-        trees = []
-        for root in dict.fromkeys(tree.values()):
-            members = [k for k, body in enumerate(bodies) if tree[body["name"]] == root]
-            trees.append(_tree(bodies, root, members, Path(folder) / f"t{root}.urdf"))
-        system = System(trees)
+    texts, settings = {}, {}
+    for root in dict.fromkeys(tree.values()):
+        members = [k for k, body in enumerate(bodies) if tree[body["name"]] == root]
+        texts[f"t{root}"], settings[f"t{root}"] = _tree(bodies, root, members)
+    system = system_of(texts, **settings)
     names = {f"t{tree[body['name']]}/{_joint(body, k)}": k for k, body in enumerate(bodies)}
     joints = {names[joint.name]: joint for joint in system.joints}
     q: list[int] = []
@@ -106,7 +103,10 @@ def _joint_name(k: int) -> str:
     return f"j{k:04d}"
 
 
-def _tree(bodies: list[dict[str, Any]], root: int, members: list[int], path: Path) -> Body:
+def _tree(
+    bodies: list[dict[str, Any]], root: int, members: list[int]
+) -> tuple[str, dict[str, Any]]:
+    """URDF and settings of a tree."""
     first = bodies[root]
     base = first["joint"] if first["joint"] in _BASES else "fixed"
     xyz, rpy = first["placement"]["xyz"], _rpy(first["placement"]["quaternion"])
@@ -127,50 +127,32 @@ def _tree(bodies: list[dict[str, Any]], root: int, members: list[int], path: Pat
         names = [other["name"] for other in bodies]
         parent = "anchor" if k == root else f"b{names.index(body['parent'])}"
         elements.append(_urdf_joint(k, body, parent, names))
-    path.write_text(f'<robot name="t{root}">{"".join(elements)}</robot>', encoding="utf-8")
     actuated = [
         _joint(bodies[k], k)
         for k in members
         if bodies[k].get("actuated") and bodies[k]["joint"] != "fixed" and "mimic" not in bodies[k]
     ]
     place = (0.0, 0.0, xyz[2]) if base == "planar" else (0.0, 0.0, 0.0)
-    return Body(f"t{root}", path, base=base, actuated=actuated, xyz=place)
+    return robot_text(*elements), {"base": base, "actuated": actuated, "xyz": place}
 
 
 def _link(k: int, body: dict[str, Any]) -> str:
-    mass, com = body.get("mass", 1.0), body.get("com", [0.0] * 3)
-    inertia = body.get("inertia", np.eye(3).tolist())
-    moments = " ".join(
-        f'i{"xyz"[i]}{"xyz"[j]}="{inertia[i][j]!r}"' for i in range(3) for j in range(i, 3)
-    )
-    return (
-        f'<link name="b{k}"><inertial><origin xyz="{_words(com)}"/><mass value="{mass!r}"/>'
-        f"<inertia {moments}/></inertial></link>"
-    )
+    inertia = body.get("inertia", np.eye(3))
+    return link_text(f"b{k}", body.get("mass", 1.0), inertia, com=body.get("com", (0, 0, 0)))
 
 
 def _urdf_joint(k: int, body: dict[str, Any], parent: str, names: list[str]) -> str:
-    place = body["placement"]
-    kind = body["joint"]
-    more = "" if kind == "fixed" else f'<axis xyz="{_words(body["axis"])}"/>'
+    mimic, place = "", body["placement"]
     if "mimic" in body:
         follow = body["mimic"]
-        more += (
+        mimic = (
             f'<mimic joint="{_joint_name(names.index(follow["of"]))}" '
             f'multiplier="{follow["multiplier"]!r}" offset="{follow["offset"]!r}"/>'
         )
-    if kind in ("revolute", "prismatic"):
-        more += '<limit lower="-9" upper="9" effort="1" velocity="1"/>'
-    return (
-        f'<joint name="{_joint_name(k)}" type="{kind}"><parent link="{parent}"/>'
-        f'<child link="b{k}"/>'
-        f'<origin xyz="{_words(place["xyz"])}" rpy="{_words(_rpy(place["quaternion"]))}"/>'
-        f"{more}</joint>"
-    )
-
-
-def _words(values: Sequence[float]) -> str:
-    return " ".join(repr(float(x)) for x in values)
+    return joint_text(
+        _joint_name(k), body["joint"], parent, f"b{k}", words(body["axis"]),
+        words(place["xyz"]), words(_rpy(place["quaternion"])), mimic,
+    )  # fmt: skip
 
 
 def _rpy(quaternion: Sequence[float]) -> list[float]:

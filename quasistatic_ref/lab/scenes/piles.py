@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of, world_plane
+from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 
@@ -33,13 +31,7 @@ motions that contradict each other."""
 PUSH = 3.0
 """Force on the first body for each there is [N]; friction with the floor holds 2.45 N of it."""
 
-BOX = f"""<?xml version="1.0"?>
-<robot name="box"><link name="box">
-  <inertial><mass value="0.5"/>
-    <inertia ixx="2.1e-4" iyy="2.1e-4" izz="2.1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
-  <collision><geometry><box size="{SIDE} {SIDE} {SIDE}"/></geometry></collision>
-</link></robot>
-"""
+BOX = body_text(0.5, (2.1e-4,) * 3, f'<box size="{SIDE} {SIDE} {SIDE}"/>')
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,29 +81,19 @@ def pile(
     index = np.arange(np.prod(shape)).reshape(shape)
     places = np.stack(np.unravel_index(index.ravel(), shape), axis=1)
     xyz = (SIDE + GAP) * places + [0.0, 0.0, SIDE / 2]
-    with TemporaryDirectory() as folder:
-        urdf = Path(folder) / "box.urdf"
-        urdf.write_text(BOX)
-        system = System(
-            [
-                Body(name=f"box{i}", urdf=urdf, base="floating", xyz=tuple(at))
-                for i, at in enumerate(xyz.tolist())
-            ]
-        )
-    cloud = PointCloud(_surface(dense))
-    links = [system.link(f"box{i}") for i in range(index.size)]
+    names = [f"box{i}" for i in range(index.size)]
+    starts = {name: {"xyz": tuple(at)} for name, at in zip(names, xyz.tolist(), strict=True)}
+    system = system_of(dict.fromkeys(names, BOX), **starts)
+    cloud, floor = PointCloud(_surface(dense)), world_plane()
     boxes = {shape.link: shape for shape in system.shapes}
-    clouds = [
-        PlacedShape(f"box{i}", link, np.eye(3), np.zeros(3), cloud) for i, link in enumerate(links)
-    ]
-    floor = PlacedShape(
-        "floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
-    )
+    clouds = [on_link(system, name, cloud) for name in names]
     pairs = [_pair(floor, clouds[i], k) for i in index[:, :, 0].ravel()]
     for axis in range(3):
         before = np.delete(index, -1, axis=axis).ravel()
         after = np.delete(index, 0, axis=axis).ravel()
-        pairs += [_pair(boxes[links[i]], clouds[j], k) for i, j in zip(before, after, strict=True)]
+        pairs += [
+            _pair(boxes[clouds[i].link], clouds[j], k) for i, j in zip(before, after, strict=True)
+        ]
     simulator = Simulator(
         system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
     )

@@ -11,22 +11,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.validate.bodies import GRAVITY
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.simulator import Simulator, StepResult
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.step.data import Array
 
-DOWN = (0.0, 0.0, -GRAVITY)
+
+def words(values: ArrayLike) -> str:
+    """Numbers in shortest decimal, which reads back as the same float64, spaces between them."""
+    return " ".join(repr(float(x)) for x in np.ravel(values))
 
 
 def link_text(
-    name: str,
-    mass: float,
-    inertia: Sequence[float],
-    shape: str = "",
-    com: Sequence[float] | Array = (0, 0, 0),
+    name: str, mass: float, inertia: ArrayLike, shape: str = "", com: ArrayLike = (0, 0, 0)
 ) -> str:
     """One link of a URDF.
 
@@ -35,20 +33,21 @@ def link_text(
     name : str
     mass : float
         [kg].
-    inertia : sequence of float
-        Principal moments along the link's axes [kg m^2].
+    inertia : array_like, shape (3,) or (3, 3)
+        Principal moments along the link's axes, or the inertia about its centre of mass [kg m^2].
     shape : str
         The URDF of its collision geometry at the link's origin, e.g. ``<sphere radius="0.1"/>``.
-    com : sequence of float, shape (3,)
+    com : array_like, shape (3,)
         Centre of mass in the link's frame [m].
     """
-    ixx, iyy, izz = (repr(float(i)) for i in inertia)
-    xyz = " ".join(repr(float(c)) for c in com)
+    about = np.diag(inertia) if np.ndim(inertia) == 1 else np.asarray(inertia)
+    moments = " ".join(
+        f'i{"xyz"[i]}{"xyz"[j]}="{words(about[i, j])}"' for i in range(3) for j in range(i, 3)
+    )
     collision = f"<collision><geometry>{shape}</geometry></collision>" if shape else ""
     return (
-        f'<link name="{name}"><inertial><origin xyz="{xyz}"/><mass value="{mass!r}"/>'
-        f'<inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"{collision}</link>"
+        f'<link name="{name}"><inertial><origin xyz="{words(com)}"/><mass value="{mass!r}"/>'
+        f"<inertia {moments}/></inertial>{collision}</link>"
     )
 
 
@@ -57,15 +56,35 @@ def robot_text(*elements: str) -> str:
     return f'<robot name="scene" version="1.1">{"".join(elements)}</robot>'
 
 
+def body_text(mass: float, inertia: ArrayLike, shape: str = "", com: ArrayLike = (0, 0, 0)) -> str:
+    """A URDF of one link, named body; its parameters are those of :func:`link_text`."""
+    return robot_text(link_text("body", mass, inertia, shape, com))
+
+
 def joint_text(
-    name: str, kind: str, parent: str, child: str, axis: str, origin: str = "0 0 0"
+    name: str,
+    kind: str,
+    parent: str,
+    child: str,
+    axis: str = "1 0 0",
+    origin: str = "0 0 0",
+    rpy: str = "0 0 0",
+    more: str = "",
 ) -> str:
     """One joint of a URDF; its limits play no role in this model."""
     return (
         f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="{origin}"/><axis xyz="{axis}"/>'
+        f'<origin xyz="{origin}" rpy="{rpy}"/><axis xyz="{axis}"/>{more}'
         '<limit lower="-10" upper="10" effort="1" velocity="1"/></joint>'
     )
+
+
+RAIL = robot_text(
+    link_text("rail", 1.0, (1, 1, 1)),
+    link_text("finger", 0.1, (1e-4, 1e-4, 1e-4)),
+    joint_text("slide", "prismatic", "rail", "finger"),
+)
+"""A finger that slides along x."""
 
 
 def system_of(texts: Mapping[str, str], **settings: Mapping[str, Any]) -> System:
@@ -109,11 +128,10 @@ def simulator_of(
     pairs: Sequence[ContactPair],
     h: float,
     K_q: ArrayLike | None = None,
-    gravity: Sequence[float] = DOWN,
 ) -> Simulator:
     """A simulator that asks no solver: every step is exact from a cold start."""
     K = np.zeros((system.n_a, system.n_a)) if K_q is None else np.asarray(K_q, dtype=np.float64)
-    return Simulator(system, pairs, h=h, K_q=K, gravity=gravity, backend=NONE)
+    return Simulator(system, pairs, h=h, K_q=K, backend=NONE)
 
 
 def steps_of(

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.lab.validate.bodies import GRAVITY, Z, contacts_of
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 

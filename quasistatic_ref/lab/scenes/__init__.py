@@ -1,0 +1,1 @@
+"""Steps and bodies that vectors, studies, claims, examples and tests are made with."""

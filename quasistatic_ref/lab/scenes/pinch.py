@@ -1,0 +1,56 @@
+"""The paper's Figure 1 in two contacts: fingertips hold a bar off its centre of mass."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
+from quasistatic_ref.step.data import StepData
+
+HALF_WIDTH, INERTIA = 0.03, 1e-4
+"""Of the bar, along x [m]; about each axis [kg m^2]."""
+
+
+def pinch_step(
+    grip: float,
+    offset: float,
+    mu_v: float,
+    mu_omega: float,
+    *,
+    m: float = 0.2,
+    stiffness: float = 1000.0,
+    h: float = 0.01,
+    cone: str = "pyramid",
+) -> StepData:
+    """A bar between two fingers on the axis x; gravity pulls along -z, an axis of both frames.
+
+    q_a: how far the left finger, along +x, and the right one, along -x, have closed; both touch.
+    q_u: the twist of the bar at its centre of mass, axes along the world's.
+
+    Parameters
+    ----------
+    grip : float
+        Force that each finger presses with while the bar stays [N].
+    offset : float
+        Of the fingers along y, from the centre of mass [m].
+    mu_v, mu_omega : float
+        [-], [m].
+    m, stiffness, h : float
+        Mass of the bar [kg], of a finger [N/m], time step [s].
+    cone : str
+    """
+    n = np.array([X, -X])  # finger j closes along n
+    frames = np.stack([[Y, Y], np.cross(n, Y), n], axis=1)
+    J = np.zeros((2, 4, 8))
+    J[[0, 1], :3, [0, 1]] = -n
+    J[:, :, 2:] = point_jacobian(offset * Y - HALF_WIDTH * n, n)
+    return StepData(
+        h=h,
+        K_q=stiffness * np.eye(2),
+        M_u=np.diag([m, m, m, INERTIA, INERTIA, INERTIA]),
+        tau_a=np.zeros(2),
+        tau_u=np.array([0.0, 0.0, -m * GRAVITY, 0.0, 0.0, 0.0]),
+        delta_q_bar_a=np.full(2, grip / stiffness),
+        contacts=contacts_of(0.0, frames, J, mu_v, mu_omega, rows=6),
+        cone=cone,
+    )

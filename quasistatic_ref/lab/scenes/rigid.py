@@ -1,0 +1,91 @@
+"""Steps of one kind of coordinates, and of one free body against fixed surfaces.
+
+The coordinates of a body are its twist at the centre of mass, axes along the world's.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
+from quasistatic_ref.step.data import Contacts, StepData
+
+
+def free_step(M: ArrayLike, force: ArrayLike, contacts: Contacts, h: float) -> StepData:
+    """A step without anything actuated."""
+    none = np.zeros(0)
+    return StepData(h, np.zeros((0, 0)), np.asarray(M), none, np.asarray(force), none, contacts)
+
+
+def actuated_step(
+    K_q: ArrayLike, tau_a: ArrayLike, delta_q_bar_a: ArrayLike, contacts: Contacts, h: float
+) -> StepData:
+    """A step with nothing but actuated coordinates."""
+    K_q, tau_a, target = (np.asarray(x, dtype=np.float64) for x in (K_q, tau_a, delta_q_bar_a))
+    return StepData(h, K_q, np.zeros((0, 0)), tau_a, np.zeros(0), target, contacts)
+
+
+def rigid_step(
+    m: float,
+    inertia: ArrayLike,
+    wrench: ArrayLike,
+    points: ArrayLike,
+    frames: ArrayLike,
+    *,
+    mu_v: ArrayLike,
+    mu_omega: ArrayLike = 0.0,
+    phi: ArrayLike = 0.0,
+    rows: int = 4,
+    h: float = 0.01,
+) -> StepData:
+    """One rigid body that touches the world.
+
+    Parameters
+    ----------
+    m : float
+        [kg].
+    inertia : array_like, shape () or (3,)
+        Principal moments along the axes of the world [kg m^2].
+    wrench : array_like, shape (6,)
+        Force and torque at the centre of mass, gravity included [N, N m].
+    points : array_like, shape (n_c, 3)
+        Contact points from the centre of mass [m].
+    frames : array_like, shape (n_c, 3, 3)
+        Rows d1, d2, n; n points from the world into the body.
+    mu_v, mu_omega, phi, rows, h
+        Those of the notation, each for all contacts or for one after the other.
+    """
+    frames = np.reshape(frames, (-1, 3, 3))
+    J = point_jacobian(points, frames[:, 2])
+    M = np.diag([m, m, m, *np.broadcast_to(inertia, 3)])
+    return free_step(M, wrench, contacts_of(phi, frames, J, mu_v, mu_omega, rows), h)
+
+
+def point_step(
+    m: float, force: ArrayLike, mu_v: float, phi: float, h: float, frame: ArrayLike | None = None
+) -> StepData:
+    """A point mass over a plane; delta_q is its displacement in the world [m]."""
+    J = np.eye(4, 3)[None]
+    axes = np.eye(3) if frame is None else frame
+    return free_step(m * np.eye(3), force, contacts_of(phi, axes, J, mu_v), h)
+
+
+def sphere_step(
+    m: float,
+    inertia: float,
+    radius: float,
+    wrench: ArrayLike,
+    *,
+    mu_v: float,
+    mu_omega: float,
+    phi: float,
+    h: float,
+    rows: int = 6,
+) -> StepData:
+    """A sphere over the floor z = 0; wrench at its centre."""
+    below = [[0.0, 0.0, -radius]]
+    return rigid_step(
+        m, inertia, wrench, below, [np.eye(3)],
+        mu_v=mu_v, mu_omega=mu_omega, phi=phi, rows=rows, h=h,
+    )  # fmt: skip

@@ -1,0 +1,53 @@
+"""What claims share: sweeps, exact answers, exponents, thresholds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import StepSolution
+
+
+def grid(*axes: Sequence[float] | Array) -> Array:
+    """All combinations of some axes' values [any unit], shape (N, number of axes)."""
+    return np.array(np.meshgrid(*axes, indexing="ij"), dtype=np.float64).reshape(len(axes), -1).T
+
+
+def slope(x: ArrayLike, y: ArrayLike) -> float:
+    """Exponent p of y = c x^p, fitted by least squares to the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
+def exact(step: StepData) -> StepSolution:
+    """The step's optimum, exact and without any solver."""
+    return solve_step(step, NONE)
+
+
+def threshold(moves: Callable[[float], bool], low: float, high: float, precision: float) -> float:
+    """Where a load begins to move something, by bisection.
+
+    Parameters
+    ----------
+    moves : callable
+        Whether a share of the load moves the body.
+    low, high : float
+        Shares [-]; where `low` moves already, or `high` does not yet, NaN is returned.
+    precision : float
+        Of the result, relative to `high` [-].
+
+    Returns
+    -------
+    float
+        A share [-].
+    """
+    if moves(low) or not moves(high):
+        return float("nan")
+    while high - low > precision * high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if moves(middle) else (middle, high)
+    return high
