@@ -18,17 +18,11 @@ from quasistatic_ref.certify.conic import ConicProgram, conic_residuals
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.backends import backend, cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
-from quasistatic_ref.solve.units import (
-    STANDSTILL,
-    Units,
-    from_natural,
-    natural_units,
-    to_natural,
-)
+from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Extension, Own, Symbols
-from quasistatic_ref.step.friction import cone_function, contact_wrenches
+from quasistatic_ref.step.friction import cone_function, contact_wrenches, frictionless
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
@@ -162,11 +156,10 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
         return list(extension.terms(_symbols(problem, step, units)))
 
     def constraints(problem: StepProblem) -> list[cp.Constraint]:
-        return [term for term in terms(problem) if isinstance(term, cp.Constraint)]
+        return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
 
     def costs(problem: StepProblem) -> list[cp.Expression]:
-        own = (term for term in terms(problem) if not isinstance(term, cp.Constraint))
-        return [cost / units.size**2 for cost in own]
+        return [t / units.size**2 for t in terms(problem) if not isinstance(t, cp.Constraint)]
 
     return constraints, costs
 
@@ -174,15 +167,15 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 def _symbols(problem: StepProblem, step: StepData, units: Units) -> Symbols:
     """The symbols of a problem in SI units."""
     coordinate, length = units.size * units.coordinate, units.size * units.length
-    rows = problem.motion[:1]
-    if step.cone != ELLIPSOID:
-        rows = cone_function(step.cone)(*problem.motion)
+    rows = frictionless if step.cone == ELLIPSOID else cone_function(step.cone)  # the gap alone
     return Symbols(
         delta_q=cp.multiply(coordinate, problem.delta_q),
         delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
         delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u),
         delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
-        slack=tuple(length * row[j] for row, j in zip(rows, step.mask.T, strict=False)),
+        slack=tuple(
+            length * row[j] for row, j in zip(rows(*problem.motion), step.mask.T, strict=False)
+        ),
     )
 
 

@@ -189,6 +189,13 @@ def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
         StepProblem(random_step(rng).replace(cone=name))
 
 
+def test_further_constraints_come_after_the_rows_of_the_contacts_and_of_the_step(rng):
+    step = random_step(rng, rows=(4, 4)).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
+    problem = StepProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
+    # Four row indices of two contacts, one row of the step, one bound for each coordinate.
+    assert [constraint.size for constraint in problem.problem.constraints] == [2] * 4 + [1, 7]
+
+
 def test_constraints_and_costs_are_added_to_the_problem(rng):
     # h K / 2 x^2 - h tau x + c x^2 is least at x = h tau / (h K + 2 c), which x <= limit may stop.
     step = random_step(rng, 1, 0, rows=()).replace(K_q=[[100.0]], tau_a=[2.0], delta_q_bar_a=[0.0])
