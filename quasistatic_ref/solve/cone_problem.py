@@ -13,7 +13,14 @@ from quasistatic_ref.step.problem import StepProblem
 
 
 def cone_problem(like: StepData, constraints: Own = none, costs: Own = none) -> StepProblem:
-    """The problem of steps like this one; parameters as of :class:`StepProblem`."""
+    """The problem of steps like this one, in their cone.
+
+    Parameters
+    ----------
+    like : StepData
+    constraints, costs : callable, optional
+        As of :class:`~quasistatic_ref.step.problem.StepProblem`.
+    """
     if like.cone == ELLIPSOID:
         return EllipsoidProblem(like, constraints, costs)
     friction = None if like.cone == PYRAMID else cone_function(like.cone)
@@ -27,7 +34,7 @@ class EllipsoidProblem(StepProblem):
     ----------
     like : StepData
     constraints, costs : callable, optional
-        As of :class:`StepProblem`.
+        As of :class:`~quasistatic_ref.step.problem.StepProblem`.
     """
 
     def __init__(self, like: StepData, constraints: Own = none, costs: Own = none) -> None:
