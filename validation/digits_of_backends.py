@@ -87,10 +87,14 @@ def digits(
 def measured(steps: list[tuple[StepData, Array]]) -> Iterator[BackendDigits]:
     """One record for each backend, setting and kind of units."""
     cells = [(u, b, a) for u in (RAW, NATURAL) for b in BACKENDS for a in ACCURACIES]
-    problem = StepProblem(steps[0][0])
+    runs = [StepProblem(steps[0][0]), StepProblem(steps[-1][0])]  # of one mu_omega each
+    problems = [next(run for run in runs if run.fits(step)) for step, _ in steps]
     for units, backend, accuracy in (bar := tqdm(cells)):
         bar.set_description(f"{units}, {backend} at {accuracy}")
-        found = [digits(step, x, units, backend, accuracy, problem) for step, x in steps]
+        found = [
+            digits(step, x, units, backend, accuracy, problem)
+            for (step, x), problem in zip(steps, problems, strict=True)
+        ]
         solved = np.array([d for d in found if d is not None])
         quantiles = np.quantile(solved, [0, 0.01, 0.5, 1]) if solved.size else np.full(4, np.nan)
         worst, low, median, best = (float(f"{q:.2f}") for q in quantiles)

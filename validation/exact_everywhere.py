@@ -37,9 +37,9 @@ from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import StepSolution
 from validation.random_steps import mixed_step
 
@@ -75,7 +75,7 @@ class Check:
 
 def checked(step: StepData) -> Check:
     """Ask every backend, and compare all that they end at."""
-    check, problem = Check(), StepProblem(step)
+    check, problem = Check(), cone_problem(step)
     bits: dict[bytes, str] = {}
     certificates: dict[tuple[tuple[int, int], ...], StepSolution] = {}
     for backend in BACKENDS:

@@ -39,6 +39,7 @@ PAGE = (
     "equations/test_eq06_opposite_tangents.py",
     "equations/test_eq07_torsional_directions.py",
     "equations/test_eq08_stacked_rows.py",
+    "equations/test_eq13_step_problem.py",
 )
 JUDGE = (
     "equations/test_eq09_force_balance.py",
@@ -71,6 +72,7 @@ def ordered(own: str) -> tuple[str, ...]:
 
 
 TESTS: dict[str, tuple[str, ...]] = {
+    "step/problem.py": ("unit/test_standard_form.py", *PAGE, "unit/test_problem.py"),
     "step/friction.py": ("unit/test_friction.py", *PAGE, "unit/test_cones.py"),
     "step/standard_form.py": ("unit/test_standard_form.py", *PAGE),
     "certify/optimality.py": ("unit/test_optimality.py", *JUDGE, "unit/test_enclosure.py"),

@@ -19,7 +19,6 @@ from flint import fmpq, fmpq_mat, fmpz_mat
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import friction_coefficients
 
 
 def apex_refutation(
@@ -51,7 +50,7 @@ def apex_refutation(
     if impulse is None:
         return "no multipliers on the working set balance the step"
     names = [*step.contacts.name, *step.extra.names]
-    mu = [[_fraction(v) for v in row] for row in friction_coefficients(step.contacts).tolist()]
+    mu = [[_fraction(v) for v in row] for row in step.contacts.mu.tolist()]
     mu += [[] for _ in step.extra.names]
     work, start = fmpq(0), 0
     for name, c in zip(names, mu, strict=True):

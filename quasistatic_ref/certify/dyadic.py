@@ -36,6 +36,9 @@ class Dyadic:
     def __mul__(self, other: Dyadic) -> Dyadic:
         return Dyadic(self.m * other.m, self.e + other.e)
 
+    def __rmul__(self, number: float) -> Dyadic:
+        return dyadic(number) * self
+
     def __matmul__(self, other: Dyadic) -> Dyadic:
         return Dyadic(self.m @ other.m, self.e + other.e)
 

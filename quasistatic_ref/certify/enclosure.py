@@ -26,7 +26,6 @@ from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import friction_coefficients
 from quasistatic_ref.tolerances import ENCLOSED
 
 BITS: Final = 640
@@ -170,7 +169,7 @@ def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
 
 def _coefficients(step: StepData) -> list[arb]:
     """Return what each row of A is multiplied by: 1, mu_v, mu_v, mu_omega; 1 for own rows."""
-    mu = friction_coefficients(step.contacts)
+    mu = step.contacts.mu
     rows = np.column_stack([np.ones(len(mu)), mu]).ravel()
     return [arb(float(v)) for v in (*rows, *np.ones(len(step.extra.names)))]
 

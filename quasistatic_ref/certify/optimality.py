@@ -10,7 +10,6 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import friction_coefficients
 from quasistatic_ref.step.standard_form import standard_form
 
 
@@ -89,11 +88,7 @@ def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals
     form, k = standard_form(step), int(step.offsets[-1])
     balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), mended
     slack = form.A @ delta_q - form.b
-    s, f, mu = (
-        slack[:k].reshape(-1, 4),
-        lam[:k].reshape(-1, 4),
-        friction_coefficients(step.contacts),
-    )
+    s, f, mu = slack[:k].reshape(-1, 4), lam[:k].reshape(-1, 4), step.contacts.mu
     scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
     without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
     short = np.concatenate([np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0], -slack[k:]])

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.dyadic import Dyadic
 from quasistatic_ref.certify.rational import contact_motion
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import friction_coefficients
+from quasistatic_ref.step.friction import cone_function, cone_matrix
 
 Vector = list[fmpq]
 
@@ -85,18 +85,21 @@ def _gaps(step: StepData) -> list[Change]:
 
 
 def _coefficients(step: StepData) -> list[Change]:
-    motion, table = contact_motion(step.contacts), cone(step.cone).table.tolist()
-    mu = friction_coefficients(step.contacts)
+    """A is linear in mu_v and mu_omega: the cone of what one of them multiplies is its change."""
+    J_n, J_1, J_2, J_w = (contact_motion(step.contacts)[:, i] for i in range(4))
+    none, rows, coefficients = J_n - J_n, cone_function(step.cone), cone_matrix(step.cone)
+    slides, spins = coefficients[:, 1:3].any(axis=1), coefficients[:, 3] != 0
+    mu_v, _, mu_omega = step.contacts.mu.T
+    torsional = step.contacts.rows == 6
     changes = []
-    for symbol, columns in (("mu_v", (0, 1)), ("mu_omega", (2,))):
+    for symbol, mu, by, changed in (
+        ("mu_v", mu_v, rows(none, J_1, J_2, none), step.mask & slides),
+        ("mu_omega", mu_omega, rows(none, none, none, J_w), step.mask & torsional[:, None] & spins),
+    ):
         for j, name in enumerate(step.contacts.name):
-            rows: dict[int, Vector] = {}
-            used = symbol == "mu_v" or step.contacts.rows[j] == 6
-            for i, t in enumerate(table[: int(step.counts[j])]):
-                if used and any(t[c] for c in columns):
-                    rows[int(step.offsets[j]) + i] = _combined(motion, j, t, columns)
-            at_zero = bool(rows) and mu[j, columns[0]] == 0
-            changes.append(Change(symbol, f"{symbol}[{name}]", A=rows, at_zero=at_zero))
+            A = {int(step.offsets[j] + i): _vector(by[i][j]) for i in np.flatnonzero(changed[j])}
+            at_zero = bool(A) and mu[j] == 0
+            changes.append(Change(symbol, f"{symbol}[{name}]", A=A, at_zero=bool(at_zero)))
     return changes
 
 
@@ -113,14 +116,9 @@ def _time_step(step: StepData) -> Change:
     return Change("h", "h", H=H, g=g)
 
 
-def _combined(motion: Dyadic, j: int, t: list[float], columns: tuple[int, ...]) -> Vector:
-    """Return sum_c t_c (motion of contact j along axis c + 1)."""
-    unit = fmpq(1 << max(motion.e, 0), 1 << max(-motion.e, 0))
-    n_v = motion.m.shape[2]
-    return [
-        sum((_fraction(t[c]) * unit * int(motion.m[j, c + 1, v]) for c in columns), fmpq(0))
-        for v in range(n_v)
-    ]
+def _vector(exact: Dyadic) -> Vector:
+    unit = fmpq(1 << max(exact.e, 0), 1 << max(-exact.e, 0))
+    return [unit * m for m in exact.m.tolist()]
 
 
 def _unit(k: int, n: int, value: fmpq) -> Vector:

@@ -21,9 +21,9 @@ from flint import fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.friction import friction_coefficients, row_gaps
+from quasistatic_ref.step.friction import cone_function, row_gaps
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,10 +134,11 @@ def _friction_rows(contacts: Contacts, name: str) -> Dyadic:
     motion = contact_motion(contacts)
     if name == ELLIPSOID:
         return motion
-    # Its cosines and sines are numbers of the step like all others; the pyramid's are 0 and 1.
-    table = dyadic(cone(name).table)
-    coefficients = dyadic(friction_coefficients(contacts))
-    return motion[:, :1] + table @ (coefficients[:, :, None] * motion[:, 1:])  # Eqs. (4)-(7)
+    mu = dyadic(contacts.mu)
+    J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
+    mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
+    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
+    return joined(rows, axis=1)
 
 
 def _block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.figures.style import figure_style, scaled, sized
 from quasistatic_ref.figures.surfaces import faces
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.friction import cone_matrix
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 COLOURS = {PYRAMID: "tab:blue", ELLIPSOID: "tab:orange", "product": "tab:green"}
@@ -35,7 +36,7 @@ def limit_surfaces() -> Figure:
             else:
                 axes.add_collection3d(
                     Poly3DCollection(
-                        faces(cone(name).table),
+                        faces(cone_matrix(name)[:, 1:]),
                         facecolor=COLOURS[name],
                         edgecolor="k",
                         linewidth=0.6,

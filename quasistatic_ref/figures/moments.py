@@ -14,6 +14,7 @@ from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.friction import cone_matrix
 
 BEARING = 1e-3
 """A contact is drawn as bearing load above this share of the largest normal force [-]."""
@@ -154,6 +155,6 @@ def _rim(name: str) -> Array:
     if not kind.polyhedral:  # the ellipsoid's is a circle
         angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
         return np.stack([np.cos(angle), np.sin(angle), np.ones(ROUND)], axis=1)
-    flat = kind.table[: kind.short, :2]
+    flat = cone_matrix(name)[: kind.short, 1:3]
     flat = flat[np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))]
     return np.column_stack([flat, np.ones(len(flat))])

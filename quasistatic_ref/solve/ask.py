@@ -11,6 +11,7 @@ import qpsolvers
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.answer import Answer
 from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend
+from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.problem import StepProblem
@@ -55,7 +56,7 @@ def backend_answer(
 def _through_cvxpy(
     step: StepData, name: str, options: Options, accuracy: float, problem: StepProblem | None
 ) -> Answer:
-    problem = StepProblem(step) if problem is None else problem
+    problem = cone_problem(step) if problem is None or not problem.fits(step) else problem
     problem.fill(step)
     with warnings.catch_warnings():
         # "Solution may be inaccurate" is dealt with below, by the status.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import asdict
+from functools import cache
 
 import cvxpy as cp
 import numpy as np
@@ -16,10 +17,12 @@ import numpy as np
 from quasistatic_ref.certify.conic import ConicProgram, conic_residuals
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.backends import backend, cone_backend
-from quasistatic_ref.solve.units import STANDSTILL, from_natural, natural_units, to_natural
+from quasistatic_ref.solve.cone_problem import cone_problem
+from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Extra, StepData
-from quasistatic_ref.step.extension import Extension, Scale
-from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.extension import Extension, Own, Symbols
+from quasistatic_ref.step.friction import cone_function, contact_wrenches, frictionless
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
@@ -44,16 +47,17 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Extra or None
         The extension's rows alone.
     """
-    problem = StepProblem(step, extension)
-    unknowns = (problem.delta_q_a, problem.delta_q_u)
-    if problem.own_costs or extension.without_stiffness:
+    problem = cone_problem(step)
+    constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
+    if costs(problem) or extension.without_stiffness:
         return None
+    unknowns = (problem.delta_q_a, problem.delta_q_u)
     problem.fill(step)
     for x in unknowns:
         x.value = np.zeros(x.shape)
     names: list[str] = []
     A, b = [np.zeros((0, step.n_v))], [np.zeros(0)]
-    for k, constraint in enumerate(problem.own_constraints):
+    for k, constraint in enumerate(constraints(problem)):
         equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
         plain = equation or isinstance(constraint, cp.constraints.Inequality)
         if not plain or not constraint.expr.is_affine():
@@ -115,9 +119,11 @@ def extended_solution(
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)
     natural = to_natural(step, units)
-    scale = Scale(units.size * units.coordinate, units.size * units.length, units.size**2)
-    problem = StepProblem(natural, extension, scale)
+    problem = cone_problem(natural, *_own_terms(extension, step, units))
     problem.fill(natural)
+    for parameter in problem.parameters if extension.without_stiffness else ():
+        if parameter.name() in ("K_q", "tau_k"):  # nothing is left of Eq. (1)
+            parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
     for asked in (k * accuracy for k in RELAXED):
         for options in backend(name).attempts(asked):
@@ -140,6 +146,37 @@ def extended_solution(
             )
     assert failure is not None  # a backend has at least one set of options
     raise failure
+
+
+def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own, Own]:
+    """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
+
+    @cache  # its terms are asked for once: further variables of its own are in both
+    def terms(problem: StepProblem) -> list[cp.Constraint | cp.Expression]:
+        return list(extension.terms(_symbols(problem, step, units)))
+
+    def constraints(problem: StepProblem) -> list[cp.Constraint]:
+        return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
+
+    def costs(problem: StepProblem) -> list[cp.Expression]:
+        return [t / units.size**2 for t in terms(problem) if not isinstance(t, cp.Constraint)]
+
+    return constraints, costs
+
+
+def _symbols(problem: StepProblem, step: StepData, units: Units) -> Symbols:
+    """The symbols of a problem in SI units."""
+    coordinate, length = units.size * units.coordinate, units.size * units.length
+    rows = frictionless if step.cone == ELLIPSOID else cone_function(step.cone)  # the gap alone
+    return Symbols(
+        delta_q=cp.multiply(coordinate, problem.delta_q),
+        delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
+        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u),
+        delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
+        slack=tuple(
+            length * row[j] for row, j in zip(rows(*problem.motion), step.mask.T, strict=False)
+        ),
+    )
 
 
 def _solved(

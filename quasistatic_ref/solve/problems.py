@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.engines import NATIVE
 from quasistatic_ref.solve.native import NativeProblem
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem
@@ -14,7 +15,7 @@ Problem = StepProblem | NativeProblem | SparseProblem
 def problem_for(step: StepData, engine: str, backend: str) -> Problem:
     """A new problem for steps like this one, sparse if its contacts are in blocks."""
     if engine != NATIVE:
-        return StepProblem(step)
+        return cone_problem(step)
     if step.contacts.blocks is not None:
         return SparseProblem(step, backend)
     return NativeProblem(step, backend)

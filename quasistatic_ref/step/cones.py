@@ -1,12 +1,8 @@
-"""The friction cones by name: how many rows each gives to a contact, and what they combine.
+"""The friction cones by name: how many rows each gives to a contact, and what they are called.
 
-A polyhedral cone is a table. Its row i forbids motion against n~ + d~_i with
-
-    d~_i = mu_v (t_i1 d1 + t_i2 d2) + mu_omega t_i3 spin,
-
-and its limit surface, the forces at f_n = 1 in units of (mu_v, mu_v, mu_omega), is the convex hull
-of the table's rows. A contact uses a leading part of the table; where ``rows`` is 4, mu_omega is
-not used. The ellipsoid is no polyhedron and has no table; a contact in it has four multipliers.
+What the rows are is in :mod:`~quasistatic_ref.step.friction`. A contact uses the leading ones;
+where ``rows`` is 4, mu_omega is not used. The ellipsoid is no polyhedron; a contact in it has four
+multipliers.
 """
 
 from __future__ import annotations
@@ -26,19 +22,15 @@ MOST_FACETS = 1024
 """More sides than that differ from the circle by less than 5e-6 and make steps of many MB."""
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
-_SPIN = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
-_SPIN_NAMES = ("+spin", "-spin")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Cone:
     """One friction cone.
 
     Parameters
     ----------
     name : str
-    table : ndarray, shape (R, 3)
-        Coefficients t of all rows [-]; empty for the ellipsoid.
     row_names : tuple of str
         A name for each number of lam that a contact with torsion has.
     short : int
@@ -46,7 +38,6 @@ class Cone:
     """
 
     name: str
-    table: NDArray[np.float64]
     row_names: tuple[str, ...]
     short: int
 
@@ -75,24 +66,20 @@ def cone(name: str) -> Cone:
     StepDataError
         If there is no such cone.
     """
-    tangential = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
-    names = ("+d1", "+d2", "-d1", "-d2")
+    sliding, spin = ("+d1", "+d2", "-d1", "-d2"), ("+spin", "-spin")
     if name == PYRAMID:
-        return _cone(name, tangential + _SPIN, names + _SPIN_NAMES, 4)
+        return Cone(name, sliding + spin, 4)
     if name == "product":
-        both = [[t1, t2, w] for w in (1.0, -1.0) for t1, t2, _ in tangential]
-        return _cone(name, both, tuple(d + s for s in _SPIN_NAMES for d in names), 4)
+        return Cone(name, tuple(d + s for s in spin for d in sliding), 4)
     if name == "frictionless":
-        return _cone(name, [[0, 0, 0]], ("n",), 1)
+        return Cone(name, ("n",), 1)
     if name == ELLIPSOID:
-        return _cone(name, [], ("n", "d1", "d2", "spin"), 4)
+        return Cone(name, ("n", "d1", "d2", "spin"), 4)
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)
         if K % 2 == 0 and 4 <= K <= MOST_FACETS:
-            circle = [[*direction(k, K), 0.0] for k in range(K)]
-            sides_named = tuple(f"side {k}" for k in range(K))
-            return _cone(name, circle + _SPIN, sides_named + _SPIN_NAMES, K)
+            return Cone(name, tuple(f"side {k}" for k in range(K)) + spin, K)
     raise StepDataError(
         f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
         f"{nearest_name(str(name), CONES)}",
@@ -134,9 +121,3 @@ def _cos_sin(half_turns: Decimal) -> tuple[float, float]:
             term = term * x / k
             parts.append(term if k % 4 < 2 else -term)
         return float(sum(parts[0::2])), float(sum(parts[1::2]))
-
-
-def _cone(name: str, table: list[list[float]], row_names: tuple[str, ...], short: int) -> Cone:
-    array = np.array(table, dtype=np.float64).reshape(-1, 3)
-    array.setflags(write=False)
-    return Cone(name, array, row_names, short)

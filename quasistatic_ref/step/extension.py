@@ -1,19 +1,26 @@
 """What a user adds to a step: constraints and costs, written in SI units with CVXPY.
 
-CVXPY itself is not needed to say what an extension is; :mod:`~quasistatic_ref.step.problem` builds
-its symbols and :mod:`~quasistatic_ref.solve.extended` solves with it.
+CVXPY itself is not needed to say what an extension is; :mod:`~quasistatic_ref.solve.extended`
+builds its symbols and solves with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-from quasistatic_ref.step.data import Array
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import cvxpy as cp
+
+
+Own = Callable[[Any], Sequence[Any]]
+"""Constraints or scalar costs of a user's own, as a function of the symbols that they are about."""
+
+
+def none(symbols: Any) -> tuple[()]:
+    """No constraints or costs of a user's own."""
+    return ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,27 +55,8 @@ class Extension:
         Symbols -> constraints and scalar costs, in any order. A cost is added to (13), whose unit
         is h times an energy [N m s]; parameters and further variables are the user's own.
     without_stiffness : bool
-        Whether the costs take the place of the impedance (1), which is then left out.
+        Whether the costs take the place of the impedance (1): K_q and tau_k are then zero.
     """
 
     terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]]
     without_stiffness: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Scale:
-    """What the number one means in a problem, for extensions, which are written in SI units.
-
-    Parameters
-    ----------
-    coordinate : ndarray, shape (n_v,)
-        Of each coordinate of delta_q [m, rad].
-    length : float
-        Of phi [m].
-    cost : float
-        Of the objective [N m s].
-    """
-
-    coordinate: Array
-    length: float
-    cost: float

@@ -1,141 +1,153 @@
-r"""Directions of contact and friction: the paper's, Eqs. :eq:`eq-5`-:eq:`eq-7`, and other cones'.
+r"""Friction cones, each of them one function of a contact's gap, slip_1, slip_2 and spin.
 
-For each contact the rows forbid that the motion J delta_q leaves the dual of the friction
-cone. Their multipliers add up to a wrench inside the cone, which of the paper's pyramid is
+These are phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q: what is
+left of the gap, and how far the contact slides along d1 and d2 and turns about n, each times its
+coefficient of friction. A cone returns what must not be negative, one entry for each of its rows.
+It only adds, subtracts and multiplies by float64 numbers, so that
 
-.. math:: |f_1|/\mu_v + |f_2|/\mu_v + |\tau_n|/\mu_\omega \le f_n,
+- of numbers it returns the slacks of Eq. :eq:`eq-10`;
+- of CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
+- of the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats or
+  in exact numbers;
+- of n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
+  :eq:`eq-5`-:eq:`eq-7`.
 
-an octahedron: the rows of a contact share one normal force. Each function below that returns d~
-states the limit surface of its cone; a term whose coefficient is zero means that its force is zero.
+Multipliers of the rows add up to a force inside of the cone; each function states its limit
+surface. A term whose coefficient is zero means that its force is zero. A contact whose mu_omega is
+not used has the leading rows only, and a spin of zero.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone, direction
+from quasistatic_ref.step.contacts import Array, Contacts
+
+Rows: TypeAlias = "tuple[Any, ...]"
+ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
+Friction: TypeAlias = "ConeFunction | None"
+"""The paper's cone, where it is None."""
 
 
-def normal_direction(n: Array) -> Array:
-    """n~ = [n, 0] of Eq. :eq:`eq-4`.
+def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r"""The paper's cone: :math:`|f_1|/\mu_v + |f_2|/\mu_v + |\tau|/\mu_\omega \le f_n`.
 
-    Parameters
-    ----------
-    n : ndarray, shape (n_c, 3)
-        Unit normals, world frame.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 4)
+    An octahedron: the rows of a contact share one normal force. Arguments and result are in one
+    unit, for example [m]. They are +d1, +d2, -d1, -d2, +spin, -spin.
     """
-    n_tilde = np.zeros((len(n), 4))
-    n_tilde[:, :3] = n
-    return n_tilde
+    return (
+        gap + slip_1,  # Eq. (5)
+        gap + slip_2,
+        gap - slip_1,  # Eq. (6)
+        gap - slip_2,
+        gap + spin,  # Eq. (7)
+        gap - spin,
+    )
 
 
-def tangential_directions(d1: Array, d2: Array, mu_v: Array) -> Array:
-    """d~_1 .. d~_4 of Eqs. :eq:`eq-5`-:eq:`eq-6`: the tangential friction pyramid.
+def product(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r""":math:`|f_1|/\mu_v + |f_2|/\mu_v \le f_n` and :math:`|\tau|/\mu_\omega \le f_n`.
 
-    Parameters
-    ----------
-    d1, d2 : ndarray, shape (n_c, 3)
-        Unit tangents, world frame.
-    mu_v : ndarray, shape (n_c,)
-        Tangential friction coefficient [-].
-
-    Returns
-    -------
-    ndarray, shape (n_c, 4, 4)
-        Contact, direction i, component of (2).
+    Neither takes from the other. The rows are +d1, +d2, -d1, -d2, each with +spin, then each with
+    -spin, in the unit [m] of the arguments.
     """
-    d_tilde = np.zeros((len(mu_v), 4, 4))
-    d_tilde[:, 0, :3] = mu_v[:, None] * d1  # Eq. (5)
-    d_tilde[:, 1, :3] = mu_v[:, None] * d2  # Eq. (5)
-    d_tilde[:, 2:] = -d_tilde[:, :2]  # Eq. (6)
-    return d_tilde
+    sliding = (slip_1, slip_2, -slip_1, -slip_2)
+    return (*(gap + slip + spin for slip in sliding), *(gap + slip - spin for slip in sliding))
 
 
-def torsional_directions(mu_omega: Array) -> Array:
-    """d~_5, d~_6 of Eq. :eq:`eq-7`: torsional friction about the normal.
-
-    Parameters
-    ----------
-    mu_omega : ndarray, shape (n_c,)
-        Torsional friction coefficient, a length [m].
-
-    Returns
-    -------
-    ndarray, shape (n_c, 2, 4)
-    """
-    d_tilde = np.zeros((len(mu_omega), 2, 4))
-    d_tilde[:, 0, 3], d_tilde[:, 1, 3] = mu_omega, -mu_omega  # Eq. (7)
-    return d_tilde
+def frictionless(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r""":math:`f_1 = f_2 = \tau = 0 \le f_n`: the gap [m] alone."""
+    return (gap,)
 
 
-def pyramid(contacts: Contacts) -> Array:
-    """All six d~ of the paper, Eqs. :eq:`eq-5`-:eq:`eq-7`.
-
-    Their limit surface is |f_1|/mu_v + |f_2|/mu_v + |tau|/mu_omega <= f_n.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 6, 4)
-        In the paper's order: +d1, +d2, -d1, -d2, +spin, -spin.
-    """
-    tangential = tangential_directions(contacts.d1, contacts.d2, contacts.mu_v)
-    return np.concatenate([tangential, torsional_directions(contacts.mu_omega)], axis=1)
-
-
-def product(contacts: Contacts) -> Array:
-    """d~ of |f_1|/mu_v + |f_2|/mu_v <= f_n and |tau|/mu_omega <= f_n, independent of each other.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 8, 4)
-        +d1, +d2, -d1, -d2, each with +spin, then each with -spin. Where ``rows`` is 4 there is
-        no spin in them, and the last four say nothing new.
-    """
-    return _of_table(contacts, "product")
-
-
-def facets(contacts: Contacts, name: str) -> Array:
-    """d~ of a K-sided tangential pyramid: ||(f_1, f_2)||_K / mu_v + |tau|/mu_omega <= f_n.
+@cache
+def facets(K: int) -> ConeFunction:
+    r"""The cone of a K-sided tangential pyramid: ||(f_1, f_2)||_K / mu_v + |tau| / mu_omega <= f_n.
 
     ||.||_K is the gauge of the regular polygon with corners on the unit circle, the first at d1:
     it is between the length and the length over cos(pi / K). K = 4 is the paper's cone, bit for
     bit. The corners' cosines and sines are data, rounded correctly to float64.
 
-    Returns
-    -------
-    ndarray, shape (n_c, K + 2, 4)
-        The sides counter-clockwise about n, then +spin, -spin.
-    """
-    return _of_table(contacts, name)
-
-
-def frictionless(contacts: Contacts) -> Array:
-    """The only d~ without friction, zero: f_1 = f_2 = tau = 0 <= f_n.
+    Parameters
+    ----------
+    K : int
+        Number of sides, even and at least 4.
 
     Returns
     -------
-    ndarray, shape (n_c, 1, 4)
+    callable
+        The sides counter-clockwise about n, then +spin, -spin, in the unit [m] of its arguments.
     """
-    return np.zeros((contacts.n_c, 1, 4))
+    corners = [direction(k, K) for k in range(K)]
+
+    def rows(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+        sides = (gap + c * slip_1 + s * slip_2 for c, s in corners)
+        return (*sides, gap + spin, gap - spin)
+
+    return rows
 
 
-CONES: dict[str, Callable[[Contacts], Array]] = {
+CONES: dict[str, ConeFunction] = {
     PYRAMID: pyramid,
     "product": product,
     "frictionless": frictionless,
 }
 
 
-def cone_directions(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """All d~ of a polyhedral cone, shape (n_c, R, 4)."""
-    return CONES[name](contacts) if name in CONES else facets(contacts, name)
+def cone_function(name: str) -> ConeFunction:
+    """The function of a polyhedral cone, by its name.
+
+    Raises
+    ------
+    StepDataError
+        If there is no such cone.
+    InputError
+        Of the ellipsoid: one second-order cone, gap >= ||(slip_1, slip_2, spin)||, has no rows.
+    """
+    if not cone(name).polyhedral:
+        raise InputError("has no rows", field="cone", value=name)
+    return CONES[name] if name in CONES else facets(int(name.removeprefix("facets-")))
+
+
+@cache
+def cone_matrix(name: str) -> Array:
+    """What the rows of a polyhedral cone combine: the cone of the four unit vectors.
+
+    Returns
+    -------
+    ndarray, shape (R, 4)
+        Coefficients of gap, slip_1, slip_2 and spin [-]. The limit surface, the forces at f_n = 1
+        in units of (mu_v, mu_v, mu_omega), is the convex hull of the last three columns.
+    """
+    matrix = np.stack(cone_function(name)(*np.eye(4)))
+    matrix.setflags(write=False)
+    return matrix
+
+
+def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:
+    """J_n, J_1, J_2 and J_w: J of Eq. :eq:`eq-3` in the contact's frame.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    J : ndarray, shape (n_c, 4, w)
+        Any columns of J: all of them, or those of blocks.
+
+    Returns
+    -------
+    tuple of ndarray, each of shape (n_c, w)
+        The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
+    """
+    J_n, J_1, J_2 = (
+        (axis[:, None] @ J[:, :3])[:, 0] for axis in (contacts.n, contacts.d1, contacts.d2)
+    )
+    return J_n, J_1, J_2, J[:, 3]
 
 
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -145,7 +157,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     ----------
     contacts : Contacts
     name : str
-        The cone. The ellipsoid has no d~: its rows are the motion along n, d1, d2 and spin.
+        The cone. The ellipsoid has no rows: its are the motion along n, d1, d2 and about n.
 
     Returns
     -------
@@ -158,10 +170,11 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, J)
     if name == ELLIPSOID:
-        return np.asarray(_frames(contacts) @ J)
-    n_tilde, d_tilde = normal_direction(contacts.n), cone_directions(contacts, name)
-    return np.asarray((n_tilde[:, None] + d_tilde) @ J)  # Eq. (4)
+        return np.stack([J_n, J_1, J_2, J_w], axis=1)
+    mu_v, _, mu_omega = contacts.mu.T[:, :, None]
+    return np.stack(cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w), axis=1)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -171,21 +184,9 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     -------
     ndarray, shape (n_c, R)
     """
-    rows = len(cone(name).row_names)
-    if name == ELLIPSOID:
-        return np.asarray(contacts.phi[:, None] * np.eye(rows)[0])
-    return np.asarray(contacts.phi.repeat(rows).reshape(-1, rows))
-
-
-def friction_coefficients(contacts: Contacts) -> Array:
-    """(mu_v, mu_v, mu_omega) of each contact, mu_omega being 0 where it is not used.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 3)
-        [-], [-], [m].
-    """
-    return contacts.mu
+    still = np.zeros(contacts.n_c)
+    motion = contacts.phi, still, still, still
+    return np.stack(motion if name == ELLIPSOID else cone_function(name)(*motion), axis=1)
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -208,22 +209,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     """
     if name == ELLIPSOID:
         return lam.reshape(-1, 4)[:, [1, 2, 0, 3]] / h
-    counts = cone(name).counts(contacts.rows)
-    impulses = np.zeros((contacts.n_c, len(cone(name).table)))
-    impulses[np.arange(impulses.shape[1]) < counts[:, None]] = lam
-    f_d1, f_d2, tau_n = (friction_coefficients(contacts) * (impulses @ cone(name).table)).T
-    return np.stack([f_d1, f_d2, impulses.sum(axis=1), tau_n], axis=1) / h
-
-
-def _frames(contacts: Contacts) -> Array:
-    """Return n~, d1, d2 and spin of each contact, shape (n_c, 4, 4)."""
-    frames = np.zeros((contacts.n_c, 4, 4))
-    frames[:, 0, :3], frames[:, 1, :3], frames[:, 2, :3] = contacts.n, contacts.d1, contacts.d2
-    frames[:, 3, 3] = 1.0
-    return frames
-
-
-def _of_table(contacts: Contacts, name: str) -> Array:
-    """Return d~_i = mu_v (t_i1 d1 + t_i2 d2) + mu_omega t_i3 spin, shape (n_c, R, 4)."""
-    axes = friction_coefficients(contacts)[:, :, None] * _frames(contacts)[:, 1:]
-    return cone(name).table @ axes
+    counts, rows = cone(name).counts(contacts.rows), cone_matrix(name)
+    impulses = np.zeros((contacts.n_c, len(rows)))
+    impulses[np.arange(len(rows)) < counts[:, None]] = lam
+    f_n, *sliding = (impulses @ rows).T
+    f_d1, f_d2, tau_n = contacts.mu.T * sliding
+    return np.stack([f_d1, f_d2, f_n, tau_n], axis=1) / h

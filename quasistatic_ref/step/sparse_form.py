@@ -93,9 +93,7 @@ def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
     blocks = in_blocks(step)
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
-    rows = rows_along(step.contacts, blocks.J, step.cone)  # Eq. (4), (n_c, R, w)
-    rows = rows.reshape(-1, rows.shape[2]).take(step.row_index, axis=0)  # Eq. (8)
-    A = csc_matrix(
-        (rows.ravel().take(pattern.entry), pattern.A.indices, pattern.A.indptr), pattern.A.shape
-    )
-    return SparseForm(pattern.P, g, A, -row_gaps(step.contacts, step.cone).take(step.row_index))
+    rows = rows_along(step.contacts, blocks.J, step.cone)[step.mask]  # Eqs. (4), (8), (m, w)
+    entries = rows.ravel()[pattern.entry]
+    A = csc_matrix((entries, pattern.A.indices, pattern.A.indptr), pattern.A.shape)
+    return SparseForm(pattern.P, g, A, -row_gaps(step.contacts, step.cone)[step.mask])

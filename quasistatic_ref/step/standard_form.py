@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
 
@@ -46,14 +45,10 @@ def standard_form(step: StepData) -> StandardForm:
     -------
     StandardForm
     """
-    contacts, rows = step.contacts, step.row_index
-    tau_k = step.K_q.dot(step.delta_q_bar_a)  # Eq. (1)
+    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
-    A = friction_rows(contacts, step.cone).reshape(-1, step.n_v).take(rows, axis=0)  # Eq. (8)
-    if step.cone == ELLIPSOID:
-        b = -row_gaps(contacts, step.cone).take(rows)
-    else:
-        b = -contacts.phi.take(step.row_contact)  # Eq. (8)
+    A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)
     if step.extra.names:
         A, b = np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b])
     return StandardForm(step.H, g, A, b)

@@ -22,7 +22,8 @@ def test_the_parameter_tau_k_is_the_stiffness_times_the_desired_change(rng):
     step = random_step(rng, n_a=5)
     problem = StepProblem(step)
     problem.fill(step)
-    np.testing.assert_allclose(problem.tau_k.value, tau_k(step), rtol=ROUNDING, atol=ROUNDING)
+    found = problem.problem.param_dict["tau_k"].value
+    np.testing.assert_allclose(found, tau_k(step), rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_g_holds_h_times_tau_k_where_no_other_force_acts(rng):

@@ -1,10 +1,19 @@
-"""Eq. (6), d~_3 and d~_4. Under test: step.friction.tangential_directions."""
+"""Eq. (6), d~_3 and d~_4. Under test: step.problem.StepProblem.
+
+And step.friction.pyramid, the same cone for other numbers than CVXPY's.
+"""
 
 import numpy as np
 
-from quasistatic_ref.step.friction import pyramid, tangential_directions
+from quasistatic_ref.step.friction import pyramid
+from quasistatic_ref.step.problem import StepProblem
+from tests.equations.test_eq05_tangential_directions import (
+    directions_of_the_pyramid,
+    shares_by_loops,
+    shares_of_the_problem,
+)
 from tests.helpers import random_step
-from tests.tolerances import EXACT
+from tests.tolerances import EXACT, ROUNDING
 
 
 def printed(contacts):
@@ -16,12 +25,21 @@ def printed(contacts):
     return expected
 
 
-def test_the_last_two_directions_are_the_scaled_tangents_turned_round(rng):
+def test_the_next_two_directions_are_the_scaled_tangents_turned_round(rng):
     contacts = random_step(rng).contacts
-    actual = tangential_directions(contacts.d1, contacts.d2, contacts.mu_v)[:, 2:]
+    actual = directions_of_the_pyramid(contacts)[:, 2:4]
     np.testing.assert_allclose(actual, printed(contacts), rtol=EXACT, atol=EXACT)
 
 
-def test_they_come_third_and_fourth_in_the_pyramid(rng):
-    contacts = random_step(rng).contacts
-    np.testing.assert_allclose(pyramid(contacts)[:, 2:4], printed(contacts), rtol=EXACT, atol=EXACT)
+def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
+    step = random_step(rng, rows=(6, 6, 6))
+    delta_q = rng.normal(size=step.n_v)
+    shares = shares_of_the_problem(step, delta_q)
+    for i, directions in enumerate(zip(*printed(step.contacts), strict=True), start=2):
+        expected = shares_by_loops(step, delta_q, directions)
+        np.testing.assert_allclose(shares[i], expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_a_contact_without_torsion_ends_with_them(rng):
+    assert len(StepProblem(random_step(rng, rows=(4, 4))).friction) == 4
+    assert pyramid(1.0, 0.25, 0.5, 0.0)[:4] == (1.25, 1.5, 0.75, 0.5)

@@ -238,9 +238,8 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     np.testing.assert_allclose(answer.delta_q, read["delta_q"][7], rtol=EXACT, atol=EXACT)
 
 
-def test_a_step_problem_takes_an_extension_in_si_units_by_itself():
-    limit = Extension(lambda s: [s.delta_q_a <= 0.005])
-    problem = StepProblem(joint(), limit)
+def test_a_step_problem_takes_constraints_by_itself_in_its_own_units():
+    problem = StepProblem(joint(), constraints=lambda problem: [problem.delta_q_a <= 0.005])
     problem.fill(joint())
     problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
     np.testing.assert_allclose(problem.primal(), [0.005], rtol=OPTIMUM, atol=0.0)

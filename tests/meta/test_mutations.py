@@ -9,22 +9,29 @@ import pytest
 from validation.mutants import Mutant, mutants
 from validation.mutations import PACKAGE, Workbench, all_mutants
 
-PAGE, FORM, JUDGE = "step/friction.py", "step/standard_form.py", "certify/optimality.py"
+PAGE, CONES, FORM = "step/problem.py", "step/friction.py", "step/standard_form.py"
+JUDGE = "certify/optimality.py"
 RATIONAL, KKT = "certify/rational.py", "certify/kkt.py"
 DEPENDENCE, BALLS, WALK = "certify/dependence.py", "certify/balls.py", "certify/active_set.py"
 POINT, ROUNDING, EXACT = "certify/point.py", "certify/rounding.py", "certify/exact.py"
 FARKAS, CLAIMS = "certify/farkas.py", "certify/certificate.py"
 
 SAMPLE = (
-    f"{PAGE} tangential_directions: -d_tilde[:, :2] -> d_tilde[:, :2]",
-    f"{PAGE} torsional_directions: -mu_omega -> mu_omega",
-    f"{PAGE} rows_along: n_tilde[:, None] + d_tilde -> n_tilde[:, None] - d_tilde",
-    f"{PAGE} contact_wrenches: [f_d1, f_d2, impulses.sum(axis=1), tau_n] -> "
-    "[f_d2, f_d1, impulses.sum(axis=1), tau_n]",
-    f"{PAGE} contact_wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",
-    f"{PAGE} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
-    f"{FORM} standard_form: -contacts.phi.take(step.row_contact) -> "
-    "contacts.phi.take(step.row_contact)",
+    f"{PAGE} StepProblem.__init__: gap + slip_1 -> gap - slip_1",
+    f"{PAGE} StepProblem.__init__: gap - slip_2 -> gap + slip_2",
+    f"{PAGE} StepProblem.__init__: gap - spin -> gap + spin",
+    f"{PAGE} StepProblem.__init__: tau_k + tau_a -> tau_k - tau_a",
+    f"{CONES} pyramid: gap + slip_2 -> gap - slip_2",
+    f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",
+    f"{CONES} pyramid: gap + spin -> gap - spin",
+    f"{CONES} product: gap + slip - spin -> gap + slip + spin",
+    f"{CONES} facets.rows: gap + c * slip_1 + s * slip_2 -> gap + c * slip_1 - s * slip_2",
+    f"{CONES} rows_along: [J_n, J_1, J_2, J_w] -> [J_n, J_2, J_1, J_w]",
+    f"{CONES} contact_wrenches: [f_d1, f_d2, f_n, tau_n] -> [f_d2, f_d1, f_n, tau_n]",
+    f"{CONES} contact_wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",
+    f"{CONES} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
+    f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
+    "row_gaps(step.contacts, step.cone)[step.mask]",
     f"{FORM} standard_form: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{JUDGE} optimality_residuals: -slack -> slack",
@@ -32,8 +39,7 @@ SAMPLE = (
     f"{JUDGE} ellipsoid_residuals: -lam[k:] -> lam[k:]",
     f"{JUDGE} optimality_residuals: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
-    f"{RATIONAL} _friction_rows: motion[:, :1] + table @ (coefficients[:, :, None] * motion[:, 1:])"
-    " -> motion[:, :1] - table @ (coefficients[:, :, None] * motion[:, 1:])",
+    f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n, contacts.d1, contacts.d2] -> "
     "[contacts.n, contacts.d2, contacts.d1]",
     f"{RATIONAL} _in_integers: _two_to(H.e + e_x) / h -> _two_to(H.e + e_x) * h",
@@ -56,7 +62,7 @@ SAMPLE = (
     f"{CLAIMS} _wrong_sign: lam_i < 0 -> lam_i > 0",
     f"{CLAIMS} _wrong_claim: lam_i > 0 -> lam_i >= 0",
 )
-UNCHANGED = (PAGE, JUDGE, FARKAS)
+UNCHANGED = (PAGE, CONES, JUDGE, FARKAS)
 
 
 @pytest.fixture(scope="module")

@@ -100,7 +100,10 @@ def test_no_road_prints(road, rng, capfd):
 @every_road
 def test_a_step_gives_the_same_bits_whatever_was_solved_before(road):
     steps = [planted_step(np.random.default_rng(seed))[0] for seed in (1, 2)]
+    mu = {"mu_v": steps[0].contacts.mu_v, "mu_omega": steps[0].contacts.mu_omega}
+    steps[1] = steps[1].replace(contacts=changed(steps[1].contacts, **mu))
     problem = solve_module.StepProblem(steps[0])
+    assert problem.fits(steps[1])
     solve_step(steps[0], road, problem=problem)
     after_another = solve_step(steps[1], road, problem=problem)
     alone = solve_step(steps[1], road)

@@ -1,16 +1,25 @@
 """The tables of the friction cones: names, counts, directions, limit surfaces, JSON."""
 
 import json
+from fractions import Fraction
 
+import cvxpy as cp
 import numpy as np
 import pytest
+from flint import arb, ctx, fmpq
 
+from quasistatic_ref.certify.dyadic import dyadic
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone, direction
 from quasistatic_ref.step.files import step_from_record, step_text
-from quasistatic_ref.step.friction import cone_directions, contact_wrenches, friction_rows, pyramid
+from quasistatic_ref.step.friction import (
+    cone_function,
+    cone_matrix,
+    contact_wrenches,
+    friction_rows,
+)
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import JUDGE, changed, random_step
 from tests.tolerances import EXACT, ROUNDING
@@ -73,11 +82,63 @@ def test_cosines_are_rounded_correctly():
 
 def test_four_facets_are_the_pyramid_bit_for_bit(rng):
     contacts = random_step(rng, rows=(6, 6)).contacts
-    np.testing.assert_allclose(
-        cone_directions(contacts, "facets-4"), pyramid(contacts), rtol=EXACT, atol=EXACT
-    )
-    table = cone("pyramid").table
-    np.testing.assert_allclose(cone("facets-4").table, table, rtol=EXACT, atol=EXACT)
+    for found in (friction_rows, lambda _, name: cone_matrix(name)):
+        np.testing.assert_allclose(
+            found(contacts, "facets-4"), found(contacts, "pyramid"), rtol=EXACT, atol=EXACT
+        )
+
+
+def coefficients(name):
+    """What each row combines of d1, d2 and spin, in units of the coefficients of friction."""
+    sliding = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    if name == "frictionless":
+        return [(0, 0, 0)]
+    if name == "product":
+        return [(t_1, t_2, turn) for turn in (1, -1) for t_1, t_2, _ in sliding]
+    if name.startswith("facets-"):
+        K = int(name.removeprefix("facets-"))
+        angles = [2 * np.pi * k / K for k in range(K)]
+        sliding = [(np.cos(angle), np.sin(angle), 0) for angle in angles]
+    return [*sliding, (0, 0, 1), (0, 0, -1)]
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+def test_a_cone_function_combines_the_gap_and_the_motions(name):
+    expected = np.array([(1.0, *t) for t in coefficients(name)])
+    matrix = cone_matrix(name)
+    assert len(matrix) == len(cone(name).row_names)
+    # np.cos rounds its argument, the cone's own cosines are right to an ulp.
+    tolerance = 1e-15 if name.startswith("facets-") else EXACT
+    np.testing.assert_allclose(matrix, expected, rtol=0.0, atol=tolerance)
+    # The leading rows do without torsion: its coefficient is then zero.
+    short = np.array([(1.0, t_1, t_2) for t_1, t_2, _ in coefficients(name)])[: cone(name).short]
+    np.testing.assert_allclose(matrix[: cone(name).short, :3], short, rtol=0.0, atol=tolerance)
+    assert name == "product" or not matrix[: cone(name).short, 3].any()
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+def test_numbers_expressions_rows_and_exact_numbers_go_through_a_cone_alike(name, rng):
+    # Multiples of 1/8 times float64 coefficients: sums of them are exact in 200 bits, not in 53.
+    motion = rng.integers(-64, 64, size=4) / 8.0
+    row_of = [[Fraction(c) for c in row] for row in cone_matrix(name).tolist()]
+    expected = [
+        sum((c * Fraction(x) for c, x in zip(row, motion.tolist(), strict=True)), Fraction(0))
+        for row in row_of
+    ]
+    rows = cone_function(name)
+    rounded = [float(x) for x in expected]
+    numbers = rows(*motion.tolist())
+    np.testing.assert_allclose(numbers, rounded, rtol=ROUNDING, atol=ROUNDING)
+    expressions = [row.value for row in rows(*(cp.Constant(x) for x in motion))]
+    np.testing.assert_allclose(expressions, rounded, rtol=ROUNDING, atol=ROUNDING)
+    stacked = np.stack(rows(*(x * np.eye(4)[i] for i, x in enumerate(motion)))).sum(axis=1)
+    np.testing.assert_allclose(stacked, rounded, rtol=ROUNDING, atol=ROUNDING)
+    exact = [row.m.item() * Fraction(2) ** row.e for row in rows(*map(dyadic, motion[:, None]))]
+    assert exact == expected
+    with ctx.workprec(200):
+        balls = rows(*(arb(x) for x in motion.tolist()))
+        fractions = [fmpq(x.numerator, x.denominator) for x in expected]
+        assert all(ball == arb(x) for ball, x in zip(balls, fractions, strict=True))
 
 
 def spent(name, f_1, f_2, tau):

@@ -36,13 +36,13 @@ def some_limits(symbols):
     return [
         symbols.delta_q_a <= 1e-2,
         cp.sum(symbols.delta_q_u) >= -0.5,
-        symbols.delta_q_a[0] == symbols.delta_q_bar_a[0],
+        symbols.delta_q_a[0] == 2e-4,
     ]
 
 
-def by_cvxpy(step, extension):
+def by_cvxpy(step, limits):
     """H, g, and (A, b) of the inequalities, then of the equations, as CVXPY compiles them."""
-    problem = StepProblem(step, extension)
+    problem = StepProblem(step, constraints=limits)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     P = data["P"].toarray()
@@ -55,9 +55,8 @@ def by_cvxpy(step, extension):
 def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_included(shape, seed):
     # CVXPY's rows go through i first, ours through the contacts; an equation is two rows of ours.
     step = random_step(np.random.default_rng(seed), *shape)
-    extension = Extension(some_limits)
-    form = standard_form(with_rows(step, extension_rows(step, extension)))
-    H, g, A, b, E, e = by_cvxpy(step, extension)
+    form = standard_form(with_rows(step, extension_rows(step, Extension(some_limits))))
+    H, g, A, b, E, e = by_cvxpy(step, some_limits)
     order = [step.offsets[j] + i for i in range(6) for j in np.flatnonzero(step.counts > i)]
     m, own = len(order), step.n_a + 1
     ours = [*order, *range(m, m + own)]

@@ -12,6 +12,7 @@ from quasistatic_ref.step.problem import StepProblem
 from tests.helpers import (
     JUDGE,
     REQUIRED,
+    changed,
     contact_row,
     error,
     planted_step,
@@ -27,6 +28,13 @@ def filled(step):
     problem = StepProblem(step)
     problem.fill(step)
     return problem
+
+
+def of_one_kind(first, seed, n_a=3, n_u=4, rows=(6, 4, 6)):
+    """Another random step with the same coefficients of friction as the first."""
+    step = random_step(np.random.default_rng(seed), n_a, n_u, rows)
+    mu = {"mu_v": first.contacts.mu_v, "mu_omega": first.contacts.mu_omega}
+    return step.replace(contacts=changed(step.contacts, **mu))
 
 
 @pytest.mark.parametrize("solver", [cp.CLARABEL, cp.OSQP, cp.PIQP])
@@ -47,9 +55,10 @@ def test_quad_form_with_a_psd_parameter_is_dpp_only_inside_its_scope(rng):
 
 @pytest.mark.parametrize("solver", ["clarabel", "osqp", "piqp", "daqp"])
 def test_nothing_is_compiled_after_the_first_solve(solver, monkeypatch):
-    steps = [planted_step(np.random.default_rng(seed), **PAPER) for seed in range(3)]
-    problem = StepProblem(steps[0][0])
-    solve_step(steps[0][0], solver, problem=problem)
+    first = random_step(np.random.default_rng(0), **PAPER)
+    steps = [of_one_kind(first, seed, **PAPER) for seed in (1, 2)]
+    problem = StepProblem(first)
+    solve_step(first, solver, problem=problem)
     compiled = problem.problem._cache.param_prog
     assert compiled is not None
 
@@ -57,21 +66,21 @@ def test_nothing_is_compiled_after_the_first_solve(solver, monkeypatch):
         raise AssertionError("CVXPY compiled the problem again")
 
     monkeypatch.setattr(cp.Problem, "_construct_chain", recompile)
-    for step, delta_q, _ in steps[1:]:
-        answer = solve_step(step, solver, problem=problem)
-        np.testing.assert_allclose(
-            error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM
-        )
+    for step in steps:
+        answer = solve_step(step, solver, problem=problem, certify="residual")
+        truth = solve_step(step, "none").delta_q
+        np.testing.assert_allclose(error(step, answer.delta_q, truth), 0.0, rtol=0.0, atol=OPTIMUM)
         assert problem.problem._cache.param_prog is compiled
 
 
 def test_every_matrix_and_vector_of_a_new_step_reaches_the_solver():
     # A parameter that kept its old value would show: all of them differ between the two steps.
-    first, second = (planted_step(np.random.default_rng(seed), 3, 4)[0] for seed in (1, 2))
+    first = random_step(np.random.default_rng(1), 3, 4)
     problem = StepProblem(first)
-    for step in (first, second, first):
-        fresh = solve_step(step, JUDGE).delta_q
-        kept = solve_step(step, JUDGE, problem=problem).delta_q
+    for step in (first, of_one_kind(first, 2), first):
+        assert problem.fits(step)
+        fresh = solve_step(step, JUDGE, certify="residual").delta_q
+        kept = solve_step(step, JUDGE, problem=problem, certify="residual").delta_q
         np.testing.assert_allclose(error(step, kept, fresh), 0.0, rtol=0.0, atol=OPTIMUM)
 
 
@@ -132,6 +141,13 @@ def test_multipliers_are_contact_major_although_cvxpy_lists_them_row_by_row(rng)
 
 
 OTHERS = {
+    "another mu_v": lambda step, rng: step.replace(
+        contacts=changed(step.contacts, mu_v=[*step.contacts.mu_v[:2], 2.0])
+    ),
+    "another mu_omega": lambda step, rng: step.replace(
+        contacts=changed(step.contacts, mu_omega=[*step.contacts.mu_omega[:2], 2.0])
+    ),
+    "another cone": lambda step, rng: step.replace(cone="facets-4"),
     "another h": lambda step, rng: step.replace(h=2 * step.h),
     "another n_a": lambda step, rng: random_step(rng, 2, 4),
     "another n_u": lambda step, rng: random_step(rng, 3, 5),
@@ -148,9 +164,52 @@ OTHERS = {
 def test_a_step_of_another_kind_is_refused(other, rng):
     step = random_step(rng, 3, 4, (6, 4, 6))
     problem = StepProblem(step)
-    assert problem.fits(random_step(rng, 3, 4, (6, 4, 6)))
-    with pytest.raises(StepDataError):
+    assert problem.fits(of_one_kind(step, 1))
+    with pytest.raises(StepDataError, match="another h, cone, mu_v, mu_omega or number of rows"):
         problem.fill(other(step, rng))
+
+
+def test_mu_omega_does_not_matter_where_it_is_not_used(rng):
+    step = random_step(rng, 3, 4, (6, 4, 6))
+    mu_omega = step.contacts.mu_omega * [1.0, 2.0, 1.0]
+    other = step.replace(contacts=changed(step.contacts, mu_omega=mu_omega))
+    assert StepProblem(step).fits(other)
+
+
+def test_a_problem_of_another_kind_is_not_used_for_a_step(rng):
+    # solve_step builds another one: what it says does not depend on what it is given to keep.
+    problem, (step, delta_q, _) = StepProblem(random_step(rng)), planted_step(rng)
+    answer = solve_step(step, "clarabel", problem=problem, certify="residual")
+    np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)
+
+
+@pytest.mark.parametrize("name", ["product", "facets-8", "frictionless", "ellipsoid"])
+def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
+    with pytest.raises(StepDataError, match="cone: needs its own friction function"):
+        StepProblem(random_step(rng).replace(cone=name))
+
+
+def test_further_constraints_come_after_the_rows_of_the_contacts_and_of_the_step(rng):
+    step = random_step(rng, rows=(4, 4)).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
+    problem = StepProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
+    # Four row indices of two contacts, one row of the step, one bound for each coordinate.
+    assert [constraint.size for constraint in problem.problem.constraints] == [2] * 4 + [1, 7]
+
+
+def test_constraints_and_costs_are_added_to_the_problem(rng):
+    # h K / 2 x^2 - h tau x + c x^2 is least at x = h tau / (h K + 2 c), which x <= limit may stop.
+    step = random_step(rng, 1, 0, rows=()).replace(K_q=[[100.0]], tau_a=[2.0], delta_q_bar_a=[0.0])
+    c = 0.25
+    free = step.h * 2.0 / (step.h * 100.0 + 2 * c)
+    for limit, expected in ((2 * free, free), (free / 2, free / 2)):
+        problem = StepProblem(
+            step,
+            constraints=lambda own, limit=limit: [own.delta_q_a <= limit],
+            costs=lambda own: [c * cp.sum_squares(own.delta_q)],
+        )
+        problem.fill(step)
+        problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
+        np.testing.assert_allclose(problem.primal(), [expected], rtol=OPTIMUM, atol=0.0)
 
 
 def test_the_problem_is_an_ordinary_cvxpy_problem_that_can_be_extended(rng):

@@ -15,7 +15,7 @@ from scipy.spatial import ConvexHull
 from quasistatic_ref.figures import styled
 from quasistatic_ref.figures.cones import limit_surfaces
 from quasistatic_ref.lab.examples.runs import Numbers, script
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.friction import cone_matrix
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 def main() -> Numbers:
     """Volumes of the limit surfaces, in units of mu_v, mu_v and mu_omega."""
-    volumes = {name: ConvexHull(cone(name).table).volume for name in ("pyramid", "product")}
+    volumes = {name: ConvexHull(cone_matrix(name)[:, 1:]).volume for name in ("pyramid", "product")}
     volumes["ellipsoid"] = 4 / 3 * np.pi
     return {f"volume of the {name} [-]": volume for name, volume in volumes.items()}
 

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, with
 from quasistatic_ref.lab.validate.engines.mujoco_scenes import Heap, heap
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.friction import friction_rows, pyramid
 
 SCENES = 12
 ORDER = [0, 2, 1, 3, 4, 5]
@@ -107,7 +107,7 @@ def rows_of(scene: Heap) -> dict[str, Array]:
     return {
         "ours": friction_rows(ours),
         "theirs": theirs["rows"][:, ORDER],
-        "shift": mu[:, :1, None] * np.stack([t1, t2, -t1, -t2, none, none], axis=1),
+        "shift": np.stack(pyramid(none, mu[:, :1] * t1, mu[:, :1] * t2, none), axis=1),
         "ours elliptic": np.stack([*axes, J[:, 3]], axis=1),
         "theirs elliptic": mujoco_contacts(scene, "elliptic")["rows"],
         "shift elliptic": np.stack([none, t1, t2, none], axis=1),

@@ -16,6 +16,7 @@ from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.friction import cone_matrix
 
 Array = NDArray[np.float64]
 
@@ -95,8 +96,8 @@ def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
             wrench = part[[1, 2, 0, 3]]
         else:
             mu_omega = pair["mu_omega"] if pair["rows"] == 6 else 0.0
-            f_d1, f_d2, tau_n = part @ table.table[:count] * [pair["mu_v"], pair["mu_v"], mu_omega]
-            wrench = np.array([f_d1, f_d2, part.sum(), tau_n])
+            mu = np.array([1.0, pair["mu_v"], pair["mu_v"], mu_omega])
+            wrench = (part @ cone_matrix(case["cone"])[:count] * mu)[[1, 2, 0, 3]]
         off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
         room = tolerance_of(record["tolerance"], "wrench")
         if off > room + 16 * EPS * float(np.abs(part).sum()):

@@ -21,7 +21,8 @@ from quasistatic_ref.lab.vectors.exact.rational import (
 )
 from quasistatic_ref.lab.vectors.expected import Expected, Json
 from quasistatic_ref.lab.vectors.layers.rows import row_coefficients
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.friction import cone_matrix
 
 ROUNDINGS = 16
 """Of a force: a product, a sum over up to eight rows and a quotient, each counted twice."""
@@ -88,7 +89,7 @@ def _wrench(contact: Json, name: str) -> tuple[Exact, Exact]:
     lam = exact(contact["lam"])
     if name == ELLIPSOID:
         return lam[[1, 2, 0, 3]], abs(lam[[1, 2, 0, 3]])
-    rows = row_coefficients(contact, name, exact(cone(name).table))
+    rows = row_coefficients(contact, name, exact(cone_matrix(name)[:, 1:]))
     sums = [np.insert(c.T @ v, 2, v.sum()) for c, v in ((rows, lam), (abs(rows), abs(lam)))]
     return sums[0], sums[1]
 
