@@ -15,6 +15,12 @@ from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.simulate.words import (
+    result_html,
+    result_words,
+    simulator_html,
+    simulator_words,
+)
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
 from quasistatic_ref.solve.extended import extension_rows, with_rows
@@ -51,6 +57,12 @@ class StepResult(NamedTuple):
     points: ClosestPoints
     seconds: dict[str, float]
 
+    def __repr__(self) -> str:
+        return result_words(self)
+
+    def _repr_html_(self) -> str:
+        return result_html(self)
+
 
 class Simulator:
     """A system, what may touch in it, and how each step is solved.
@@ -79,6 +91,8 @@ class Simulator:
         Beyond which no step is taken; by default those of
         :class:`~quasistatic_ref.simulate.limits.Limits`.
     """
+
+    __repr__, _repr_html_ = simulator_words, simulator_html
 
     def __init__(
         self,

@@ -14,6 +14,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.lazy import Lazy
+from quasistatic_ref.step.words import contacts_html, contacts_words
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
@@ -63,6 +64,8 @@ class Contacts(Lazy):
     mu_omega: Array
     rows: NDArray[np.int64]
     blocks: ClassVar[Blocks | None] = None
+
+    __repr__, _repr_html_ = contacts_words, contacts_html
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", names(self.name, "contacts.name"))

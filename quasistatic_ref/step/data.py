@@ -24,6 +24,7 @@ from quasistatic_ref.step.arrays import (
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.words import extra_words, step_html, step_words
 
 __all__ = ["Array", "Contacts", "Extra", "StepData"]
 
@@ -44,6 +45,8 @@ class Extra:
     names: tuple[str, ...]
     A: Array
     b: Array
+
+    __repr__ = extra_words
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
@@ -92,6 +95,8 @@ class StepData:
     contacts: Contacts
     cone: str = PYRAMID
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
+
+    __repr__, _repr_html_ = step_words, step_html
 
     def __post_init__(self) -> None:
         h = numbers(self.h, "h")

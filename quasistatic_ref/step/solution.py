@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.lazy import Lazy
+from quasistatic_ref.step.words import certificate_words, solution_html, solution_words
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,8 @@ class Certificate:
     smallest_inactive_slack: float | None = None
     smallest_active_multiplier: float | None = None
     error_bound: float | None = None
+
+    __repr__ = certificate_words
 
 
 class SolverStatistics(NamedTuple):
@@ -103,6 +106,8 @@ class StepSolution(Lazy):
     certificate: Certificate
     statistics: SolverStatistics
     cone: str = "pyramid"
+
+    __repr__, _repr_html_ = solution_words, solution_html
 
     @classmethod
     def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:

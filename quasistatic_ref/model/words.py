@@ -1,0 +1,49 @@
+"""Bodies in words: what ``repr`` and a notebook show of a system."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.step.show import Row, counted, html_page, number, text_page
+
+if TYPE_CHECKING:
+    from quasistatic_ref.model.system import System
+    from quasistatic_ref.step.show import Page
+
+BODY = ("body", "base", "actuated", "not actuated", "links", "shapes", "mass [kg]")
+
+
+def system_words(system: System) -> str:
+    """A system: of each body, its base, coordinates, links, shapes and mass."""
+    return text_page(*_system(system))
+
+
+def system_html(system: System) -> str:
+    """The same for a notebook."""
+    return html_page(*_system(system))
+
+
+def _system(system: System) -> Page:
+    names = [body.name for body in system.bodies]
+    title = (
+        f"System: {counted(len(names), 'body')}, {counted(system.n_v, 'coordinate')} "
+        f"({system.n_a} actuated), {counted(system.n_q, 'entry')} of q"
+    )
+    actuated = [coordinate.joint for coordinate in system.coordinates if coordinate.actuated]
+    free = [coordinate.joint for coordinate in system.coordinates if not coordinate.actuated]
+    shapes = [shape.name for shape in system.shapes]
+    rows: list[Row] = [
+        (
+            body.name,
+            body.base,
+            *(str(_own(body.name, those)) for those in (actuated, free, system.links, shapes)),
+            number(system.mass(body.name)),
+        )
+        for body in system.bodies
+    ]
+    return title, [], BODY, rows
+
+
+def _own(body: str, names: list[str] | tuple[str, ...]) -> int:
+    """How many of these names are the body's."""
+    return sum(name.startswith(f"{body}/") for name in names)
