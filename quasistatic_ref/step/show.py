@@ -50,12 +50,9 @@ def direction(n: Iterable[float]) -> str:
 
 
 def counted(n: int, noun: str) -> str:
-    """A number of things, e.g. ``1 contact`` or ``3 contacts``."""
-    return f"{n} {noun}" if n == 1 else f"{n} {noun.removesuffix('y')}{_plural(noun)}"
-
-
-def _plural(noun: str) -> str:
-    return "ies" if noun.endswith("y") and noun[-2] not in "aeiou" else "s"
+    """A number of things, e.g. ``1 contact`` or ``3 bodies``."""
+    many = f"{noun[:-1]}ies" if noun.endswith("y") else f"{noun}s"
+    return f"{n} {noun if n == 1 else many}"
 
 
 def without(page: Page, *columns: str) -> Page:

@@ -61,7 +61,7 @@ def certificate_words(certificate: Certificate) -> str:
 
 
 def certificate_facts(certificate: Certificate) -> list[str]:
-    """What is claimed of an answer beside its kind, a sentence each."""
+    """What is claimed of an answer, its kind aside, a sentence each."""
     residual = max(certificate.residuals.values(), default=None)
     facts = [f"worst residual {number(residual)}, error bound {number(certificate.error_bound)}"]
     known = certificate.multipliers_unique, certificate.differentiable
