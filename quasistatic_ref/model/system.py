@@ -20,8 +20,9 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.motion import Motion, constant_mass
-from quasistatic_ref.model.words import system_html, system_words
+from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.world import world_of
+from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
@@ -73,7 +74,7 @@ class System:
         If a URDF is not usable, a name is unknown or taken, or M_u is singular.
     """
 
-    __repr__, _repr_html_ = system_words, system_html
+    __repr__, _repr_html_ = shown(system_page)
 
     def __init__(self, bodies: Sequence[Body]) -> None:
         self.bodies = tuple(bodies)

@@ -4,26 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from quasistatic_ref.step.show import Row, counted, html_page, number, text_page
+from quasistatic_ref.step.show import Page, Row, counted, number
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System
-    from quasistatic_ref.step.show import Page
 
 BODY = ("body", "base", "actuated", "not actuated", "links", "shapes", "mass [kg]")
 
 
-def system_words(system: System) -> str:
+def system_page(system: System) -> Page:
     """A system: of each body, its base, coordinates, links, shapes and mass."""
-    return text_page(*_system(system))
-
-
-def system_html(system: System) -> str:
-    """The same for a notebook."""
-    return html_page(*_system(system))
-
-
-def _system(system: System) -> Page:
     names = [body.name for body in system.bodies]
     title = (
         f"System: {counted(len(names), 'body')}, {counted(system.n_v, 'coordinate')} "

@@ -26,7 +26,7 @@ from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tab
 from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
-from quasistatic_ref.simulate.words import scenario_html, scenario_words
+from quasistatic_ref.simulate.words import scenario_page
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.backends import backend as known_backend
 from quasistatic_ref.solve.engines import ENGINES, NATIVE, default_engine
@@ -34,6 +34,7 @@ from quasistatic_ref.solve.native import check_native
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
@@ -90,7 +91,7 @@ class Scenario:
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     engine: str | None = None
 
-    __repr__, _repr_html_ = scenario_words, scenario_html
+    __repr__, _repr_html_ = shown(scenario_page)
 
     def simulator(self) -> Simulator:
         """A simulator of this scenario."""

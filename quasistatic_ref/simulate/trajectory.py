@@ -17,9 +17,10 @@ from quasistatic_ref.files import json_text, text_of, unique_fields, written_who
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.simulate.table import data_frame
-from quasistatic_ref.simulate.words import trajectory_html, trajectory_words
+from quasistatic_ref.simulate.words import NOT_IN_TEXT, trajectory_page
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.show import html_page, text_page
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -99,10 +100,10 @@ class Trajectory:
         return {**self.__dict__, "scene": None}
 
     def __repr__(self) -> str:
-        return trajectory_words(self, certified(self))
+        return text_page(trajectory_page(self, certified(self)), *NOT_IN_TEXT)
 
     def _repr_html_(self) -> str:
-        return trajectory_html(self, certified(self))
+        return html_page(trajectory_page(self, certified(self)))
 
     @property
     def steps(self) -> int:

@@ -5,16 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from quasistatic_ref.step.show import (
-    Row,
-    counted,
-    direction,
-    html_page,
-    number,
-    text_page,
-    vector,
-    without,
-)
+from quasistatic_ref.step.show import Page, Row, counted, direction, number, vector
 from quasistatic_ref.step.words import (
     CONTACT,
     FORCE,
@@ -28,51 +19,10 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.scenario import Scenario
     from quasistatic_ref.simulate.simulator import Simulator, StepResult
     from quasistatic_ref.simulate.trajectory import Trajectory
-    from quasistatic_ref.step.show import Page
 
 NOT_IN_TEXT = (CONTACT[2], *FORCE[:2])
 """Columns for which a line has no room."""
 PAIR = ("pair", "contacts", "mu_v", "mu_omega [m]", "rows")
-
-
-def result_words(result: StepResult) -> str:
-    """One step that was taken: gap, normal, force and active rows of each contact."""
-    return text_page(*without(_result(result), *NOT_IN_TEXT))
-
-
-def result_html(result: StepResult) -> str:
-    """The same for a notebook."""
-    return html_page(*_result(result))
-
-
-def simulator_words(simulator: Simulator) -> str:
-    """What steps, and how each step is solved."""
-    return text_page(*_simulator(simulator))
-
-
-def simulator_html(simulator: Simulator) -> str:
-    """The same for a notebook."""
-    return html_page(*_simulator(simulator))
-
-
-def scenario_words(scenario: Scenario) -> str:
-    """What a scenario file comes to."""
-    return text_page(*_scenario(scenario))
-
-
-def scenario_html(scenario: Scenario) -> str:
-    """The same for a notebook."""
-    return html_page(*_scenario(scenario))
-
-
-def trajectory_words(trajectory: Trajectory, certified: str) -> str:
-    """A run: how far it went, what of it is proved, and its contacts in the last step."""
-    return text_page(*without(_trajectory(trajectory, certified), *NOT_IN_TEXT))
-
-
-def trajectory_html(trajectory: Trajectory, certified: str) -> str:
-    """The same for a notebook."""
-    return html_page(*_trajectory(trajectory, certified))
 
 
 def pair_rows(pairs: Sequence[ContactPair]) -> list[Row]:
@@ -83,7 +33,8 @@ def pair_rows(pairs: Sequence[ContactPair]) -> list[Row]:
     ]
 
 
-def _result(result: StepResult) -> Page:
+def result_page(result: StepResult) -> Page:
+    """One step that was taken: gap, normal, force and active rows of each contact."""
     step, certificate = result.step, result.solution.certificate
     title = (
         f"StepResult: {counted(step.n_v, 'coordinate')}, {counted(step.contacts.n_c, 'contact')}, "
@@ -94,7 +45,8 @@ def _result(result: StepResult) -> Page:
     return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
 
 
-def _simulator(simulator: Simulator) -> Page:
+def simulator_page(simulator: Simulator) -> Page:
+    """What steps, and how each step is solved."""
     title = (
         f"Simulator: h = {simulator.h:g} s, {counted(simulator.system.n_v, 'coordinate')} "
         f"({simulator.system.n_a} actuated), {_touching(simulator.pairs)}"
@@ -106,7 +58,8 @@ def _simulator(simulator: Simulator) -> Page:
     return title, facts, PAIR, pair_rows(simulator.pairs)
 
 
-def _scenario(scenario: Scenario) -> Page:
+def scenario_page(scenario: Scenario) -> Page:
+    """What a scenario file comes to."""
     system = scenario.system
     title = (
         f"Scenario {scenario.path.stem}: {counted(scenario.steps, 'step')} of {scenario.h:g} s, "
@@ -126,7 +79,8 @@ def _touching(pairs: Sequence[ContactPair]) -> str:
     return f"{counted(len(pairs), 'pair')} with {counted(n_c, 'contact')}"
 
 
-def _trajectory(trajectory: Trajectory, certified: str) -> Page:
+def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
+    """A run: how far it went, what of it is proved, and its contacts in the last step."""
     header, steps = trajectory.header, trajectory.steps
     ended = "complete" if trajectory.failed is None else "ended early"
     title = (

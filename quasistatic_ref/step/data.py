@@ -24,7 +24,8 @@ from quasistatic_ref.step.arrays import (
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.words import extra_words, step_html, step_words
+from quasistatic_ref.step.show import shown
+from quasistatic_ref.step.words import extra_page, step_page
 
 __all__ = ["Array", "Contacts", "Extra", "StepData"]
 
@@ -46,7 +47,7 @@ class Extra:
     A: Array
     b: Array
 
-    __repr__ = extra_words
+    __repr__, _repr_html_ = shown(extra_page)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
@@ -96,7 +97,7 @@ class StepData:
     cone: str = PYRAMID
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
 
-    __repr__, _repr_html_ = step_words, step_html
+    __repr__, _repr_html_ = shown(step_page)
 
     def __post_init__(self) -> None:
         h = numbers(self.h, "h")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
+from typing import Any
 
 from quasistatic_ref.errors import one_line
 
@@ -55,30 +56,38 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun if n == 1 else many}"
 
 
-def without(page: Page, *columns: str) -> Page:
-    """A page whose table lacks some columns."""
+def shown(page: Callable[[Any], Page], *hidden: str) -> tuple[Callable[[Any], str], ...]:
+    """``__repr__`` and ``_repr_html_`` of a class whose objects have a page.
+
+    Parameters
+    ----------
+    page : callable
+        An object -> its page.
+    hidden : str
+        Columns for which a line of text has no room.
+    """
+    return lambda it: text_page(page(it), *hidden), lambda it: html_page(page(it))
+
+
+def text_page(page: Page, *hidden: str) -> str:
+    """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
     title, facts, header, rows = page
-    kept = [i for i, name in enumerate(header) if name not in columns]
-    return title, facts, [header[i] for i in kept], [[row[i] for i in kept] for row in rows]
-
-
-def text_page(title: str, facts: Sequence[str], header: Row = (), rows: Sequence[Row] = ()) -> str:
-    """A title, facts, and the first rows of a table, as at most LINES lines of WIDTH columns."""
     lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST - 2]
     if rows:
-        shown = [[shortened(cell) for cell in row] for row in [header, *rows[:MOST]]]
-        widths = [max(len(row[i]) for row in shown) for i in range(len(header))]
-        for row in shown:
-            first, *rest = row
-            cells = [cell.rjust(w) for cell, w in zip(rest, widths[1:], strict=True)]
-            lines.append("  " + "  ".join([first.ljust(widths[0]), *cells]).rstrip())
+        kept = [i for i, name in enumerate(header) if name not in hidden]
+        cells = [[shortened(row[i]) for i in kept] for row in [header, *rows[:MOST]]]
+        first, *widths = (max(map(len, column)) for column in zip(*cells, strict=True))
+        for name, *numbers in cells:
+            right = [cell.rjust(width) for cell, width in zip(numbers, widths, strict=True)]
+            lines.append("  " + "  ".join([name.ljust(first), *right]).rstrip())
         if len(rows) > MOST:
             lines.append(f"  ... and {len(rows) - MOST} more")
     return "\n".join(clipped(line) for line in lines)
 
 
-def html_page(title: str, facts: Sequence[str], header: Row = (), rows: Sequence[Row] = ()) -> str:
+def html_page(page: Page) -> str:
     """The same as one HTML element that needs nothing from elsewhere, with more of the rows."""
+    title, facts, header, rows = page
     parts = [f"<div><p><strong>{_safe(title)}</strong></p>"]
     if facts:
         parts.append(f"<p>{'<br>'.join(map(_safe, facts))}</p>")

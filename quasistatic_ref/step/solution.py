@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.lazy import Lazy
-from quasistatic_ref.step.words import certificate_words, solution_html, solution_words
+from quasistatic_ref.step.show import shown
+from quasistatic_ref.step.words import certificate_page, solution_page
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Certificate:
     smallest_active_multiplier: float | None = None
     error_bound: float | None = None
 
-    __repr__ = certificate_words
+    __repr__, _repr_html_ = shown(certificate_page)
 
 
 class SolverStatistics(NamedTuple):
@@ -107,7 +108,7 @@ class StepSolution(Lazy):
     statistics: SolverStatistics
     cone: str = "pyramid"
 
-    __repr__, _repr_html_ = solution_words, solution_html
+    __repr__, _repr_html_ = shown(solution_page)
 
     @classmethod
     def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.show import Page, Row, counted, direction, html_page, number, text_page
+from quasistatic_ref.step.show import Page, Row, counted, direction, number
 
 if TYPE_CHECKING:
     from quasistatic_ref.step.contacts import Contacts
@@ -18,46 +18,16 @@ CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
 FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]", "active rows")
 
 
-def step_words(step: StepData) -> str:
-    """A step: what moves, and its contacts."""
-    return text_page(*_step(step))
-
-
-def step_html(step: StepData) -> str:
-    """The same for a notebook."""
-    return html_page(*_step(step))
-
-
-def contacts_words(contacts: Contacts) -> str:
-    """Contacts: gap, normal and friction of each."""
-    return text_page(*_contacts(contacts))
-
-
-def contacts_html(contacts: Contacts) -> str:
-    """The same for a notebook."""
-    return html_page(*_contacts(contacts))
-
-
-def solution_words(solution: StepSolution) -> str:
-    """An answer: its certificate, and the force and active rows of each contact."""
-    return text_page(*_solution(solution))
-
-
-def solution_html(solution: StepSolution) -> str:
-    """The same for a notebook."""
-    return html_page(*_solution(solution))
-
-
-def extra_words(extra: Extra) -> str:
+def extra_page(extra: Extra) -> Page:
     """Rows of the user's own, by name."""
     rows = [(name, number(b)) for name, b in zip(extra.names, extra.b, strict=True)]
     title = f"Extra: {counted(len(rows), 'row')} A delta_q >= b"
-    return text_page(title, [], ("row", "b"), rows)
+    return title, [], ("row", "b"), rows
 
 
-def certificate_words(certificate: Certificate) -> str:
+def certificate_page(certificate: Certificate) -> Page:
     """What is claimed of an answer."""
-    return text_page(f"Certificate: {certificate.kind}", certificate_facts(certificate))
+    return f"Certificate: {certificate.kind}", certificate_facts(certificate), (), ()
 
 
 def certificate_facts(certificate: Certificate) -> list[str]:
@@ -98,7 +68,8 @@ def force_rows(solution: StepSolution) -> list[Row]:
     ]
 
 
-def _step(step: StepData) -> Page:
+def step_page(step: StepData) -> Page:
+    """A step: what moves, and its contacts."""
     title = (
         f"StepData: h = {step.h:g} s, {counted(step.n_v, 'coordinate')} ({step.n_a} actuated), "
         f"{counted(step.contacts.n_c, 'contact')}, {counted(int(step.offsets[-1]), 'row')}, "
@@ -108,12 +79,14 @@ def _step(step: StepData) -> Page:
     return title, facts, CONTACT, contact_rows(step.contacts)
 
 
-def _contacts(contacts: Contacts) -> Page:
+def contacts_page(contacts: Contacts) -> Page:
+    """Contacts: gap, normal and friction of each."""
     title = f"Contacts: {counted(contacts.n_c, 'contact')}, {counted(contacts.n_v, 'coordinate')}"
     return title, [], CONTACT, contact_rows(contacts)
 
 
-def _solution(solution: StepSolution) -> Page:
+def solution_page(solution: StepSolution) -> Page:
+    """An answer: its certificate, and the force and active rows of each contact."""
     certificate = solution.certificate
     largest = float(np.abs(solution.delta_q).max(initial=0.0))
     title = (

@@ -233,6 +233,6 @@ def test_words_and_numbers_are_cut_where_they_must():
         "0 bodies",
         "2 pairs",
     ]
-    page = text_page("t", [str(i) for i in range(99)], ("a", "b"), [("1", "2")] * 99)
+    page = text_page(("t", [str(i) for i in range(99)], ("a", "b"), [("1", "2")] * 99))
     assert len(page.splitlines()) == LINES
-    assert html_page("t", []) == "<div><p><strong>t</strong></p></div>"
+    assert html_page(("t", (), (), ())) == "<div><p><strong>t</strong></p></div>"
