@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from quasistatic_ref.step.show import Page, Row, counted, direction, number, vector
 from quasistatic_ref.step.words import (
     CONTACT,
@@ -85,8 +87,8 @@ def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
     ended = "complete" if trajectory.failed is None else "ended early"
     title = (
         f"Trajectory: {counted(steps, 'step')} of {header['h']:g} s, {ended}; "
-        f"{counted(trajectory['q'].shape[1], 'entry')} of q, "
-        f"{counted(len(trajectory['mu_v']), 'contact')}"
+        f"{counted(trajectory['q'].shape[-1], 'entry')} of q, "
+        f"{counted(np.size(trajectory['mu_v']), 'contact')}"
     )
     facts = [] if trajectory.failed is None else [f"why it ended: {trajectory.failed}"]
     facts += [
@@ -96,11 +98,17 @@ def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
         f"boundary layer {number(header.get('largest_boundary_layer'))} m",
         f"arrays: {', '.join(trajectory.arrays)}",
     ]
-    if not steps:
-        return title, facts, (), []
-    names = header["contacts"][-1] if header["contacts"] else range(len(trajectory["mu_v"]))
-    columns = zip(
-        names, trajectory["phi"][-1], trajectory["n"][-1], trajectory["wrench"][-1], strict=True
-    )
-    rows = [(str(name), number(phi), direction(n), *map(number, w)) for name, phi, n, w in columns]
+    n_c = np.size(trajectory["mu_v"])
+    shapes = {"phi": (), "n": (3,), "wrench": (4,)}
+    fits = (trajectory[key].shape == (steps, n_c, *last) for key, last in shapes.items())
+    if not (steps and all(fits)):  # no steps, or a file that another program wrote
+        return title, facts, (), ()
+    names = header["contacts"][-1] if header["contacts"] else ()
+    names = names if len(names) == n_c else range(n_c)
+    rows = [
+        (str(name), number(phi), direction(n), *map(number, wrench))
+        for name, phi, n, wrench in zip(
+            names, *(trajectory[key][-1] for key in shapes), strict=True
+        )
+    ]
     return title, facts, ("contact, last step", *CONTACT[1:3], *FORCE[:4]), rows

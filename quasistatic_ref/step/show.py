@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from html import escape
+from numbers import Real
 from typing import Any
 
 from quasistatic_ref.errors import one_line
@@ -35,9 +36,9 @@ def shortened(name: str, width: int = NAME) -> str:
     return line if len(line) <= width else f"{line[:head]}...{line[head + 3 - width :]}"
 
 
-def number(x: float | None) -> str:
-    """A number to four digits; a dash for what is not known."""
-    return "-" if x is None else f"{x + 0.0:.4g}"
+def number(x: object) -> str:
+    """A number to four digits; a dash for what is not known, or is none."""
+    return f"{float(x) + 0.0:.4g}" if isinstance(x, Real) else "-"
 
 
 def vector(values: Iterable[float]) -> str:

@@ -12,6 +12,7 @@ from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.model.system import System
 from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.show import clipped, counted, html_page, number, shortened, text_page
@@ -218,6 +219,25 @@ def test_a_trajectory_shows_its_last_step():
     assert f_n == pytest.approx(run["wrench"][-1, :, 2], rel=1e-3, abs=0)
     assert "3 steps of 0.01 s, complete; 8 entries of q, 8 contacts" in repr(run)
     assert "3 of 3 steps exact" in repr(run)
+
+
+STRANGE = {
+    "a header of words": ({"quasi_dynamic_number": "fast", "backend": HOSTILE}, {}),
+    "names that are numbers": ({"contacts": [list(range(8))] * 3}, {}),
+    "too few names": ({"contacts": [["one"]] * 3}, {}),
+    "scalar gaps": ({}, {"phi": np.zeros(3), "wrench": np.zeros(3)}),
+    "no contacts": ({}, {"mu_v": np.zeros(())}),
+    "other numbers of contacts": ({}, {"phi": np.zeros((3, 2))}),
+    "whole numbers": ({}, {"phi": np.zeros((3, 8), dtype=np.int64)}),
+    "a flat q": ({}, {"q": np.zeros(4)}),
+}
+
+
+@pytest.mark.parametrize(("header", "arrays"), STRANGE.values(), ids=STRANGE)
+def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, arrays, tmp_path):
+    run = load_scenario("block_push", steps=3).run(progress=False)
+    strange = Trajectory({**run.header, **header}, {**run.arrays, **arrays})
+    check(strange, trajectory_read(strange.save(tmp_path / "run.npz")))
 
 
 def test_words_and_numbers_are_cut_where_they_must():
