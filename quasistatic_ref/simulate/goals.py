@@ -7,20 +7,23 @@ from inspect import Parameter, signature
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
-OfTimeAndQ = Callable[[float, Array], Array]
-OfTime = Callable[[float], Array]
-Target = OfTime | OfTimeAndQ | Array
+OfTime = Callable[[float], ArrayLike]
+OfTimeAndQ = Callable[[float, Array], ArrayLike]
+Checked = Callable[[float, Array], Array]
+"""A function of (t, q) whose results have the right shape."""
+Target = OfTime | OfTimeAndQ | ArrayLike
 Force = OfTime | OfTimeAndQ
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
-def target_function(system: System, h: float, target: Target, steps: int) -> OfTimeAndQ:
+def target_function(system: System, h: float, target: Target, steps: int) -> Checked:
     """Targets in any accepted form as a function of (t, q); every value checked as q is.
 
     Parameters
@@ -59,7 +62,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> OfT
     return lambda t, q: table[round(t / h) - 1]
 
 
-def force_function(system: System, force: Force | None) -> OfTimeAndQ:
+def force_function(system: System, force: Force | None) -> Checked:
     """An external force as a function of (t, q), shape (n_v,) [N, N m]; zero where it is None.
 
     Raises
@@ -104,7 +107,7 @@ def of_time_and_q(function: Callable[..., Any], name: str) -> OfTimeAndQ:
     raise InputError("must be a function of t, or of (t, q)", field=name, value=written)
 
 
-def _returning(function: OfTimeAndQ, shape: tuple[int, ...], name: str) -> OfTimeAndQ:
+def _returning(function: OfTimeAndQ, shape: tuple[int, ...], name: str) -> Checked:
     """The same function, its results as arrays of one shape."""
 
     def value(t: float, q: Array) -> Array:

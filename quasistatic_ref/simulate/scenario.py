@@ -19,7 +19,7 @@ from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.simulate.goals import OfTimeAndQ
+from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
@@ -111,7 +111,7 @@ class Scenario:
         )
 
     @property
-    def force(self) -> OfTimeAndQ | None:
+    def force(self) -> Checked | None:
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         if not self.wrenches:
             return None
