@@ -67,7 +67,7 @@ class Trajectory:
         runs make equal files.
     scene : Scene, optional
         The system and the pairs, where the run was made in this process; kept in memory only, and
-        not pickled.
+        not copied or pickled.
 
     Each array is an attribute as well: ``trajectory.phi`` is ``trajectory["phi"]``.
     """
@@ -75,7 +75,7 @@ class Trajectory:
     header: Mapping[str, Any]
     arrays: Mapping[str, NDArray[Any]]
     seconds: Mapping[str, Array] = field(default_factory=dict)
-    scene: Scene | None = None
+    scene: Scene | None = field(default=None, compare=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -96,8 +96,8 @@ class Trajectory:
     def __bool__(self) -> bool:
         return True  # a run without steps is a run
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "scene": None}
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Trajectory, (self.header, self.arrays, self.seconds)  # without the scene
 
     def __repr__(self) -> str:
         return text_page(trajectory_page(self, certified(self)), *NOT_IN_TEXT)

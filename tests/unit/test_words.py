@@ -70,7 +70,7 @@ def check(*objects):
         assert 1 <= len(lines) <= LINES
         assert max(map(len, lines)) <= WIDTH
         assert all(line.isprintable() and line == line.rstrip() for line in lines)
-        assert lines[0].startswith(type(one).__name__)
+        assert lines[0].startswith(tuple(kind.__name__ for kind in type(one).__mro__[:-1]))
         if hasattr(one, "_repr_html_"):
             page = Page(one._repr_html_())
             assert page.open == []
