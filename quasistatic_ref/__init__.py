@@ -4,8 +4,9 @@ The model is that of Tracy & Manchester, "Convex Quasi-Dynamic Simulation of Rig
 Clouds with Torsional Friction"; equation numbers everywhere in this package are the paper's.
 Start reading at :mod:`quasistatic_ref.step.problem`.
 
-The names below are loaded on first use, so that ``import quasistatic_ref`` is cheap and
-``step``, ``certify`` and ``solve`` work where pinocchio and coal are not installed.
+The names below are loaded on first use, so that ``import quasistatic_ref as qr`` is cheap and
+``step``, ``certify`` and ``solve`` work where pinocchio and coal are not installed. None of them
+is the name of a sub-package, which Python would put in its place once that is imported.
 """
 
 from importlib import import_module
@@ -13,21 +14,34 @@ from typing import Any
 
 __version__ = "0.1.0"
 
-_HOME = {
-    "QuasistaticError": "errors",
-    "StepNotSolved": "errors",
-    "Contacts": "step.data",
-    "StepData": "step.data",
-    "StepSolution": "step.solution",
-    "Extension": "step.extension",
-    "StepProblem": "step.problem",
-    "sensitivity": "certify.sensitivity",
-    "solve_step": "solve.solve",
-    "System": "model.system",
-    "Simulator": "simulate.simulator",
-    "Trajectory": "simulate.trajectory",
-    "load_scenario": "simulate.scenario",
+_HOMES = {
+    # A scene.
+    "model.system": "System",
+    "model.body": "Body",
+    "model.shapes": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud PlacedShape",
+    "model.convex_mesh": "convex_hull",
+    "contact.pairs": "ContactPair",
+    # Steps in sequence.
+    "simulate.simulator": "Simulator StepResult",
+    "simulate.rollout": "rollout",
+    "simulate.recorder": "Recorder",
+    "simulate.trajectory": "Trajectory trajectory_read",
+    "simulate.scenario": "Scenario load_scenario",
+    # One step and its answer.
+    "step.data": "StepData Contacts Extra",
+    "step.files": "step_read step_written",
+    "step.problem": "StepProblem",
+    "step.standard_form": "standard_form",
+    "step.extension": "Extension",
+    "step.solution": "StepSolution Certificate",
+    "solve.solve": "solve_step",
+    "certify.certificate": "verify",
+    "certify.sensitivity": "sensitivity",
+    # What can go wrong.
+    "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
+    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded RunFailed",
 }
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["__version__", *sorted(_HOME)]
 

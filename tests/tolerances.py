@@ -103,3 +103,6 @@ FIRST_ORDER: Final = 1e-3
 
 FOUR_ULP: Final = 4 * 2.220446049250313e-16
 """The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side."""
+
+INTEGRAL: Final = 1e-11
+"""Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""

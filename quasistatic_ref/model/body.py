@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model.solid import Homogeneous, solid_urdf
 
 BASES = ("fixed", "floating", "planar")
 
@@ -24,6 +26,8 @@ class Body:
     name : str
         Prefix of its links and joints, e.g. ``gripper`` for ``gripper/left_finger``.
     urdf : str or Path
+        Its file; or the URDF itself, a string that begins with ``<``, whose meshes are looked for
+        in the working folder.
     base : str
         ``"fixed"``, ``"floating"`` or ``"planar"``: moving in the horizontal plane at the height
         of xyz, turning about the vertical.
@@ -77,6 +81,31 @@ class Body:
         positions = {name: self._position(name) for name in self.positions}
         object.__setattr__(self, "positions", MappingProxyType(positions))
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
+
+    @classmethod
+    def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:
+        """A homogeneous solid: one link, ``NAME/solid``, with one collision shape.
+
+        Parameters
+        ----------
+        name : str
+        shape : Sphere, Box, Cylinder or Capsule
+            About the origin of the link, which is the centre of mass.
+        mass : float
+            [kg].
+        more : object
+            Of `base` (here ``"floating"`` by default), `actuated`, `xyz`, `rpy`.
+
+        Returns
+        -------
+        Body
+
+        Raises
+        ------
+        ModelError
+            If the shape is another one, or the mass not positive.
+        """
+        return cls(name, solid_urdf(shape, mass, name), **({"base": "floating"} | more))
 
     def _vector(self, key: str) -> ArrayLike:
         value = getattr(self, key)

@@ -20,7 +20,9 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.motion import Motion, constant_mass
+from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.world import world_of
+from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
@@ -71,6 +73,8 @@ class System:
     ModelError
         If a URDF is not usable, a name is unknown or taken, or M_u is singular.
     """
+
+    __repr__, _repr_html_ = shown(system_page)
 
     def __init__(self, bodies: Sequence[Body]) -> None:
         self.bodies = tuple(bodies)
@@ -239,10 +243,6 @@ class System:
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q."""
         return Kinematics(*self._workspace.poses(self._order.model_q(q)), self.motion)
-
-    def body_jacobians(self, q: Array) -> Array:
-        """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""
-        return self.kinematics(q).J
 
     def centre_of_mass_force(
         self, q: Array, body_name: str, force: ArrayLike, torque: ArrayLike

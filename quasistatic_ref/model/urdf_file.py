@@ -83,6 +83,7 @@ class UrdfFile:
     Parameters
     ----------
     path : Path
+        ``<robot>``, in the working folder, of a text that was given in place of a file.
     text : str
         The whole file.
     root : str
@@ -102,8 +103,8 @@ class UrdfFile:
     ignored: tuple[str, ...]
 
 
-def urdf_file(path: str | Path) -> UrdfFile:
-    """Content of a URDF file.
+def urdf_file(given: str | Path) -> UrdfFile:
+    """Content of a URDF file, or of a string that is a URDF: one that begins with ``<``.
 
     Raises
     ------
@@ -111,8 +112,11 @@ def urdf_file(path: str | Path) -> UrdfFile:
         If it is missing or malformed, contradicts itself, or says something that the model
         has no place for; the message names the file, the element and the value.
     """
-    path = Path(path)
-    text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
+    if isinstance(given, str) and given.lstrip().startswith("<"):
+        path, text = Path("<robot>"), given
+    else:
+        path = Path(given)
+        text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
     try:
         return _content(path, text)
     except ModelError as error:

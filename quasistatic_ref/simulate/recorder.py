@@ -8,19 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.artifacts import (
-    boundary_layer,
-    drag_share,
-    quasi_dynamic_number,
-)
+from quasistatic_ref.simulate.artifacts import boundary_layer, drag_share, quasi_dynamic_number
 from quasistatic_ref.simulate.trajectory import CONSTANT, FORMAT, RECORDS, VERSION, Trajectory
-from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import StepResult
+    from quasistatic_ref.simulate.simulator import Simulator, StepResult
 
 
 class Recorder:
@@ -28,36 +23,27 @@ class Recorder:
 
     Parameters
     ----------
-    system : System
-    h : float
-    backend : str
-    record : str
-        ``"full"`` or ``"light"``.
+    simulator : Simulator
+        What takes the steps.
     q : ndarray, shape (n_q,)
-        Where the run starts.
-    g : float
-        Length of gravity [m/s^2].
-    cone : str
-        Friction cone.
+        Where the run starts; quaternions are normalised.
+    record : str
+        ``"full"``, or ``"light"`` to leave out the quadratic programs.
+
+    Raises
+    ------
+    InputError
+        If there is no such record, or q is no configuration.
     """
 
-    def __init__(
-        self,
-        system: System,
-        h: float,
-        backend: str,
-        record: str,
-        q: Array,
-        g: float = 0.0,
-        *,
-        cone: str = PYRAMID,
-    ) -> None:
+    def __init__(self, simulator: Simulator, q: Array, record: str = "full") -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
-        self.system, self.h, self.backend, self.record = system, h, backend, record
-        self.cone = cone
+        self.scene = Scene(simulator.system, simulator.pairs)
+        self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
+        self.cone, self.record = simulator.cone, record
+        self.q, self.g = [self.system.checked(q)], float(np.linalg.norm(simulator.gravity))
         self.extra: tuple[str, ...] = ()
-        self.q, self.g = [q], g
         self.Pi: float | None = None
         self.drag: float | None = None
         self.layer = 0.0
@@ -66,8 +52,20 @@ class Recorder:
         self.seconds: list[dict[str, float]] = []
         self.constant: dict[str, NDArray[Any]] = {}
 
-    def add(self, t: float, q_bar_a: Array, result: StepResult) -> None:
-        """Record one step that succeeded."""
+    @property
+    def t(self) -> float:
+        """End of the step that comes next [s]."""
+        return (len(self.rows) + 1) * self.h
+
+    def add(self, q_bar_a: Array, result: StepResult) -> None:
+        """Record one step that succeeded.
+
+        Parameters
+        ----------
+        q_bar_a : ndarray, shape (n_q_a,)
+            Its target.
+        result : StepResult
+        """
         step, solution, points = result.step, result.solution, result.points
         self.Pi = _larger(
             self.Pi, quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
@@ -75,7 +73,7 @@ class Recorder:
         self.drag = _larger(self.drag, drag_share(self.system, step, solution, self.g))
         self.layer = max(self.layer, boundary_layer(step, solution))
         row: dict[str, Any] = {
-            "t": t,
+            "t": self.t,
             "delta_q": solution.delta_q,
             "q_bar_a": q_bar_a,
             "phi": points.phi,
@@ -132,7 +130,8 @@ class Recorder:
         constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
         parts = self.seconds[0] if self.seconds else {}
         seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
-        return Trajectory(header, {"q": np.array(self.q), **arrays, **constant}, seconds)
+        arrays = {"q": np.array(self.q), **arrays, **constant}
+        return Trajectory(header, arrays, seconds, self.scene)
 
 
 def _stacked(values: list[Any]) -> NDArray[Any]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,12 +19,14 @@ from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.paths import OwnWord
-from quasistatic_ref.simulate.simulate import Force, simulate
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
 from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
+from quasistatic_ref.simulate.words import scenario_page
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.backends import backend as known_backend
 from quasistatic_ref.solve.engines import ENGINES, NATIVE, default_engine
@@ -33,6 +34,7 @@ from quasistatic_ref.solve.native import check_native
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
@@ -40,12 +42,6 @@ VERSION = 1
 LARGEST = 2**20
 """Largest scenario file [bytes]."""
 MOST_STEPS = 10_000_000
-MOST_PARTS = 32
-"""Most parts of a dotted key."""
-# Possessive, and from the start of a word only: its own time is linear.
-_DEEP_KEY = re.compile(
-    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +91,8 @@ class Scenario:
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     engine: str | None = None
 
+    __repr__, _repr_html_ = shown(scenario_page)
+
     def simulator(self) -> Simulator:
         """A simulator of this scenario."""
         return Simulator(
@@ -113,7 +111,7 @@ class Scenario:
         )
 
     @property
-    def force(self) -> Force | None:
+    def force(self) -> Checked | None:
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         if not self.wrenches:
             return None
@@ -121,7 +119,7 @@ class Scenario:
 
     def run(self, progress: bool = True) -> Trajectory:
         """Simulate the whole scenario; raises RunFailed where a step fails."""
-        return simulate(
+        return rollout(
             self.simulator(),
             self.system.q_start,
             self.targets,
@@ -132,14 +130,17 @@ class Scenario:
         )
 
 
-def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
+def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> Scenario:
     """Load a scenario from a file, or by the name of one that comes with the package.
 
     Parameters
     ----------
     name : str or Path
-    settings : sequence of str
-        Changes as ``dotted.key=value``, made before anything is checked.
+    settings : sequence of str, or mapping of str to object
+        Changes, made before anything is checked: ``dotted.key=value``, as after the command
+        line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
+    fields : object
+        The same for fields at the top: ``steps=120``.
 
     Returns
     -------
@@ -153,13 +154,12 @@ def load_scenario(name: str | Path, settings: Sequence[str] = ()) -> Scenario:
     path = scenario_path(name)
     try:
         try:
-            tables = _tables(text_of(bytes_read(path, largest=LARGEST), path))
+            tables = toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
         except tomllib.TOMLDecodeError as error:
             raise ScenarioError(f"is not TOML: {error}") from None
         except (RecursionError, ValueError):
             raise ScenarioError("is nested too deeply, or holds an unusable number") from None
-        for setting in settings:
-            _apply(tables, setting)
+        apply_settings(tables, settings, fields)
         check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
     except InputError as error:
@@ -255,36 +255,3 @@ def _limits(table: Fields) -> Limits:
     )
     table.close()
     return limits
-
-
-def _tables(text: str) -> dict[str, Any]:
-    # tomllib's time is quadratic in the number of parts of a dotted key.
-    if deep := _DEEP_KEY.search(text):
-        line = text[: deep.start()].count("\n") + 1
-        raise ScenarioError(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
-    return tomllib.loads(text)
-
-
-def _apply(tables: dict[str, Any], setting: str) -> None:
-    """Make one change ``dotted.key=value``; the value is TOML, or else a plain word."""
-    key, equals, text = setting.partition("=")
-    parts = [part.strip() for part in key.split(".")]
-    if not equals or not all(parts):
-        raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
-    if len(parts) > MOST_PARTS:
-        problem = f"names a key of more than {MOST_PARTS} parts"
-        raise ScenarioError(problem, field="--set", value=setting)
-    try:
-        parsed = _tables(f"value = {text}")
-    except (ValueError, RecursionError):
-        parsed = {}
-    # Anything but one value, such as a second line, is taken as a word.
-    value = parsed["value"] if list(parsed) == ["value"] else text.strip()
-    if isinstance(value, str):
-        value = OwnWord(value)
-    at: Any = tables
-    for part in parts[:-1]:
-        at = at.setdefault(part, {}) if isinstance(at, dict) else None
-    if not isinstance(at, dict):
-        raise ScenarioError("does not lead to a table", field="--set", value=setting)
-    at[parts[-1]] = value

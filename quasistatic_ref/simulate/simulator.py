@@ -15,6 +15,7 @@ from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
 from quasistatic_ref.solve.extended import extension_rows, with_rows
@@ -23,6 +24,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.show import html_page, shown, text_page
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY, SPARSE_FROM
 
@@ -50,6 +52,12 @@ class StepResult(NamedTuple):
     solution: StepSolution
     points: ClosestPoints
     seconds: dict[str, float]
+
+    def __repr__(self) -> str:
+        return text_page(result_page(self), *NOT_IN_TEXT)
+
+    def _repr_html_(self) -> str:
+        return html_page(result_page(self))
 
 
 class Simulator:
@@ -79,6 +87,8 @@ class Simulator:
         Beyond which no step is taken; by default those of
         :class:`~quasistatic_ref.simulate.limits.Limits`.
     """
+
+    __repr__, _repr_html_ = shown(simulator_page)
 
     def __init__(
         self,

@@ -2,53 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
-
-Target = Callable[[float], Array]
-
-
-def target_function(system: System, h: float, target: Target | Array, steps: int) -> Target:
-    """Targets in any accepted form as a function of t; every value checked as q is.
-
-    Parameters
-    ----------
-    system : System
-    h : float
-        Time step [s].
-    target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
-        q_bar_a [m, rad, -] as a function of time [s], constant, or step by step.
-    steps : int
-
-    Raises
-    ------
-    InputError
-        If it has another shape, or a number is not finite.
-    """
-
-    def checked(q_a: Array) -> Array:
-        return system.checked(system.with_actuated(system.q_start, q_a))[: system.n_q_a]
-
-    if callable(target):
-        return lambda t: checked(target(t))
-    values, n = np.asarray(target, dtype=np.float64), system.n_q_a
-    if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
-        raise InputError(
-            f"must hold finite numbers of shape ({n},) or ({steps}, {n})",
-            field="target",
-            value=values.shape,
-        )
-    if values.ndim == 1:
-        constant = checked(values)
-        return lambda t: constant
-    table = [checked(row) for row in values]
-    return lambda t: table[round(t / h) - 1]
 
 
 def piecewise_linear(times: Array, values: Array, t: float) -> Array:

@@ -11,15 +11,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, nearest_name
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
+from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.npz import npz_arrays
+from quasistatic_ref.simulate.table import data_frame
+from quasistatic_ref.simulate.words import NOT_IN_TEXT, trajectory_page
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.show import html_page, text_page
 
 if TYPE_CHECKING:
-    pass
+    from pandas import DataFrame
+
+    from quasistatic_ref.simulate.wrenches import HasScene, Scene
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
@@ -59,19 +65,50 @@ class Trajectory:
     seconds : mapping of str to ndarray
         Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
         runs make equal files.
+    scene : Scene, optional
+        The system and the pairs, where the run was made in this process; kept in memory only, and
+        not copied or pickled.
+
+    Each array is an attribute as well: ``trajectory.phi`` is ``trajectory["phi"]``.
     """
 
     header: Mapping[str, Any]
     arrays: Mapping[str, NDArray[Any]]
     seconds: Mapping[str, Array] = field(default_factory=dict)
+    scene: Scene | None = field(default=None, compare=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
 
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        arrays = self.__dict__.get("arrays", {})  # not there yet while it is unpickled
+        if name not in arrays:
+            hint = nearest_name(name, arrays)
+            raise AttributeError(f"this trajectory holds no {name!r}{hint}")
+        return np.asarray(arrays[name])
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self.arrays})
+
+    def __len__(self) -> int:
+        return len(self.arrays["t"])
+
+    def __bool__(self) -> bool:
+        return True  # a run without steps is a run
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Trajectory, (self.header, self.arrays, self.seconds)  # without the scene
+
+    def __repr__(self) -> str:
+        return text_page(trajectory_page(self, certified(self)), *NOT_IN_TEXT)
+
+    def _repr_html_(self) -> str:
+        return html_page(trajectory_page(self, certified(self)))
+
     @property
     def steps(self) -> int:
         """Number of steps that succeeded."""
-        return len(self.arrays["t"])
+        return len(self)
 
     @property
     def failed(self) -> str | None:
@@ -109,6 +146,67 @@ class Trajectory:
             cone=self.header.get("cone", PYRAMID),
             extra=Extra(names, *rows),
         )
+
+    def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
+        """Sum of the contact wrenches on a body or a link, in each step.
+
+        Parameters
+        ----------
+        name : str
+            A body, for all of its links; or one link, such as ``gripper/left_finger``.
+        scene : Scenario or Simulator, optional
+            That of the run; only a trajectory that comes from a file or a pickle needs it.
+
+        Returns
+        -------
+        ndarray, shape (steps, 6)
+            Force [N] and torque [N m] along the world's axes; the torque about the origin of the
+            link (of a body: of its root link) where the step starts, as the points and normals
+            are. The rows of an extension are no contacts, and not in it.
+
+        Raises
+        ------
+        InputError
+            If there is no such body or link, or the scene is missing or another one.
+        """
+        return wrenches.wrench_on(self, self._scene(scene), name)
+
+    def pair_forces(self, scene: HasScene | None = None) -> dict[str, Array]:
+        """Force of each pair on its beta's body, by the pair's name.
+
+        Parameters
+        ----------
+        scene : Scenario or Simulator, optional
+            As for :meth:`wrench_on`.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (steps, 3)
+            Sums over the pair's contacts [N], world frame.
+
+        Raises
+        ------
+        InputError
+            If the scene is missing or another one.
+        """
+        return wrenches.pair_forces(self, self._scene(scene))
+
+    def _scene(self, given: HasScene | None) -> HasScene:
+        scene = self.scene if given is None else given
+        if scene is None:
+            problem = "is not known: this trajectory is from a file; give its scenario or simulator"
+            raise InputError(problem, field="scene")
+        return scene
+
+    def to_pandas(self) -> DataFrame:
+        """One row a step, one column a number, for looking at; see :mod:`.table`.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        return data_frame(self)
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""

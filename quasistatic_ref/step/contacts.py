@@ -14,6 +14,8 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.lazy import Lazy
+from quasistatic_ref.step.show import shown
+from quasistatic_ref.step.words import contacts_page
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
@@ -63,6 +65,8 @@ class Contacts(Lazy):
     mu_omega: Array
     rows: NDArray[np.int64]
     blocks: ClassVar[Blocks | None] = None
+
+    __repr__, _repr_html_ = shown(contacts_page)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", names(self.name, "contacts.name"))

@@ -24,6 +24,8 @@ from quasistatic_ref.step.arrays import (
 )
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.show import shown
+from quasistatic_ref.step.words import extra_page, step_page
 
 __all__ = ["Array", "Contacts", "Extra", "StepData"]
 
@@ -44,6 +46,8 @@ class Extra:
     names: tuple[str, ...]
     A: Array
     b: Array
+
+    __repr__, _repr_html_ = shown(extra_page)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
@@ -92,6 +96,8 @@ class StepData:
     contacts: Contacts
     cone: str = PYRAMID
     extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
+
+    __repr__, _repr_html_ = shown(step_page)
 
     def __post_init__(self) -> None:
         h = numbers(self.h, "h")

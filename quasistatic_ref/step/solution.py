@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.lazy import Lazy
+from quasistatic_ref.step.show import shown
+from quasistatic_ref.step.words import certificate_page, solution_page
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,8 @@ class Certificate:
     smallest_inactive_slack: float | None = None
     smallest_active_multiplier: float | None = None
     error_bound: float | None = None
+
+    __repr__, _repr_html_ = shown(certificate_page)
 
 
 class SolverStatistics(NamedTuple):
@@ -103,6 +107,8 @@ class StepSolution(Lazy):
     certificate: Certificate
     statistics: SolverStatistics
     cone: str = "pyramid"
+
+    __repr__, _repr_html_ = shown(solution_page)
 
     @classmethod
     def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:

@@ -14,8 +14,8 @@ from docs.examples.velocity_limit import velocity_limit
 from docs.examples.weld import weld
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
@@ -228,7 +228,7 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     simulator = scenario.simulator()
     h, n_a = scenario.h, scenario.system.n_a
     simulator.extension = lambda q: velocity_limit(h, np.full(n_a, 1e-3))
-    trajectory = simulate(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
+    trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
     assert set(trajectory["certificate"].tolist()) == {"exact"}
     np.testing.assert_array_less(np.abs(trajectory["delta_q"][:, :n_a]), 1e-3 * h * (1 + ROUNDING))
     read = trajectory_read(trajectory.save(tmp_path / "run.npz"))

@@ -18,6 +18,7 @@ ROOMS = (
     "simulate",
     "figures",
     "cli",
+    "__main__",
     "lab/grasp",
     "lab/scenes",
     "lab/vectors",

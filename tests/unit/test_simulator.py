@@ -10,8 +10,8 @@ from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError, ModelError, RunFailed, StepDataError
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
@@ -75,7 +75,7 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
 def test_a_constant_a_table_and_a_function_are_the_same_target(scenario):
     q, goal = scenario.system.q_start, np.array([0.01, np.cos(0.3), np.sin(0.3)])
     targets = (goal, goal.tolist(), np.tile(goal, (4, 1)), lambda t: goal)
-    runs = [simulate(scenario.simulator(), q, target, 4, progress=False) for target in targets]
+    runs = [rollout(scenario.simulator(), q, target, 4, progress=False) for target in targets]
     for run in runs[1:]:
         np.testing.assert_allclose(run["q"], runs[0]["q"], rtol=EXACT, atol=EXACT)
 
@@ -84,7 +84,7 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
     steps = 100
     table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
     q = scenario.system.q_start
-    run = simulate(scenario.simulator(), q, table, steps, record="light", progress=False)
+    run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
     np.testing.assert_allclose(run["q_bar_a"], table, rtol=EXACT, atol=EXACT)
 
 
@@ -96,7 +96,7 @@ def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
         return np.zeros(8)
 
     q = scenario.system.q_start
-    run = simulate(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+    run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
     np.testing.assert_allclose([t for t, _ in asked], [0.01, 0.02, 0.03], rtol=EXACT)
     np.testing.assert_allclose([q for _, q in asked], run["q"][:3], rtol=EXACT, atol=EXACT)
     expected = [scenario.targets(t) for t in (0.01, 0.02, 0.03)]
@@ -117,26 +117,26 @@ def test_a_target_of_another_shape_or_not_finite_is_refused(scenario, target):
     with pytest.raises(
         InputError, match=r"target: must hold finite numbers of shape \(3,\) or \(4"
     ):
-        simulate(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
+        rollout(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
 
 
 def test_a_target_that_is_no_configuration_is_refused(scenario):
     goal = np.array([0.0, 2 * np.cos(0.3), 2 * np.sin(0.3)])  # taken for 0, not 0.3
     with pytest.raises(InputError):
-        simulate(scenario.simulator(), scenario.system.q_start, goal, 1, progress=False)
+        rollout(scenario.simulator(), scenario.system.q_start, goal, 1, progress=False)
 
 
 def test_a_start_that_is_no_configuration_is_refused(scenario):
     q = scenario.system.q_start.copy()
     q[-1] = 0.0
     with pytest.raises(ModelError, match=r"q\[ball/base\]: its quaternion must have length one"):
-        simulate(scenario.simulator(), q, scenario.targets, 1, progress=False)
+        rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
 
 
 def test_an_unknown_record_is_refused(scenario):
     q = scenario.system.q_start
     with pytest.raises(InputError, match="record: must be one of full, light"):
-        simulate(scenario.simulator(), q, scenario.targets, 1, record="half", progress=False)
+        rollout(scenario.simulator(), q, scenario.targets, 1, record="half", progress=False)
 
 
 def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
@@ -145,7 +145,7 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
 
     q = scenario.system.q_start
     with pytest.raises(RunFailed, match=r"^step 1: tau_a: must hold finite") as caught:
-        simulate(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+        rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)
 
@@ -154,7 +154,7 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
 def test_free_fall_is_h_squared_g_per_step_without_acceleration(tmp_path, h):
     system = System([Body("ball", written(tmp_path, BALL), "floating", xyz=(0, 0, 1))])
     simulator = Simulator(system, [], h=h, K_q=np.zeros((0, 0)))
-    run = simulate(simulator, system.q_start, np.zeros(0), 10, progress=False)
+    run = rollout(simulator, system.q_start, np.zeros(0), 10, progress=False)
     expected = [1 - k * h**2 * GRAVITY for k in range(11)]
     np.testing.assert_allclose(run["q"][:, 2], expected, rtol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, :2], np.zeros((11, 2)), rtol=EXACT, atol=ROUNDING)
@@ -162,7 +162,7 @@ def test_free_fall_is_h_squared_g_per_step_without_acceleration(tmp_path, h):
 
 def test_a_compensated_joint_does_not_feel_gravity(lift):
     simulator = Simulator(lift, [], h=0.01, K_q=np.array([[400.0]]))
-    run = simulate(simulator, lift.q_start, lift.q_start, 3, progress=False)
+    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
     np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
 
 
@@ -171,7 +171,7 @@ def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(l
     feels = np.array([True])
     K_q = np.array([[400.0]])
     simulator = Simulator(lift, [], h=0.01, K_q=K_q, feels_gravity=feels, certify=certify)
-    run = simulate(simulator, lift.q_start, lift.q_start, 3, progress=False)
+    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)
@@ -180,7 +180,7 @@ def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(l
 def test_gravity_may_point_anywhere(tmp_path):
     system = System([Body("ball", written(tmp_path, BALL), "floating")])
     simulator = Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(1.0, -2.0, 3.0))
-    run = simulate(simulator, system.q_start, np.zeros(0), 1, progress=False)
+    run = rollout(simulator, system.q_start, np.zeros(0), 1, progress=False)
     expected = [0.01**2 * a for a in (1.0, -2.0, 3.0)]
     np.testing.assert_allclose(run["q"][1, :3], expected, rtol=ROUNDING)
 
@@ -198,6 +198,6 @@ def test_the_problem_is_compiled_once(scenario):
 
 def test_a_simulator_used_twice_gives_the_same_bits(scenario):
     simulator, q = scenario.simulator(), scenario.system.q_start
-    one, two = (simulate(simulator, q, scenario.targets, 3, progress=False) for _ in range(2))
+    one, two = (rollout(simulator, q, scenario.targets, 3, progress=False) for _ in range(2))
     np.testing.assert_allclose(one["q"], two["q"], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(one["lam"], two["lam"], rtol=EXACT, atol=EXACT)

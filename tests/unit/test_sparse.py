@@ -14,8 +14,8 @@ from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.large import exponent, large_step, table
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate import simulator
+from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import ADAPTERS, SparseProblem, reachable
@@ -120,7 +120,7 @@ def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sp
         return result
 
     some.simulator.step = noted
-    run = simulate(
+    run = rollout(
         some.simulator,
         some.q,
         NO_TARGET,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError, RunFailed, StepNotSolved
+from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.simulate import simulate
 from quasistatic_ref.simulate.trajectory import trajectory_read, worst_residual
 from quasistatic_ref.step.files import step_read, step_written
 from quasistatic_ref.step.standard_form import standard_form
@@ -194,7 +194,7 @@ def test_an_interrupted_run_keeps_the_steps_before(scenario):
         return scenario.targets(t)
 
     with pytest.raises(RunFailed, match=r"^step 2: interrupted$") as caught:
-        simulate(scenario.simulator(), scenario.system.q_start, target, 5, progress=False)
+        rollout(scenario.simulator(), scenario.system.q_start, target, 5, progress=False)
     assert caught.value.trajectory.steps == 2
     assert caught.value.step is None
     assert isinstance(caught.value.__cause__, KeyboardInterrupt)

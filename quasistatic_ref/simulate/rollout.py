@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
-import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.simulate.artifacts import warning
+from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.recorder import Recorder
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.target import Target, target_function
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-Force = Callable[[float, Array], Array]
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.simulator import Simulator
 
 
-def simulate(
+def rollout(
     simulator: Simulator,
     q: Array,
-    target: Target | Array,
+    target: Target,
     steps: int,
     *,
     force: Force | None = None,
@@ -32,7 +32,8 @@ def simulate(
 ) -> Trajectory:
     """Step after step, recorded.
 
-    The step from t to t + h uses the target and the external force at t + h.
+    The step from t to t + h uses the target and the external force at t + h; where they are
+    functions of (t, q), that is t + h as well, and q is where the step starts.
 
     Parameters
     ----------
@@ -40,10 +41,10 @@ def simulate(
     q : ndarray, shape (n_q,)
         Where to start; quaternions are normalised.
     target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
-        q_bar_a as a function of time [s], constant, or step by step.
+        q_bar_a as a function of t [s] or of (t, q), constant, or step by step.
     steps : int
     force : callable, optional
-        (t, q) -> external generalised force, shape (n_v,) [N, N m].
+        External generalised force, shape (n_v,) [N, N m], as a function of t or of (t, q).
     record : str
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
@@ -56,32 +57,32 @@ def simulate(
 
     Raises
     ------
+    InputError
+        If the target or the force takes other arguments than these, or q is no configuration.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
     """
-    q = simulator.system.checked(q)
+    recorder = Recorder(simulator, q, record)
+    q = recorder.q[0]
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
-    g = float(np.linalg.norm(simulator.gravity))
-    recorder = Recorder(
-        simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
-    )
+    pushed = force_function(simulator.system, force)
     bar: Iterable[int] = tqdm(
         range(steps), unit="step", disable=None if progress else True, leave=False
     )
     with Interrupt() as interrupt:
         for k in bar:
-            t = (k + 1) * simulator.h
+            t = recorder.t
             try:
                 interrupt.check()
-                goal = q_bar_a(t)
-                result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+                goal = q_bar_a(t, q)
+                result = simulator.step(q, goal, pushed(t, q))
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
                 raise RunFailed(reason, recorder.trajectory(reason), step) from failure
-            recorder.add(t, goal, result)
+            recorder.add(goal, result)
             q = result.q
     trajectory = recorder.trajectory()
     if progress and (fast := warning(trajectory.header)):

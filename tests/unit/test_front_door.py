@@ -1,0 +1,123 @@
+"""The front door: every name is there in every order of imports, documented, with an example."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import quasistatic_ref as qr
+
+PACKAGE = Path(qr.__file__).parent
+DOCS = PACKAGE.parent / "docs"
+NAMES = [name for name in qr.__all__ if name != "__version__"]
+ASKED = (
+    "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
+    "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "
+    "Extension sensitivity load_scenario Trajectory Recorder "
+    "QuasistaticError InputError StepNotSolved RunFailed"
+)
+"""What a scene in Python needs, from building it to catching what goes wrong."""
+EXAMPLE = re.compile(r"^```\{doctest\}\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BEFORE_OR_AFTER = """
+import sys, importlib
+import cvxpy, pinocchio, coal  # once: what is imported anew below is the package alone
+import quasistatic_ref
+names = [name for name in quasistatic_ref.__all__ if name != "__version__"]
+rooms = ["simulate", "step", "model", "solve", "certify", "contact", "cli.main", "lab"]
+
+def forget():
+    for module in [m for m in sys.modules if m.partition(".")[0] == "quasistatic_ref"]:
+        del sys.modules[module]
+    return importlib.import_module("quasistatic_ref")
+
+def check(qr, when):
+    for name in names:
+        value = getattr(qr, name)
+        home = importlib.import_module(f"quasistatic_ref.{qr._HOME[name]}")
+        assert value is getattr(home, name), (name, when)
+
+for name in names:  # each name first
+    qr = forget()
+    exec(f"from quasistatic_ref import {name} as first")
+    assert first is getattr(qr, name)
+check(qr, "names before rooms")
+for room in rooms:  # each room before and after the names
+    qr = forget()
+    importlib.import_module(f"quasistatic_ref.{room}")
+    check(qr, room)
+    importlib.import_module(f"quasistatic_ref.{room}")
+    check(qr, room)
+print("good")
+"""
+
+
+def run(*arguments):
+    command = [sys.executable, *arguments]
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=120, cwd=PACKAGE.parent, check=False
+    )
+
+
+def test_the_names_are_those_that_dir_shows():
+    assert dir(qr) == sorted(qr.__all__)
+    assert set(ASKED.split()) <= set(dir(qr))
+    assert len(set(NAMES)) == len(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_name_has_a_docstring_of_its_own(name):
+    said = vars(getattr(qr, name))["__doc__"] if isinstance(getattr(qr, name), type) else None
+    said = getattr(qr, name).__doc__ if said is None else said
+    assert said
+    assert not said.startswith(f"{name}(")  # what a dataclass without a docstring says
+
+
+def test_no_name_is_that_of_a_module_which_python_would_put_in_its_place():
+    modules = {path.stem for path in PACKAGE.iterdir()}
+    assert {"simulate", "step", "errors"} <= modules
+    assert not modules & set(NAMES)
+
+
+def test_every_name_is_reliable_in_every_order_of_imports():
+    done = run("-W", "error", "-c", BEFORE_OR_AFTER)
+    assert (done.returncode, done.stdout.strip()) == (0, "good"), done.stderr
+
+
+def test_names_of_one_step_need_neither_pinocchio_nor_coal():
+    source = (
+        "import sys\n"
+        "for name in ('pinocchio', 'coal', 'matplotlib'): sys.modules[name] = None\n"
+        "import quasistatic_ref as qr\n"
+        "rooms = ('step', 'solve', 'certify', 'errors')\n"
+        "print(sum(bool(getattr(qr, n)) for n, h in qr._HOME.items() if h.split('.')[0] in rooms))"
+    )
+    done = run("-W", "error", "-c", source)
+    homes = [home.split(".")[0] for home in qr._HOME.values()]
+    expected = sum(home in ("step", "solve", "certify", "errors") for home in homes)
+    assert (done.returncode, done.stdout.strip()) == (0, str(expected)), done.stderr
+    assert expected >= 20
+
+
+def test_every_name_has_an_example_that_is_run():
+    pages = [path.read_text() for path in sorted(DOCS.rglob("*.md"))]
+    code = "\n".join(
+        line for page in pages for block in EXAMPLE.findall(page) for line in block.splitlines()
+        if line.startswith((">>>", "..."))
+    )  # fmt: skip
+    without = [name for name in NAMES if not re.search(rf"\bqr\.{name}\b", code)]
+    assert without == []
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="has no attribute 'simulat'"):
+        qr.simulat  # noqa: B018 the access is the test
+
+
+def test_python_m_is_the_command_line():
+    done = run("-m", "quasistatic_ref", "--version")
+    assert (done.returncode, done.stdout.strip()) == (0, qr.__version__), done.stderr
+    bad = run("-m", "quasistatic_ref", "run", "no_such_scenario")
+    assert bad.returncode == 2
+    assert "no_such_scenario" in bad.stderr
