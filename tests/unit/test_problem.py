@@ -7,11 +7,13 @@ from cvxpy.utilities import scopes
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.problem import StepProblem
 from tests.helpers import (
     JUDGE,
     REQUIRED,
+    changed,
     contact_row,
     error,
     planted_step,
@@ -27,6 +29,12 @@ def filled(step):
     problem = StepProblem(step)
     problem.fill(step)
     return problem
+
+
+def with_mu_of(other, step):
+    """The step with another's mu_v and mu_omega, which are constants of a compiled problem."""
+    mu = {name: getattr(other.contacts, name) for name in ("mu_v", "mu_omega")}
+    return step.replace(contacts=changed(step.contacts, **mu))
 
 
 @pytest.mark.parametrize("solver", [cp.CLARABEL, cp.OSQP, cp.PIQP])
@@ -47,31 +55,33 @@ def test_quad_form_with_a_psd_parameter_is_dpp_only_inside_its_scope(rng):
 
 @pytest.mark.parametrize("solver", ["clarabel", "osqp", "piqp", "daqp"])
 def test_nothing_is_compiled_after_the_first_solve(solver, monkeypatch):
-    steps = [planted_step(np.random.default_rng(seed), **PAPER) for seed in range(3)]
-    problem = StepProblem(steps[0][0])
-    solve_step(steps[0][0], solver, problem=problem)
-    compiled = problem.problem._cache.param_prog
+    first, *others = (planted_step(np.random.default_rng(seed), **PAPER)[0] for seed in range(3))
+    others = [with_mu_of(first, step) for step in others]
+    kept = CvxpySolver(first, solver)
+    solve_step(first, kept)
+    compiled = kept.problem.problem._cache.param_prog
     assert compiled is not None
 
     def recompile(*_, **__):
         raise AssertionError("CVXPY compiled the problem again")
 
     monkeypatch.setattr(cp.Problem, "_construct_chain", recompile)
-    for step, delta_q, _ in steps[1:]:
-        answer = solve_step(step, solver, problem=problem)
-        np.testing.assert_allclose(
-            error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM
-        )
-        assert problem.problem._cache.param_prog is compiled
+    for step in others:
+        answer = solve_step(step, kept, certify="off").delta_q
+        truth = solve_step(step, "none").delta_q
+        np.testing.assert_allclose(error(step, answer, truth), 0.0, rtol=0.0, atol=OPTIMUM)
+        assert kept.problem.problem._cache.param_prog is compiled
 
 
 def test_every_matrix_and_vector_of_a_new_step_reaches_the_solver():
     # A parameter that kept its old value would show: all of them differ between the two steps.
+    # (But mu, a constant of the problem.)
     first, second = (planted_step(np.random.default_rng(seed), 3, 4)[0] for seed in (1, 2))
-    problem = StepProblem(first)
+    second = with_mu_of(first, second)
+    solver = CvxpySolver(first, JUDGE)
     for step in (first, second, first):
-        fresh = solve_step(step, JUDGE).delta_q
-        kept = solve_step(step, JUDGE, problem=problem).delta_q
+        fresh = solve_step(step, "none").delta_q
+        kept = solve_step(step, solver, certify="off").delta_q
         np.testing.assert_allclose(error(step, kept, fresh), 0.0, rtol=0.0, atol=OPTIMUM)
 
 
