@@ -231,6 +231,10 @@ class NoSolver(Solver):
         """Any step."""
         return True
 
+    def attempts(self, accuracy: float) -> list[Attempt]:
+        """One, without options."""
+        return [Attempt(accuracy, {})]
+
     def write(self, scaled: Any) -> None:
         """Nothing to write."""
 
