@@ -105,7 +105,7 @@ class NativeSolver(Solver):
         return Scaled(step, self.metric)
 
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:
-        """Write the program in natural units; tell which rows are out of reach, if any is."""
+        """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
         form, units, program = scaled.form, scaled.units, self.program
         S, ell, rho = units.coordinate, units.length, units.size
         if self.metric is not scaled.metric:

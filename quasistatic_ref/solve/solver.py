@@ -141,7 +141,7 @@ class Solver(ABC):
 
         Returns
         -------
-        ndarray of bool or None
+        ndarray of bool, shape (m,), or None
             Whether each row is of such a contact; None if none is.
         """
 

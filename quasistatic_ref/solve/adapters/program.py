@@ -40,12 +40,12 @@ class Program:
 
     @property
     def P_data(self) -> Array:
-        """Entries of H's upper triangle, in the order of :meth:`columns`."""
+        """Entries of H's upper triangle, in the order of :meth:`columns`, shape (entries,)."""
         return self.H[self.upper]
 
     @property
     def A_data(self) -> Array:
-        """Entries of A, in the order of :meth:`columns`."""
+        """Entries of A, in the order of :meth:`columns`, shape (m n_v,)."""
         return self.A.ravel(order="F")
 
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
@@ -67,6 +67,7 @@ class SparseProgram:
     P : scipy.sparse.csc_matrix, shape (n_v, n_v)
         Upper triangle of H.
     f : ndarray, shape (n_v,)
+        -g [N m s].
     A : scipy.sparse.csc_matrix, shape (m, n_v)
     b : ndarray, shape (m,)
     """
@@ -85,12 +86,12 @@ class SparseProgram:
 
     @property
     def P_data(self) -> Array:
-        """Entries of P."""
+        """Entries of P, shape (entries,)."""
         return np.asarray(self.P.data)
 
     @property
     def A_data(self) -> Array:
-        """Entries of A."""
+        """Entries of A, shape (entries,)."""
         return np.asarray(self.A.data)
 
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
