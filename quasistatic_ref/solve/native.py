@@ -68,6 +68,7 @@ class NativeSolver(Solver):
     """
 
     engine = "native"
+    fixed = ("n_a", "n_u", "cone", "rows of contacts", "rows of the user's own")
 
     def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
         check_native(name, like.cone)
@@ -91,14 +92,8 @@ class NativeSolver(Solver):
 
     def takes(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
-        like = self.like
         # A step that was moved from another shares its counts, and all shapes.
-        return step.counts is like.counts or (
-            (step.n_a, step.n_u) == (like.n_a, like.n_u)
-            and step.cone == like.cone
-            and np.array_equal(step.counts, like.counts)
-            and len(step.extra.names) == len(like.extra.names)
-        )
+        return step.counts is self.like.counts or super().takes(step)
 
     def scaled(self, step: StepData) -> NaturalStep:
         """The step in natural units; what H gives of them is kept while H is the same array."""

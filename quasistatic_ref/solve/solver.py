@@ -9,6 +9,7 @@ It knows its backend (:attr:`Solver.name`), the interface by which it reaches th
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -29,6 +30,19 @@ RELAXED = (1.0, 1e2, 1e4)
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
+
+
+KIND: dict[str, Callable[[StepData], Any]] = {
+    "n_a": lambda step: step.n_a,
+    "n_u": lambda step: step.n_u,
+    "cone": lambda step: step.cone,
+    "rows of contacts": lambda step: step.contacts.rows,
+    "rows of the user's own": lambda step: len(step.extra.names),
+    "h": lambda step: step.h,
+    "mu_v": lambda step: step.contacts.mu_v,
+    "mu_omega": lambda step: step.contacts.mu_omega,
+}
+"""What the steps of one compiled problem may have in common."""
 
 
 @dataclass(eq=False)
@@ -84,11 +98,14 @@ class Solver(ABC):
     ----------
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
+    fixed : tuple of str
+        What the steps that it solves have in common, of :data:`KIND`.
     certifies : bool
         Whether its answers can be the start of an exact certificate.
     """
 
     engine: ClassVar[str]
+    fixed: ClassVar[tuple[str, ...]]
     certifies: ClassVar[bool] = True
 
     def __init__(self, like: StepData, name: str) -> None:
@@ -121,13 +138,13 @@ class Solver(ABC):
             raise InputError(problem, field="solver", value=f"{self.name}, {self.engine}")
 
     def differences(self, step: StepData) -> list[str]:
-        """In what a step is not like the one that the problem was compiled for."""
-        one, other = _kind(self.like), _kind(step)
-        return [what for what in one if not np.array_equal(one[what], other[what])]
+        """In what of :attr:`fixed` a step is not like the one that the problem was compiled for."""
+        pairs = ((what, KIND[what](self.like), KIND[what](step)) for what in self.fixed)
+        return [what for what, one, other in pairs if not np.array_equal(one, other)]
 
-    @abstractmethod
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""
+        return not self.differences(step)
 
     def scaled(self, step: StepData) -> NaturalStep:
         """The step in natural units."""
@@ -183,6 +200,7 @@ class Solver(ABC):
             except Exception as error:  # whatever another package raises
                 status, cause = f"the solver failed: {error}", error
                 continue
+            cause = None
             if not reply.solved:
                 status = reply.status
             elif reply.x is None or reply.lam is None:
@@ -190,25 +208,10 @@ class Solver(ABC):
             elif finite(reply.x) and finite(reply.lam):
                 if idle is not None:
                     reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
-                said = "optimal", reply.iterations, reply.seconds, asked
-                statistics = SolverStatistics(self.name, *said, engine=self.engine)
-                return Answer(reply.x, reply.lam, statistics)
+                cost = reply.iterations, reply.seconds
+                said = SolverStatistics(self.name, "optimal", *cost, asked, engine=self.engine)
+                return Answer(reply.x, reply.lam, said)
         raise StepNotSolved(self.name, status, scaled.step, asked) from cause
-
-
-def _kind(step: StepData) -> dict[str, Any]:
-    """What steps of one kind may have in common, by its name."""
-    contacts = step.contacts
-    return {
-        "h": step.h,
-        "n_a": step.n_a,
-        "n_u": step.n_u,
-        "cone": step.cone,
-        "rows of contacts": contacts.rows,
-        "mu_v": contacts.mu_v,
-        "mu_omega": contacts.mu_omega,
-        "rows of the user's own": len(step.extra.names),
-    }
 
 
 class NoSolver(Solver):
@@ -223,13 +226,10 @@ class NoSolver(Solver):
     """
 
     engine = "none"
+    fixed = ()
 
     def __init__(self, like: StepData, name: str = NONE) -> None:
         super().__init__(like, name)
-
-    def takes(self, step: StepData) -> bool:
-        """Any step."""
-        return True
 
     def attempts(self, accuracy: float) -> list[Attempt]:
         """One, without options."""

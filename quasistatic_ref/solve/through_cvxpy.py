@@ -21,7 +21,7 @@ from quasistatic_ref.solve.backends import (
     cone_backend,
 )
 from quasistatic_ref.solve.scaled import Scaled
-from quasistatic_ref.solve.solver import Attempt, Solver
+from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
@@ -49,6 +49,7 @@ class CvxpySolver(Solver):
     """
 
     engine = "cvxpy"
+    fixed = tuple(KIND)
 
     def __init__(self, like: StepData, name: str = DEFAULT) -> None:
         if backend(name).name != name:
@@ -58,15 +59,6 @@ class CvxpySolver(Solver):
             cone_backend(name, "the ellipsoid")
         super().__init__(like, name)
         self.problem = StepProblem(like)
-
-    def takes(self, step: StepData) -> bool:
-        """Whether the step's numbers fit the compiled problem."""
-        one, other = self.like.contacts, step.contacts
-        return (
-            self.problem.fits(step)
-            and np.array_equal(one.mu_v, other.mu_v)
-            and np.array_equal(one.mu_omega, other.mu_omega)
-        )
 
     def write(self, scaled: Scaled) -> NDArray[np.bool_]:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""

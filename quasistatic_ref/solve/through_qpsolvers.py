@@ -38,6 +38,7 @@ class QpsolversSolver(Solver):
     """
 
     engine = "qpsolvers"
+    fixed = ("cone",)
 
     def __init__(self, like: StepData, name: str) -> None:
         if backend(name).name == name:
@@ -46,10 +47,6 @@ class QpsolversSolver(Solver):
         if not cone(like.cone).polyhedral:
             cone_backend(name, f"the {like.cone}")
         super().__init__(like, name)
-
-    def takes(self, step: StepData) -> bool:
-        """Any step in a polyhedral cone."""
-        return step.cone == self.like.cone
 
     def write(self, scaled: Scaled) -> NDArray[np.bool_]:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
