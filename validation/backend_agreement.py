@@ -18,9 +18,9 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS, installed_backends
+from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 
 LIMIT = 1e-6
@@ -46,12 +46,11 @@ def main() -> int:
     print(f"{'backend':22}{'unsolved':>9}{'median':>10}{'99 %':>10}{'worst':>10}")
     failed = False
     for name in [n for n in installed_backends() if n != TRUTH]:
-        errors, problem = [], StepProblem(steps[0])
+        errors, solver = [], solver_for(steps[0], name)
         for step, x in zip(steps, truth, strict=True):
-            if not problem.fits(step):  # the other run, which has another mu_omega
-                problem = StepProblem(step)
+            solver = solver if solver.fits(step) else solver_for(step, name)  # the runs' mu differ
             try:
-                answer = solve_step(step, name, certify="off", problem=problem).delta_q
+                answer = solve_step(step, solver, certify="off").delta_q
             except StepNotSolved:
                 continue
             errors.append(error(step, answer, x))

@@ -27,8 +27,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.solve.ask import backend_answer
-from quasistatic_ref.solve.units import natural_units, to_natural
+from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
@@ -50,12 +49,13 @@ def backend_rows(step: StepData, backend: str | None) -> Pressed | None:
     """A, lam and the slacks of a backend's answer, in natural units; None if it has none."""
     if backend is None:
         return None
-    natural = to_natural(step, natural_units(step))
+    solver = solver_for(step, backend)
+    scaled = solver.scaled(step)
     try:
-        answer = backend_answer(natural, backend, ACCURACY)
+        answer = solver.answer(scaled, ACCURACY)
     except StepNotSolved:
         return None
-    form = standard_form(natural)
+    form = standard_form(scaled.natural)
     return form.A, answer.lam, form.A @ answer.delta_q - form.b
 
 

@@ -1,7 +1,7 @@
 """What a step costs: through this package, through a bare CVXPY solve, and part by part.
 
-Run ``python validation/bench_step.py``. All of it is measured in one run, the roads taking
-turns step by step, over the steps of bunny_grasp; medians are printed. The ratio promised is
+Run ``python validation/bench_step.py``. All of it is measured in one run, each taking its
+turn step by step, over the steps of bunny_grasp; medians are printed. The ratio promised is
 solve_step with ``certify="off"`` (units, filling parameters, solving, converting back) against
 ``problem.solve`` of the same problem with its parameters set anew: at most 2.
 """
@@ -16,6 +16,7 @@ import numpy as np
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import natural_units, to_natural
 from quasistatic_ref.step.problem import StepProblem
 
@@ -35,8 +36,8 @@ def main() -> int:
     )
     failed = False
     for name in (n for n, entry in BACKENDS.items() if entry.required):
-        ours, bare = StepProblem(steps[0]), StepProblem(steps[0])
-        (options, *_) = BACKENDS[name].attempts(max(1e-12, BACKENDS[name].floor))
+        ours, bare = CvxpySolver(steps[0], name), StepProblem(steps[0])
+        options = BACKENDS[name].first(1e-12)
         times = np.zeros((len(steps), 1 + len(CERTIFY)))
         for k, step in enumerate(steps):
             natural = to_natural(step, natural_units(step))
@@ -46,7 +47,7 @@ def main() -> int:
             times[k, 0] = time.perf_counter() - start
             for i, certify in enumerate(CERTIFY, start=1):
                 start = time.perf_counter()
-                solve_step(step, name, certify=certify, problem=ours)
+                solve_step(step, ours, certify=certify)
                 times[k, i] = time.perf_counter() - start
         ratio = float(np.median(times[:, 1] / times[:, 0]))
         bare_ms, *rest = 1e3 * np.median(times, axis=0)

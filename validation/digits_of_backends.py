@@ -13,7 +13,7 @@ import csv
 import sys
 import warnings
 from collections.abc import Iterator
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from shutil import copyfile
 from tempfile import TemporaryDirectory
@@ -27,10 +27,10 @@ from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.solve.ask import backend_answer
-from quasistatic_ref.solve.units import from_natural, natural_units, to_natural
+from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver, cvxpy_reply
+from quasistatic_ref.solve.units import from_natural
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.problem import StepProblem
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "validation" / "results" / "digits_of_backends.csv"
@@ -53,48 +53,51 @@ def grasp_steps() -> list[tuple[StepData, Array]]:
     return steps
 
 
-def answered(step: StepData, backend: str, accuracy: str, problem: StepProblem) -> Array | None:
-    """The delta_q that a backend gives, in the units of the step; None if it gives none."""
-    if accuracy != DEFAULT:
+@dataclass(frozen=True, eq=False)
+class AsItIs:
+    """A step that is handed over in SI units, as if they were natural."""
+
+    step: StepData
+
+    @property
+    def natural(self) -> StepData:
+        """The same."""
+        return self.step
+
+
+def answered(solver: CvxpySolver, step: StepData, units: str, accuracy: str) -> Array | None:
+    """The delta_q that a backend gives [m, rad]; None if it gives none."""
+    scaled = AsItIs(step) if units == RAW else Scaled(step)
+    if accuracy == DEFAULT:
+        solver.write(scaled)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # "may be inaccurate": its status says so too
+            try:
+                reply = cvxpy_reply(solver.problem, solver.name, {}, warm=False)
+            except Exception:  # whatever a solver raises, it has not solved the step
+                return None
+        delta_q = reply.x if reply.solved else None
+    else:
         try:
-            return backend_answer(step, backend, float(accuracy), problem).delta_q
+            delta_q = solver.answer(scaled, float(accuracy)).delta_q
         except StepNotSolved:
             return None
-    problem.fill(step)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # "may be inaccurate": its status says so too
-        try:
-            problem.problem.solve(solver=backend.upper(), warm_start=False)
-        except Exception:  # whatever a solver raises, it has not solved the step
-            return None
-    return problem.primal() if problem.problem.status == "optimal" else None
-
-
-def digits(
-    step: StepData, truth: Array, units: str, backend: str, accuracy: str, problem: StepProblem
-) -> float | None:
-    """Correct digits of an answer; None without one."""
-    if units == RAW:
-        delta_q = answered(step, backend, accuracy, problem)
-    else:
-        natural = natural_units(step)
-        delta_q = answered(to_natural(step, natural), backend, accuracy, problem)
-        if delta_q is not None:
-            delta_q, _ = from_natural(delta_q, np.zeros(0), natural)
-    return None if delta_q is None else correct_digits(step, delta_q, truth).delta_q
+    if delta_q is None or isinstance(scaled, AsItIs):
+        return delta_q
+    return from_natural(delta_q, np.zeros(0), scaled.units)[0]
 
 
 def measured(steps: list[tuple[StepData, Array]]) -> Iterator[BackendDigits]:
     """One record for each backend, setting and kind of units."""
     cells = [(u, b, a) for u in (RAW, NATURAL) for b in BACKENDS for a in ACCURACIES]
-    runs = [StepProblem(steps[0][0]), StepProblem(steps[-1][0])]  # of one mu_omega each
-    problems = [next(run for run in runs if run.fits(step)) for step, _ in steps]
     for units, backend, accuracy in (bar := tqdm(cells)):
         bar.set_description(f"{units}, {backend} at {accuracy}")
-        found = [
-            digits(step, x, units, backend, accuracy, problem)
-            for (step, x), problem in zip(steps, problems, strict=True)
-        ]
+        found, solver = [], CvxpySolver(steps[0][0], backend)
+        for step, x in steps:
+            # The two runs have other mu, and so other problems.
+            solver = solver if solver.fits(step) else CvxpySolver(step, backend)
+            delta_q = answered(solver, step, units, accuracy)
+            found.append(None if delta_q is None else correct_digits(step, delta_q, x).delta_q)
         solved = np.array([d for d in found if d is not None])
         quantiles = np.quantile(solved, [0, 0.01, 0.5, 1]) if solved.size else np.full(4, np.nan)
         worst, low, median, best = (float(f"{q:.2f}") for q in quantiles)

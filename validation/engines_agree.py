@@ -16,7 +16,7 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.native import native_backends
+from quasistatic_ref.solve.backends import installed
 
 DATA = ("q", "delta_q", "phi", "J", "H", "g", "A", "b")
 
@@ -42,7 +42,7 @@ def main() -> int:
     failed = False
     for case, own in CASES.items():
         truth = load_scenario("bunny_grasp", [*own, *settings, "solver.engine=cvxpy"]).run(False)
-        for backend in native_backends():
+        for backend in installed("native"):
             asked = [f"solver.backend={backend}", "solver.engine=native"]
             run = load_scenario("bunny_grasp", [*own, *settings, *asked]).run(False)
             found = differences(truth, run)

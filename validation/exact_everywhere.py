@@ -37,7 +37,6 @@ from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
@@ -75,12 +74,12 @@ class Check:
 
 def checked(step: StepData) -> Check:
     """Ask every backend, and compare all that they end at."""
-    check, problem = Check(), cone_problem(step)
+    check = Check()
     bits: dict[bytes, str] = {}
     certificates: dict[tuple[tuple[int, int], ...], StepSolution] = {}
     for backend in BACKENDS:
         try:
-            solution = solve_step(step, backend, problem=problem)
+            solution = solve_step(step, backend)
         except StepInfeasible as failure:
             check.kinds.add(INFEASIBLE)
             reason = farkas_refutation(step, failure.farkas.exact)

@@ -5,8 +5,13 @@ from __future__ import annotations
 import argparse
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.solve.backends import BACKENDS, DEFAULT, QPSOLVERS, installed_backends
-from quasistatic_ref.solve.native import native_backends
+from quasistatic_ref.solve.backends import (
+    BACKENDS,
+    DEFAULT,
+    QPSOLVERS,
+    installed,
+    installed_backends,
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -16,18 +21,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
-    installed = installed_backends()
+    known, native = installed_backends(), installed("native")
     if options.json:
-        record = {"default": DEFAULT, "installed": installed, "native": native_backends()}
-        shared.print_json(record)
+        shared.print_json({"default": DEFAULT, "installed": known, "native": native})
         return 0
     rows: list[tuple[str, ...]] = [
         ("backend", "through cvxpy", "through qpsolvers", "native", "method")
     ]
-    for entry in BACKENDS.values():
+    for entry in (entry for entry in BACKENDS.values() if entry.steps):
         name = f"{entry.name} (default)" if entry.name == DEFAULT else entry.name
-        roads = [key if key in installed else "-" for key in (entry.name, QPSOLVERS + entry.name)]
-        native = "yes" if entry.name in native_backends() else "-"
-        rows.append((name, *roads, native, entry.method))
+        asked = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
+        rows.append((name, *asked, "yes" if entry.name in native else "-", entry.method))
     shared.print_rows(rows)
     return 0

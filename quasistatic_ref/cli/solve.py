@@ -14,7 +14,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import CVXPY
+from quasistatic_ref.solve.engines import CVXPY, solver_for
 from quasistatic_ref.solve.solve import CERTIFY, solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -61,7 +61,8 @@ def run(options: argparse.Namespace) -> int:
     backend = DEFAULT if options.backend is None else options.backend
     certify = CERTIFY[0] if options.certify is None else options.certify
     try:
-        solution = solve_step(step, backend, engine=options.engine or CVXPY, certify=certify)
+        solver = solver_for(step, backend, options.engine or CVXPY)
+        solution = solve_step(step, solver, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
         raise

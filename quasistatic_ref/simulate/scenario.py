@@ -28,9 +28,7 @@ from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
 from quasistatic_ref.simulate.words import scenario_page
 from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.backends import backend as known_backend
-from quasistatic_ref.solve.engines import ENGINES, NATIVE, default_engine
-from quasistatic_ref.solve.native import check_native
+from quasistatic_ref.solve.engines import ENGINES, check_solver, default_engine
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
@@ -102,7 +100,7 @@ class Scenario:
             K_q=self.K_q,
             gravity=self.gravity.tolist(),
             feels_gravity=self.feels_gravity,
-            backend=self.backend,
+            solver=self.backend,
             engine=self.engine,
             accuracy=self.accuracy,
             certify=self.certify,
@@ -239,10 +237,7 @@ def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
         raise solver.fail("backend", problem, name)
     try:
-        if engine == NATIVE:
-            check_native(name, cone_name)
-        elif name != NONE:
-            known_backend(name)
+        check_solver(name, engine, cone_name)
     except BackendError as error:
         raise solver.fail(error.field or "backend", error.problem, error.value) from None
     return name, engine

@@ -16,11 +16,17 @@ from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
-from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.engines import CVXPY, check_engine, default_engine
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.engines import (
+    CVXPY,
+    check_solver,
+    default_engine,
+    may_be_sparse,
+    solver_for,
+)
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.solve.problems import Problem, may_be_sparse, problem_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -75,10 +81,13 @@ class Simulator:
         [m/s^2], world frame.
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
-    backend, accuracy, certify
-        As in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    solver : str
+        Name of a backend, as in :func:`~quasistatic_ref.solve.solve.solve_step`.
+    accuracy, certify
+        As there.
     engine : str, optional
-        As there; ``"native"`` by default where that reaches the backend and the cone.
+        As in :func:`~quasistatic_ref.solve.engines.solver_for`; ``"native"`` by default where that
+        reaches the backend and the cone.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
@@ -99,7 +108,7 @@ class Simulator:
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
         feels_gravity: Array | None = None,
-        backend: str = DEFAULT,
+        solver: str = DEFAULT,
         engine: str | None = None,
         accuracy: float = ACCURACY,
         certify: str = "full",
@@ -113,15 +122,15 @@ class Simulator:
         self._gravity = tuple(self.gravity.tolist())
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
-        self.backend, self.accuracy, self.certify = backend, accuracy, certify
+        self.backend, self.accuracy, self.certify = solver, accuracy, certify
         self.cone, self.extension = cone, extension
         self.limits = Limits() if limits is None else limits
-        self.engine = default_engine(backend, cone) if engine is None else engine
-        check_engine(self.engine)
+        self.engine = default_engine(solver, cone) if engine is None else engine
+        check_solver(solver, self.engine, cone)
         self._curved = CVXPY if engine is None else engine  # extensions that are more than rows
-        self.problem: Problem | None = None
+        self.solver: Solver | None = None
         large = 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
-        able = may_be_sparse(self.engine, backend, certify) and extension is None and system.rigid
+        able = may_be_sparse(self.engine, solver, certify) and extension is None and system.rigid
         geometry = BlockGeometry if large and able else ContactGeometry
         self.geometry = geometry(self.layout, system.motion)
         self._like: StepData | None = None
@@ -200,15 +209,13 @@ class Simulator:
         return step, own
 
     def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
-        """The step solved, with a problem that is built once."""
-        if self.backend != NONE and (self.problem is None or not self.problem.fits(step)):
-            self.problem = problem_for(step, self.engine, self.backend)
+        """The step solved, by a solver that is made once."""
+        if self.solver is None or not self.solver.fits(step):
+            self.solver = solver_for(step, self.backend, self.engine)
         return solve_step(
             step,
-            self.backend,
-            engine=self.engine if own is None else self._curved,
+            self.backend if own is not None and self._curved == CVXPY else self.solver,
             accuracy=self.accuracy,
             certify=self.certify,
-            problem=self.problem,
             extension=own,
         )

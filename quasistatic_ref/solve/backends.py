@@ -1,7 +1,8 @@
-"""The table of backends: one accuracy, mapped to each solver's own options.
+"""The table of backends: one accuracy in each one's own options, and all else that differs.
 
-A backend is reached by two roads: through CVXPY under its name (``"clarabel"``), and through
-qpsolvers, which hands over the standard form without CVXPY (``"qpsolvers:clarabel"``).
+A backend is somebody else's solver. It is reached by three interfaces: through CVXPY under its
+name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
+form; and natively, where :mod:`~quasistatic_ref.solve.adapters` has a file of its name.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, suggestion
@@ -20,7 +22,7 @@ QPSOLVERS = "qpsolvers:"
 
 @dataclass(frozen=True)
 class Backend:
-    """One solver.
+    """One line of the table.
 
     Parameters
     ----------
@@ -29,10 +31,22 @@ class Backend:
     method : str
         What it does, in two words.
     attempts : callable
-        Accuracy in natural units [-] -> sets of the solver's own options, tried in order until
+        Accuracy in natural units [-] -> sets of the backend's own options, tried in order until
         one of them solves the step.
+    plain : callable or None
+        Accuracy [-] -> its options in a study: residuals and duality gap at the same accuracy and
+        nothing else touched, as whoever reads its manual once would ask. None if it has none.
     floor : float
         The accuracy that it can be asked for at most, in natural units [-].
+    time_limit : str
+        Its option for that [s], if it can stop itself; in a study others are killed from outside.
+    warm : tuple of str
+        ``"cvxpy"``, ``"qpsolvers"``: interfaces that hand on a start; others drop it. (Of an
+        interior point a warm start reuses the set-up, not the point.)
+    adapter : str
+        Class in ``adapters/NAME.py``, where the native engine reaches it.
+    sparse : bool
+        Whether that class takes sparse matrices, too.
     cvxpy : bool
         Whether CVXPY has an interface to it.
     package : str
@@ -41,16 +55,33 @@ class Backend:
         Whether the package installs it.
     cones : bool
         Whether it takes second-order cones, which the ellipsoid needs, through CVXPY.
+    steps : bool
+        Whether steps are solved with it; otherwise it is in studies only.
     """
 
     name: str
     method: str
     attempts: Callable[[float], Attempts]
+    plain: Callable[[float], Options] | None
     floor: float = 0.0
+    time_limit: str = ""
+    warm: tuple[str, ...] = ()
+    adapter: str = ""
+    sparse: bool = False
     cvxpy: bool = True
     package: str = ""
     required: bool = False
     cones: bool = False
+    steps: bool = True
+
+    def first(self, accuracy: float) -> Options:
+        """The options tried first for an accuracy in natural units [-]."""
+        return dict(self.attempts(max(accuracy, self.floor))[0])
+
+    @property
+    def to_install(self) -> str:
+        """The package that it comes in."""
+        return self.package or self.name
 
 
 GAP = 1e-2
@@ -75,6 +106,10 @@ def _clarabel(accuracy: float) -> Attempts:
     )
 
 
+def _plain_clarabel(accuracy: float) -> Options:
+    return dict.fromkeys(("tol_feas", "tol_gap_abs", "tol_gap_rel"), accuracy)
+
+
 def _osqp(accuracy: float) -> Attempts:
     # No polishing: it prints to standard output, and improves none of the worst answers.
     common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
@@ -83,6 +118,10 @@ def _osqp(accuracy: float) -> Attempts:
     # runs away to 1e6 on one step in ten; on a step in fifty it is the other way round.
     fixed = common | {"adaptive_rho": False, "rho": 0.3}
     return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
+
+
+def _plain_osqp(accuracy: float) -> Options:
+    return {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 20_000}
 
 
 def _piqp(accuracy: float) -> Attempts:
@@ -99,8 +138,13 @@ def _piqp(accuracy: float) -> Attempts:
     return (common | gap, common | rounded)
 
 
-def _daqp(accuracy: float) -> Attempts:
-    return ({"primal_tol": accuracy, "dual_tol": accuracy},)
+def _plain_proximal(accuracy: float) -> Options:
+    gap = {"eps_duality_gap_abs": accuracy, "eps_duality_gap_rel": 0.0}
+    return {"eps_abs": accuracy, "eps_rel": 0.0, "check_duality_gap": True} | gap
+
+
+def _daqp(accuracy: float) -> Options:
+    return {"primal_tol": accuracy, "dual_tol": accuracy}
 
 
 def _proxqp(accuracy: float) -> Attempts:
@@ -111,51 +155,74 @@ def _scs(accuracy: float) -> Attempts:
     return ({"eps_abs": accuracy, "eps_rel": accuracy, "max_iters": 200_000},)
 
 
+def _plain_scs(accuracy: float) -> Options:
+    return {"eps_abs": accuracy, "eps_rel": 0.0, "max_iters": 20_000}
+
+
 def _highs(accuracy: float) -> Attempts:
+    return (_plain_highs(accuracy) | {"time_limit": 10.0},)  # it can loop
+
+
+def _plain_highs(accuracy: float) -> Options:
     tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
-    # It can loop, hence the time limit [s].
-    return (dict.fromkeys(tight, accuracy) | {"time_limit": 10.0},)
+    return dict.fromkeys(tight, max(accuracy, 1e-10))  # it refuses less
 
 
-def _nothing(accuracy: float) -> Attempts:
-    del accuracy  # the method has no tolerance
-    return ({},)
-
-
+BOTH = ("cvxpy", "qpsolvers")
 BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
-        Backend("clarabel", "interior point", _clarabel, required=True, cones=True),
+        Backend("clarabel", "interior point", _clarabel, _plain_clarabel, adapter="Clarabel",
+                sparse=True, time_limit="time_limit", warm=("cvxpy",), required=True, cones=True),
         # On bunny_grasp OSQP's residuals stop falling between 1e-11 and 1e-10 at the worst steps.
-        Backend("osqp", "operator splitting", _osqp, floor=1e-10, required=True),
-        Backend("piqp", "proximal interior point", _piqp, required=True),
-        Backend("daqp", "dual active set", _daqp),
-        Backend("proxqp", "augmented Lagrangian", _proxqp, package="proxsuite"),
-        Backend("scs", "operator splitting", _scs, cones=True),
-        # HiGHS refuses tolerances below 1e-10.
-        Backend("highs", "active set", _highs, floor=1e-10, package="highspy"),
-        Backend("quadprog", "dual active set", _nothing, cvxpy=False),
+        Backend("osqp", "operator splitting", _osqp, _plain_osqp, adapter="Osqp", sparse=True,
+                floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
+        Backend("piqp", "proximal interior point", _piqp, _plain_proximal, adapter="Piqp",
+                sparse=True, warm=("cvxpy",), required=True),
+        # CVXPY's interface drops a start.
+        Backend("daqp", "dual active set", lambda accuracy: (_daqp(accuracy),), _daqp,
+                adapter="Daqp", warm=("qpsolvers",)),
+        Backend("proxqp", "augmented Lagrangian", _proxqp, _plain_proximal, warm=BOTH,
+                package="proxsuite"),
+        Backend("scs", "operator splitting", _scs, _plain_scs, time_limit="time_limit_secs",
+                warm=BOTH, cones=True),
+        Backend("highs", "active set", _highs, _plain_highs, floor=1e-10, warm=("cvxpy",),
+                time_limit="time_limit", package="highspy"),
+        # The method has no tolerance.
+        Backend("quadprog", "dual active set", lambda _: ({},), None, adapter="Quadprog",
+                cvxpy=False),
+        Backend("qpalm", "augmented Lagrangian", lambda accuracy: (_plain_osqp(accuracy),),
+                _plain_osqp, warm=BOTH, steps=False),
     )
-}
+}  # fmt: skip
 DEFAULT = "clarabel"
 NONE = "none"
 """No backend: the exact method from a cold start."""
 
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
-def installed_backends() -> tuple[str, ...]:
-    """Names that ``backend=`` accepts here: CVXPY's road first, then qpsolvers'."""
-    import cvxpy
-    import qpsolvers
+def installed(interface: str) -> tuple[str, ...]:
+    """Backends of the table that are here, by ``"cvxpy"``, ``"qpsolvers"`` or ``"native"``."""
+    if interface == "native":
+        return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.name))
+    if interface == "qpsolvers":
+        import qpsolvers
 
-    by_cvxpy = {name.lower() for name in cvxpy.installed_solvers()}
-    through_cvxpy = [b.name for b in BACKENDS.values() if b.cvxpy and b.name in by_cvxpy]
-    direct = [QPSOLVERS + n for n in BACKENDS if n in qpsolvers.available_solvers]
-    return (*through_cvxpy, *direct)
+        return tuple(name for name in BACKENDS if name in qpsolvers.available_solvers)
+    import cvxpy
+
+    here = {name.lower() for name in cvxpy.installed_solvers()}
+    return tuple(b.name for b in BACKENDS.values() if b.cvxpy and b.name in here)
+
+
+def installed_backends() -> tuple[str, ...]:
+    """Names that ``solver=`` accepts here: those through CVXPY first, then qpsolvers'."""
+    names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
+    return tuple(name for name in names if BACKENDS[name.removeprefix(QPSOLVERS)].steps)
 
 
 def backend(name: str) -> Backend:
-    """The table's entry for a name of either road.
+    """The table's entry for a name with or without ``qpsolvers:``.
 
     Raises
     ------
@@ -164,14 +231,14 @@ def backend(name: str) -> Backend:
     """
     known = (*installed_backends(), NONE)
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
-    if entry is None:
+    if entry is None or not entry.steps:
         hint = suggestion(str(name), known)
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:
         other = QPSOLVERS + name
         remedy = f"is reached as {other!r}" if other in known else "is not installed"
         if other not in known:
-            remedy += f"; pip install {entry.package or entry.name}"
+            remedy += f"; pip install {entry.to_install}"
         choices = ", ".join(known)
         raise BackendError(f"{remedy}; choices here: {choices}", field="backend", value=name)
     return entry

@@ -1,31 +1,71 @@
-"""The two ways in which a step reaches a solver."""
+"""The word `engine` of scenarios and the command line: it chooses the class of a solver."""
 
 from __future__ import annotations
 
 from quasistatic_ref.errors import BackendError, suggestion
-from quasistatic_ref.solve.native import native_backends
+from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, backend, installed
+from quasistatic_ref.solve.native import NativeSolver, check_native
+from quasistatic_ref.solve.solver import NoSolver, Solver
+from quasistatic_ref.solve.sparse import SparseSolver
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import StepData
 
 CVXPY, NATIVE = "cvxpy", "native"
 ENGINES = (CVXPY, NATIVE)
 
 
-def check_engine(name: str) -> None:
-    """Refuse what is no engine.
+def check_solver(name: str, engine: str, cone_name: str) -> None:
+    """Refuse an engine that there is not, or that does not reach a backend and a cone.
 
     Raises
     ------
     BackendError
     """
-    if name not in ENGINES:
-        hint = suggestion(str(name), ENGINES)
-        raise BackendError(f"must be one of {', '.join(ENGINES)}{hint}", field="engine", value=name)
+    if engine not in ENGINES:
+        words = f"must be one of {', '.join(ENGINES)}{suggestion(str(engine), ENGINES)}"
+        raise BackendError(words, field="engine", value=engine)
+    if engine == NATIVE:
+        check_native(name, cone_name)
+    elif name != NONE:
+        backend(name)
 
 
-def default_engine(backend: str, cone_name: str) -> str:
+def default_engine(name: str, cone_name: str) -> str:
     """The engine of a simulator that names none: native where that reaches backend and cone.
 
     What is certified has the same bits either way.
     """
-    reached = backend in native_backends() and cone(cone_name).polyhedral
+    reached = name in installed("native") and cone(cone_name).polyhedral
     return NATIVE if reached else CVXPY
+
+
+def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
+    """A solver of steps like this one, sparse if its contacts are in blocks.
+
+    Parameters
+    ----------
+    step : StepData
+    name : str
+        Of the backend; with ``qpsolvers:`` it is reached without CVXPY.
+    engine : str
+        ``"cvxpy"``, or ``"native"``: the backend's own interface, some ten times faster.
+
+    Raises
+    ------
+    BackendError
+        If the backend is unknown or not installed, or the engine does not reach it.
+    """
+    check_solver(name, engine, step.cone)
+    if name == NONE:
+        return NoSolver(step)
+    if engine == NATIVE:
+        sparse = step.contacts.blocks is not None
+        return SparseSolver(step, name) if sparse else NativeSolver(step, name)
+    return (QpsolversSolver if name.startswith(QPSOLVERS) else CvxpySolver)(step, name)
+
+
+def may_be_sparse(engine: str, name: str, certify: str) -> bool:
+    """Whether large steps may be handed over in blocks: natively, nothing certified exactly."""
+    return engine == NATIVE and name in BACKENDS and BACKENDS[name].sparse and certify != "full"

@@ -1,41 +1,28 @@
-"""The native engine: a step handed to a solver's own interface, without CVXPY.
+"""The native engine: a step handed to a backend's own interface, without CVXPY.
 
 What CVXPY would make of a step is its standard form (a test holds them equal); the matrices are
-written into arrays that are kept, in natural units, and the solver is updated in place. Between
+written into arrays that are kept, in natural units, and the backend is updated in place. Between
 the steps of a simulator it starts from the answer before, where it can.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from importlib import import_module
-from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import BackendError, StepNotSolved, suggestion
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
-from quasistatic_ref.solve.answer import Answer
-from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, Options
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.errors import BackendError, suggestion
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
+from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, installed
+from quasistatic_ref.solve.scaled import NaturalStep, Scaled
+from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import Metric, reach_of_rows
-from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.tolerances import FAR
-
-ADAPTERS = {"clarabel": "Clarabel", "daqp": "Daqp", "osqp": "Osqp", "piqp": "Piqp",
-            "quadprog": "Quadprog"}  # fmt: skip
-"""Backends with an interface of their own here: class of the module of that name in adapters/."""
-
-
-@cache
-def native_backends() -> tuple[str, ...]:
-    """Names of the backends that the native engine reaches here."""
-    return tuple(name for name in ADAPTERS if find_spec(name) is not None)
 
 
 def check_native(name: str, cone_name: str) -> None:
@@ -49,29 +36,30 @@ def check_native(name: str, cone_name: str) -> None:
     if not cone(cone_name).polyhedral:
         problem = f"takes rows only; cone = {cone_name!r} needs engine = 'cvxpy'"
         raise BackendError(problem, field="engine", value="native")
-    if name == NONE or name in native_backends():
+    if name == NONE or name in installed("native"):
         return
-    there = ", ".join(native_backends())
-    if name in ADAPTERS:
-        problem = f"is not installed; pip install {BACKENDS[name].package or name}"
-    elif name in BACKENDS or str(name).removeprefix(QPSOLVERS) in BACKENDS:
-        problem = "has no native interface here; use engine = 'cvxpy'"
+    there = ", ".join(installed("native"))
+    entry = BACKENDS.get(str(name).removeprefix(QPSOLVERS))
+    if entry is None or not entry.steps:
+        problem = f"is not a backend{suggestion(str(name), installed('native'))}"
+    elif entry.adapter and entry.name == name:
+        problem = f"is not installed; pip install {entry.to_install}"
     else:
-        problem = f"is not a backend{suggestion(str(name), native_backends())}"
+        problem = "has no native interface here; use engine = 'cvxpy'"
     raise BackendError(f"{problem}; engine = 'native' reaches {there}", field="backend", value=name)
 
 
-class NativeProblem:
-    """The arrays and the solver of steps of one kind, kept between them.
+class NativeSolver(Solver):
+    """The arrays of steps of one kind, and a backend that is updated from them in place.
 
     Parameters
     ----------
     like : StepData
-        A step of the same kind, as for :class:`~quasistatic_ref.step.problem.StepProblem`.
-    backend : str
-        A name of :data:`ADAPTERS`.
+        A step of that kind.
+    name : str
+        Of a backend with an adapter.
     warm : bool
-        Whether to start from the answer before, where the solver can.
+        Whether to start from the answer before, where the backend can.
 
     Raises
     ------
@@ -79,70 +67,40 @@ class NativeProblem:
         If the backend has no native interface, or the cone is not polyhedral.
     """
 
-    def __init__(self, like: StepData, backend: str, warm: bool = True) -> None:
-        check_native(backend, like.cone)
-        module = import_module(f"quasistatic_ref.solve.adapters.{backend}")
-        self.adapter: type[Adapter] = getattr(module, ADAPTERS[backend])
-        self.backend, self.warm, self.like = backend, warm and self.adapter.WARM, like
-        n, m, order = like.n_v, int(like.offsets[-1]) + len(like.extra.names), self.adapter.ORDER
-        self.program = Program(
+    engine = "native"
+    fixed = ("n_a", "n_u", "cone", "rows of contacts", "rows of the user's own")
+
+    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
+        check_native(name, like.cone)
+        super().__init__(like, name)
+        module = import_module(f"quasistatic_ref.solve.adapters.{name}")  # needs its package
+        self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
+        self.warm = warm and self.adapter.WARM
+        self.metric: Metric | None = None
+        self.program: Program | SparseProgram = self.empty()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.like, self.name, self.warm)
+
+    def empty(self) -> Program | SparseProgram:
+        """A program of the right size."""
+        like, order = self.like, self.adapter.ORDER
+        n, m = like.n_v, int(like.offsets[-1]) + len(like.extra.names)
+        return Program(
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )
-        self.rows = m
-        self.attempts: dict[float, list[_Attempt]] = {}
-        self.metric: Metric | None = None
-        self.fitting: StepData | None = None
 
-    def fits(self, step: StepData) -> bool:
-        """Tell whether a step can be written into the same arrays."""
-        if step is self.fitting:  # asked by a simulator, and again when it is solved
-            return True
-        like = self.like
+    def takes(self, step: StepData) -> bool:
+        """Whether a step can be written into the same arrays."""
         # A step that was moved from another shares its counts, and all shapes.
-        fits = step.counts is like.counts or (
-            (step.n_a, step.n_u) == (like.n_a, like.n_u)
-            and step.cone == like.cone
-            and np.array_equal(step.counts, like.counts)
-            and len(step.extra.names) == len(like.extra.names)
-        )
-        self.fitting = step if fits else None
-        return fits
+        return step.counts is self.like.counts or super().takes(step)
 
-    def answer(self, scaled: Scaled, accuracy: float) -> Answer:
-        """What the backend says to a step, in natural units.
+    def scaled(self, step: StepData) -> NaturalStep:
+        """The step in natural units; what H gives of them is kept while H is the same array."""
+        return Scaled(step, self.metric)
 
-        Contacts out of reach are handed over nearer than they are, and bear no load.
-
-        Raises
-        ------
-        StepNotSolved
-            If it says anything but a full solution, or the numbers are not finite.
-        """
-        idle = self._write(scaled)
-        if not self.rows:  # not every solver takes a program without rows
-            x = np.asarray(np.linalg.solve(self.program.H, -self.program.f), dtype=np.float64)
-            statistics = SolverStatistics(self.backend, "optimal", 0, None, accuracy)
-            return Answer(x, np.zeros(0), statistics)
-        accuracy = max(accuracy, BACKENDS[self.backend].floor)
-        if accuracy not in self.attempts:
-            options = BACKENDS[self.backend].attempts(accuracy)
-            self.attempts[accuracy] = [_Attempt(one) for one in options]
-        for attempt in self.attempts[accuracy]:
-            reply = self._reply(attempt, scaled, accuracy)
-            if reply.solved and finite(reply.x) and finite(reply.lam):
-                break
-        else:
-            status = "an answer that is not finite" if reply.solved else reply.status
-            raise StepNotSolved(self.backend, status, scaled.step, accuracy)
-        if idle is not None:
-            reply.lam[idle] = 0.0  # the judge, who sees the true gap, decides
-        statistics = SolverStatistics(
-            self.backend, "optimal", reply.iterations, reply.seconds, accuracy
-        )
-        return Answer(reply.x, reply.lam, statistics)
-
-    def _write(self, scaled: Scaled) -> NDArray[np.bool_] | None:
-        """Write the program in natural units; tell which rows are out of reach, if any is."""
+    def write(self, scaled: Any) -> NDArray[np.bool_] | None:
+        """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
         form, units, program = scaled.form, scaled.units, self.program
         S, ell, rho = units.coordinate, units.length, units.size
         if self.metric is not scaled.metric:
@@ -157,29 +115,29 @@ class NativeProblem:
         np.maximum(program.b, reach, out=program.b)
         return np.asarray(program.b == reach)
 
-    def _reply(self, attempt: _Attempt, scaled: Scaled, accuracy: float) -> Reply:
+    def reply(self, attempt: Attempt, scaled: Any) -> Reply:
         """One attempt: from the answer before, where there is one, and else or then cold."""
-        try:
-            if attempt.solver is None:
-                attempt.solver = self.adapter(self.program, attempt.options)
-                attempt.metric, attempt.warm = scaled.metric, False
-            same_H = attempt.metric is scaled.metric
-            reply = attempt.solver.reply(same_H, self.warm and attempt.warm)
-            if not reply.solved and self.warm and attempt.warm:
-                reply = attempt.solver.reply(False, False)
-        except Exception as error:  # whatever another package raises
-            attempt.solver = None
-            status = f"the solver failed: {error}"
-            raise StepNotSolved(self.backend, status, scaled.step, accuracy) from error
-        attempt.metric, attempt.warm = scaled.metric, reply.solved
+        program = self.program
+        if isinstance(program, Program) and not program.b.size:  # which not every backend takes
+            x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
+            return Reply(x, np.zeros(0), True, "optimal", 0)
+        held: _Held | None = attempt.held
+        attempt.held = None  # one that raises is set up again
+        if held is None:
+            held = _Held(self.adapter(program, attempt.options), self.metric)
+        warm = self.warm and held.warm
+        reply = held.adapter.reply(held.metric is self.metric, warm)
+        if warm and not reply.solved:
+            reply = held.adapter.reply(False, False)
+        held.metric, held.warm = self.metric, reply.solved
+        attempt.held = held
         return reply
 
 
 @dataclass(eq=False)
-class _Attempt:
-    """A set of options with the solver that has them, once it is needed."""
+class _Held:
+    """An adapter, the H that it has, and whether it can start from its answer."""
 
-    options: Options
-    solver: Adapter | None = None
-    metric: Metric | None = None
+    adapter: Adapter
+    metric: Metric | None
     warm: bool = False

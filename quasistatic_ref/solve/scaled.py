@@ -1,17 +1,34 @@
-"""A step beside itself in natural units."""
+"""A step with its natural units."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
+from quasistatic_ref.certify.bound import error_bound
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.units import Metric, metric, to_natural, units_of
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.solve.units import Metric, Units, metric, to_natural, units_of
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
+
+
+class NaturalStep(Protocol):
+    """A step, its natural units, and the judge of answers in these."""
+
+    step: StepData
+    units: Units
+
+    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+        """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
+
+    def bound(self, delta_q: Array, lam: Array) -> float | None:
+        """A rigorous bound of the relative error of delta_q [-], where one is known."""
 
 
 class Scaled:
@@ -38,9 +55,7 @@ class Scaled:
             self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
-        finite = 0 < self.units.length < math.inf and 0 < self.units.size < math.inf
-        if not (finite and self.metric.usable):
-            raise out_of_range(step)
+        check_units(self.units, step, self.metric.usable)
 
     @cached_property
     def natural(self) -> StepData:
@@ -49,6 +64,27 @@ class Scaled:
             return to_natural(self.step, self.units)
         except StepDataError:
             raise out_of_range(self.step) from None
+
+    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
+        judge = ellipsoid_residuals if self.step.cone == ELLIPSOID else optimality_residuals
+        return judge(self.natural, delta_q, lam)
+
+    def bound(self, delta_q: Array, lam: Array) -> float | None:
+        """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""
+        error = error_bound(self.natural, delta_q, lam).error
+        return error if math.isfinite(error) else None
+
+
+def check_units(units: Units, step: StepData, usable: bool = True) -> None:
+    """Refuse a step whose units, or those of its coordinates, are not finite and positive.
+
+    Raises
+    ------
+    StepDataError
+    """
+    if not (usable and 0 < units.length < math.inf and 0 < units.size < math.inf):
+        raise out_of_range(step)
 
 
 def out_of_range(step: StepData) -> StepDataError:

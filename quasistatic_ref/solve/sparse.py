@@ -1,4 +1,4 @@
-"""Large steps: the sparse standard form handed to a backend's sparse interface.
+"""Large steps: the sparse standard form handed to a backend's own interface.
 
 As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the entries that are
 there. Nothing here is certified exactly: residuals are what can be computed at this size.
@@ -7,29 +7,23 @@ there. Nothing here is certified exactly: residuals are what can be computed at 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
 from quasistatic_ref.certify.optimality import Residuals
-from quasistatic_ref.errors import BackendError, StepNotSolved
-from quasistatic_ref.solve.adapters.large import Clarabel, Osqp, Piqp, whole
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.scaled import out_of_range
-from quasistatic_ref.solve.units import Units, coordinate_units, from_natural, units_from
+from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.scaled import check_units
+from quasistatic_ref.solve.solver import Attempt
+from quasistatic_ref.solve.units import coordinate_units, units_from
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.step.sparse_form import Pattern, SparseForm, sparse_form
-from quasistatic_ref.tolerances import FAR, RESIDUAL_LIMIT
-
-Adapter = Clarabel | Osqp | Piqp
-ADAPTERS: dict[str, type[Adapter]] = {"clarabel": Clarabel, "osqp": Osqp, "piqp": Piqp}
-"""Backends with a sparse interface."""
-
+from quasistatic_ref.step.sparse_form import Pattern, sparse_form
+from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
 """Options that ask for a duality gap: Clarabel's, then PIQP's."""
@@ -46,129 +40,114 @@ def reachable(options: Options, rows: int) -> Options:
     return options | {name: max(options[name], least) for name in GAPS if name in options}
 
 
-class SparseProblem:
-    """The pattern and the solvers of large steps of one kind, kept between them.
+class SparseSolver(NativeSolver):
+    """The pattern of large steps of one kind, and a backend that takes sparse matrices.
 
     Parameters
     ----------
     like : StepData
         With contacts in blocks, and no rows of the user's own.
-    backend : str
-        A name of :data:`ADAPTERS`.
+    name : str
+        Of a backend whose adapter takes sparse matrices.
+    warm : bool
+        Whether to start from the answer before, where the backend can.
 
     Raises
     ------
     BackendError
         If the backend takes no sparse matrices.
+    StepDataError
+        If the step is not in blocks.
     """
 
-    def __init__(self, like: StepData, backend: str) -> None:
-        if backend not in ADAPTERS:
-            problem = f"takes no sparse matrices; a step this large needs {', '.join(ADAPTERS)}"
-            raise BackendError(problem, field="backend", value=backend)
-        self.backend, self.pattern = backend, Pattern(like)
-        P = self.pattern.P
-        self.coordinate = coordinate_units(P.diagonal())
-        S = self.coordinate
-        self.P = csc_matrix(
-            (P.data * S[P.indices] * S[self.pattern.P_column], P.indices, P.indptr), P.shape
-        )
-        self.H = whole(self.P)
-        self.factor = splu(self.H)
-        self.solvers: dict[tuple[float, int], Adapter] = {}
+    certifies = False
 
-    def fits(self, step: StepData) -> bool:
-        """Whether the step is of the kind that this was built for."""
+    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
+        able = [entry.name for entry in BACKENDS.values() if entry.sparse]
+        if name not in able:
+            problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
+            raise BackendError(problem, field="backend", value=name)
+        super().__init__(like, name, warm)
+
+    def empty(self) -> SparseProgram:
+        """A program with H in natural units, which stays, and the pattern of A."""
+        self.pattern = Pattern(self.like)
+        P, A, column = self.pattern.P, self.pattern.A, self.pattern.P_column
+        S = self.coordinate = coordinate_units(P.diagonal())
+        scaled = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
+        m, n = A.shape
+        program = SparseProgram(scaled, np.zeros(n), A.copy(), np.zeros(m))
+        self.factor = splu(program.H)
+        return program
+
+    def takes(self, step: StepData) -> bool:
+        """Whether a step has its entries where this pattern has them, and the same H."""
         return self.pattern.fits(step)
 
-    def solution(self, step: StepData, accuracy: float, certify: str) -> StepSolution:
-        """The backend's answer, with residuals if ``certify`` is ``"residual"``.
+    def differences(self, step: StepData) -> list[str]:
+        """In what a step is not like the one that the pattern was made for."""
+        return [*super().differences(step), "H or the pattern of A"]
 
-        Raises
-        ------
-        StepNotSolved
-            If the backend claims anything but a full solution, or its residuals are not small.
-        StepDataError
-            If products of the step's numbers leave the range of float64.
-        """
-        with np.errstate(all="ignore"):  # what overflows shows in the result
-            natural, units = self._natural(step)
-            reply, accuracy = self._reply(step, natural, accuracy)
-            certificate = Certificate("none")
-            if certify == "residual":
-                certificate = self._judged(step, natural, reply, accuracy)
-            delta_q, lam = from_natural(reply.x, reply.lam, units)
-        if not math.isfinite(delta_q.sum() + lam.sum()):
-            raise out_of_range(step)
-        statistics = SolverStatistics(
-            self.backend, "optimal", reply.iterations, reply.seconds, accuracy
-        )
-        return StepSolution.with_later_wrench(
-            lambda: contact_wrenches(step.contacts, lam, step.h, step.cone),
-            delta_q=delta_q,
-            lam=lam,
-            lam_extra=np.zeros(0),
-            backend=self.backend,
-            certificate=certificate,
-            statistics=statistics,
-            cone=step.cone,
-        )
+    def attempts(self, accuracy: float) -> list[Attempt]:
+        """The sets of options, none of which asks for a gap that rounding hides."""
+        if accuracy not in self._attempts:
+            for attempt in super().attempts(accuracy):
+                attempt.options = reachable(attempt.options, len(self.program.b))
+        return self._attempts[accuracy]
 
-    def _natural(self, step: StepData) -> tuple[SparseForm, Units]:
-        """The program in natural units, and the units."""
-        form, S = sparse_form(step, self.pattern), self.coordinate
-        rows = form.A.data * S[self.pattern.column]
+    def scaled(self, step: StepData) -> SparseStep:
+        """The step in natural units."""
+        return SparseStep(step, self)
+
+    def write(self, scaled: SparseStep) -> NDArray[np.bool_]:
+        """Write g, A and b; tell which rows are out of reach, shape (m,)."""
+        program = self.program
+        squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))
+        reach = -FAR * np.maximum(1.0, np.sqrt(squares))
+        program.f[:] = -scaled.g
+        program.A.data[:] = scaled.A.data
+        np.maximum(scaled.b, reach, out=program.b)
+        return np.asarray(scaled.b < reach)
+
+
+class SparseStep:
+    """A large step in its natural units.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    solver : SparseSolver
+        Whose H it has.
+
+    Raises
+    ------
+    StepDataError
+        If products of its numbers leave the range of float64.
+    """
+
+    def __init__(self, step: StepData, solver: SparseSolver) -> None:
+        self.step, self.H = step, solver.program.H
+        form, S = sparse_form(step, solver.pattern), solver.coordinate
+        rows = form.A.data * S[solver.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
-        energy = math.sqrt(max(float(y @ self.factor.solve(y)), 0.0))  # ||H^-1 g||_H
-        units = units_from(S, np.sort(squares), energy, form.b)
-        if not (0 < units.length < math.inf and 0 < units.size < math.inf):
-            raise out_of_range(step)
-        A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
-        g, b = y / units.size, form.b / (units.size * units.length)
-        return SparseForm(self.P, g, A, b), units
+        energy = math.sqrt(max(float(y @ solver.factor.solve(y)), 0.0))  # ||H^-1 g||_H
+        self.units = units = units_from(S, np.sort(squares), energy, form.b)
+        check_units(units, step)
+        self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
+        self.g, self.b = y / units.size, form.b / (units.size * units.length)
 
-    def _reply(self, step: StepData, natural: SparseForm, accuracy: float) -> tuple[Reply, float]:
-        """What the backend says; contacts out of reach are handed over nearer than they are."""
-        reach = -FAR * np.maximum(1.0, np.sqrt(_row_squares(natural)))
-        near = SparseForm(natural.P, natural.g, natural.A, np.maximum(natural.b, reach))
-        entry = BACKENDS[self.backend]
-        accuracy = max(accuracy, entry.floor)
-        status = ""
-        for i, options in enumerate(entry.attempts(accuracy)):
-            solver = self._solver(near, reachable(options, len(near.b)), accuracy, i)
-            reply = solver.reply(near)
-            if reply.solved and math.isfinite(reply.x.sum() + reply.lam.sum()):
-                reply.lam[natural.b < reach] = 0.0  # the judge, who sees the true gap, decides
-                return reply, accuracy
-            status = reply.status
-        raise StepNotSolved(self.backend, status, step, accuracy)
-
-    def _solver(self, form: SparseForm, options: Options, accuracy: float, i: int) -> Adapter:
-        key = (accuracy, i)
-        if key not in self.solvers:
-            self.solvers[key] = ADAPTERS[self.backend](form, options)
-        return self.solvers[key]
-
-    def _judged(
-        self, step: StepData, form: SparseForm, reply: Reply, accuracy: float
-    ) -> Certificate:
-        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12`, natural units; at this size no error bound."""
-        x, lam = reply.x, reply.lam
-        balance, slack = self.H @ x - form.g - form.A.T @ lam, form.A @ x - form.b
-        residuals = Residuals(
+    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
+        balance = self.H @ delta_q - self.g - self.A.T @ lam
+        slack = self.A @ delta_q - self.b
+        return Residuals(
             stationarity=float(np.abs(balance).max(initial=0.0)),  # Eq. (9), mended
             primal=float(np.maximum(-slack, 0.0).max(initial=0.0)),  # Eq. (10)
             dual=float(np.maximum(-lam, 0.0).max(initial=0.0)),  # Eq. (11)
             complementarity=float(np.abs(slack * lam).max(initial=0.0)),  # Eq. (12)
         )
-        if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
-            status = f"it said optimal, but its worst residual is {residuals.worst:.1e}"
-            raise StepNotSolved(self.backend, status, step, accuracy, residuals)
-        return Certificate("residual", asdict(residuals))
 
-
-def _row_squares(form: SparseForm) -> Array:
-    """Squared lengths of the rows."""
-    squares = np.bincount(form.A.indices, form.A.data**2, minlength=len(form.b))
-    return squares.astype(np.float64)
+    def bound(self, delta_q: Array, lam: Array) -> None:
+        """No bound is known at this size."""

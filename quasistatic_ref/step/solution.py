@@ -68,6 +68,9 @@ class SolverStatistics(NamedTuple):
         What was asked for, in natural units [-].
     digits : float or None
         Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
+    engine : str
+        The interface by which it was asked: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``; ``"none"``
+        without a backend.
     """
 
     backend: str
@@ -76,6 +79,7 @@ class SolverStatistics(NamedTuple):
     solve_time: float | None
     accuracy: float
     digits: float | None = None
+    engine: str = "cvxpy"
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,7 +34,7 @@ DOOR = "cli/main.py"
 # Where each third-party package may be imported: a room, or one file.
 WALLS = {
     "cvxpy": ("step/problem.py", "solve"),
-    # A QP assembled by hand, to check ours: it must not go through our own way of asking.
+    # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
     # And the loop that people write first, to compare its time.
     "qpsolvers": ("solve", "lab/validate/engines/by_hand.py", "lab/study/bench/by_hand.py"),
     "pinocchio": ("model",),

@@ -8,8 +8,7 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepInfeasible, StepNotSolved
-from quasistatic_ref.solve.ask import backend_answer
-from quasistatic_ref.solve.units import natural_units, to_natural
+from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
 from validation.random_steps import mixed_step
@@ -26,14 +25,15 @@ def warm_starts(step, seed):
     yield range(m)
     yield range(m - 1, -1, -2)
     yield rng.integers(0, m, size=2 * m).tolist() if m else []
-    natural = to_natural(step, natural_units(step))
-    scaled = standard_form(natural)
     for name in BACKENDS if m else ():
+        solver = solver_for(step, name)
+        scaled = solver.scaled(step)
+        natural = standard_form(scaled.natural)
         try:
-            answer = backend_answer(natural, name, ACCURACY)
+            answer = solver.answer(scaled, ACCURACY)
         except StepNotSolved:
             continue
-        yield warm_rows(scaled.A, answer.lam, scaled.A @ answer.delta_q - scaled.b)
+        yield warm_rows(natural.A, answer.lam, natural.A @ answer.delta_q - natural.b)
 
 
 def answer_from(step, warm):

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.qp import in_units, units_of
-from quasistatic_ref.solve.direct import direct_reply
+from quasistatic_ref.lab.study.qp import units_of
+from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
@@ -21,15 +22,15 @@ PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 def test_highs_still_does_not_solve_each_of_20_contact_problems():
     """All 20 have a solution, which they were made around; HiGHS 1.15 finds that of 11."""
     steps = [planted_step(np.random.default_rng(seed), *PAPERS)[0] for seed in range(20)]
-    replies = [direct_reply(standard_form(s), "highs", {"time_limit": 10.0}) for s in steps]
-    assert 0 < sum(reply.said_optimal for reply in replies) < 20
+    replies = [qpsolvers_reply(standard_form(s), "highs", {"time_limit": 10.0}) for s in steps]
+    assert 0 < sum(reply.solved for reply in replies) < 20
 
 
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     claims = []
     for seed in (1, 25, 63, 88, 138):
         form = problem_of(slab(seed)).form  # raises where there is no answer
-        claims.append(direct_reply(in_units(form, units_of(form)), "proxqp", {}).claimed)
+        claims.append(qpsolvers_reply(natural_form(form, units_of(form)), "proxqp", {}).status)
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims
 
 

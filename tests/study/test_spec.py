@@ -6,7 +6,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.plan import plan
 from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path, study_tables
-from quasistatic_ref.solve.plain_options import DIRECT, OPTIONS, installed_solvers, plain_options
+from quasistatic_ref.solve.backends import BACKENDS, installed
 
 RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
 MINE = '[solvers.mine]\ncallable = "planted_solvers:honest"\n'
@@ -75,13 +75,12 @@ def test_the_default_study_is_as_large_as_it_is_said_to_be():
 
 
 def test_every_solver_of_the_table_is_installed_here_so_that_green_means_they_ran():
-    assert set(installed_solvers("qpsolvers")) == set(DIRECT)
+    assert set(installed("qpsolvers")) == set(BACKENDS)
 
 
-@pytest.mark.parametrize("name", OPTIONS)
+@pytest.mark.parametrize("name", [name for name, entry in BACKENDS.items() if entry.plain])
 def test_a_tighter_accuracy_never_asks_for_less(name):
-    loose, tight = plain_options(name, 1e-3), plain_options(name, 1e-9)
-    assert plain_options(name, None) == {}
+    loose, tight = BACKENDS[name].plain(1e-3), BACKENDS[name].plain(1e-9)
     assert loose.keys() == tight.keys()
     changed = [key for key in loose if loose[key] != tight[key]]
     assert changed

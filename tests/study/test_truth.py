@@ -6,11 +6,12 @@ import pytest
 from quasistatic_ref.certify.bound import enclosed_answer
 from quasistatic_ref.lab.scenes.slabs import tower_step
 from quasistatic_ref.lab.study import truth
-from quasistatic_ref.lab.study.ask import NEAR, neighbour
+from quasistatic_ref.lab.study.calls import NEAR, neighbour
 from quasistatic_ref.lab.study.grade import exam, grades
-from quasistatic_ref.lab.study.qp import condition, in_units, units_of
+from quasistatic_ref.lab.study.qp import condition, step_of, units_of
 from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
-from quasistatic_ref.solve.reply import Reply, step_of
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from tests.study.planted import slab
 
@@ -65,7 +66,7 @@ def test_a_wrong_active_set_is_enclosed_honestly(problem):
 
 
 def test_natural_units_change_nothing_but_the_units(problem):
-    natural = in_units(problem.form, units_of(problem.form))
+    natural = natural_form(problem.form, units_of(problem.form))
     units = units_of(problem.form)
     scale = units.size * units.coordinate
     np.testing.assert_array_equal(answer_of(natural).delta_q * scale, problem.answer.delta_q)
@@ -73,7 +74,7 @@ def test_natural_units_change_nothing_but_the_units(problem):
 
 
 def reply_of(x, lam, said_optimal=True):
-    return Reply(x, lam, "said", said_optimal, 0.5, 1.0, 7)
+    return Reply(x, lam, said_optimal, "said", 7, 0.5, 1.0)
 
 
 def lam_of(form, x):

@@ -9,8 +9,9 @@ import pytest
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.solve import solve
-from quasistatic_ref.solve import solve as solve_module
 from quasistatic_ref.solve.backends import BACKENDS, DEFAULT, backend, installed_backends
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
     JUDGE,
@@ -100,12 +101,11 @@ def test_no_road_prints(road, rng, capfd):
 @every_road
 def test_a_step_gives_the_same_bits_whatever_was_solved_before(road):
     steps = [planted_step(np.random.default_rng(seed))[0] for seed in (1, 2)]
-    mu = {"mu_v": steps[0].contacts.mu_v, "mu_omega": steps[0].contacts.mu_omega}
-    steps[1] = steps[1].replace(contacts=changed(steps[1].contacts, **mu))
-    problem = solve_module.StepProblem(steps[0])
-    assert problem.fits(steps[1])
-    solve_step(steps[0], road, problem=problem)
-    after_another = solve_step(steps[1], road, problem=problem)
+    mu = {name: getattr(steps[1].contacts, name) for name in ("mu_v", "mu_omega")}
+    steps[0] = steps[0].replace(contacts=changed(steps[0].contacts, **mu))
+    solver = solver_for(steps[0], road)
+    solve_step(steps[0], solver)
+    after_another = solve_step(steps[1], solver)
     alone = solve_step(steps[1], road)
     np.testing.assert_allclose(after_another.delta_q, alone.delta_q, rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(after_another.lam, alone.lam, rtol=EXACT, atol=EXACT)
@@ -173,13 +173,13 @@ def test_a_solver_stopped_after_one_iteration_is_raised(prefix, name, limit, mon
 
 def lying(monkeypatch, spoil):
     """Make the backend return a spoilt answer while it still says optimal."""
-    honest = solve_module.backend_answer
+    honest = CvxpySolver.answer
 
-    def answer(*args, **kwargs):
-        given = honest(*args, **kwargs)
+    def answer(*args):
+        given = honest(*args)
         return dataclasses.replace(given, **spoil(given))
 
-    monkeypatch.setattr(solve_module, "backend_answer", answer)
+    monkeypatch.setattr(CvxpySolver, "answer", answer)
 
 
 LIES = {

@@ -9,9 +9,10 @@ import pytest
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.engines import default_engine
+from quasistatic_ref.solve.backends import installed
+from quasistatic_ref.solve.engines import default_engine, solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.solve.native import ADAPTERS, NativeProblem, native_backends
+from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
@@ -28,7 +29,7 @@ SHAPES = [
     (4, 0, (6, 6)),
     (2, 2, ()),
 ]
-every_backend = pytest.mark.parametrize("backend", [n for n in ADAPTERS if n in native_backends()])
+every_backend = pytest.mark.parametrize("backend", installed("native"))
 
 
 def some_limits(symbols):
@@ -76,15 +77,15 @@ def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_include
 @pytest.mark.parametrize("far", [False, True])
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
     # Written anew, it holds nothing of the step before.
-    problem = NativeProblem(random_step(rng), backend)
-    problem.answer(Scaled(random_step(rng)), 1e-9)
+    solver = NativeSolver(random_step(rng), backend)
+    solver.answer(Scaled(random_step(rng)), 1e-9)
     step = random_step(rng)
     if far:
         step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
-    problem.answer(Scaled(step), 1e-9)
+    solver.answer(Scaled(step), 1e-9)
     natural = to_natural(step, natural_units(step))
-    expected = standard_form(within_reach(natural) if problem.adapter.NEAR else natural)
-    program = problem.program
+    expected = standard_form(within_reach(natural) if solver.adapter.NEAR else natural)
+    program = solver.program
     for found, value in ((program.H, expected.H), (program.f, -expected.g),
                          (program.A, expected.A), (program.b, expected.b)):  # fmt: skip
         np.testing.assert_allclose(found, value, rtol=EXACT, atol=EXACT)
@@ -93,13 +94,13 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
 @every_backend
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
-    problem = None
+    solver = None
     for seed in range(3):
         rng = np.random.default_rng(seed)
         for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
-            problem = NativeProblem(step, backend) if problem is None else problem
+            solver = NativeSolver(step, backend) if solver is None else solver
             truth = solve_step(step, "none").delta_q
-            answer = solve_step(step, backend, engine="native", certify="off", problem=problem)
+            answer = solve_step(step, solver, certify="off")
             assert error(step, answer.delta_q, truth) <= OPTIMUM
 
 
@@ -107,7 +108,7 @@ def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
 def test_certified_steps_have_the_bits_of_the_other_engine(backend, rng):
     for step in (random_step(rng), pinch(), pinch(grip=0.5)):
         one = solve_step(step, "none")
-        two = solve_step(step, backend, engine="native")
+        two = solve_step(step, NativeSolver(step, backend))
         A = standard_form(step).A
         np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
         assert two.certificate.kind == "exact"
@@ -118,14 +119,11 @@ def test_starting_warm_changes_no_answer_and_costs_fewer_iterations():
     scenario = load_scenario("bunny_grasp", ["steps=75", "solver.backend=daqp"])
     run = scenario.run(progress=False)
     steps = [run.step_data(k) for k in range(55, 75)]
-    warm = NativeProblem(steps[0], "daqp")
-    cold = NativeProblem(steps[0], "daqp", warm=False)
+    warm = NativeSolver(steps[0], "daqp")
+    cold = NativeSolver(steps[0], "daqp", warm=False)
     iterations = np.zeros(2, dtype=int)
     for step in steps:
-        one, two = (
-            solve_step(step, "daqp", engine="native", certify="off", problem=problem)
-            for problem in (warm, cold)
-        )
+        one, two = (solve_step(step, solver, certify="off") for solver in (warm, cold))
         assert error(step, one.delta_q, two.delta_q) <= ACTIVE_SET
         iterations += [one.statistics.iterations, two.statistics.iterations]
     assert iterations[0] < iterations[1] / 2
@@ -162,31 +160,31 @@ def test_a_step_in_sequence_is_one_that_passes_every_check():
 
 
 REFUSED = {
-    "no native interface": ("highs", {}, "has no native interface here; use engine = 'cvxpy'"),
-    "another road": ("qpsolvers:daqp", {}, "has no native interface here"),
-    "unknown": ("dapq", {}, "is not a backend; did you mean 'daqp'"),
+    "no native interface": ("highs", "has no native interface here; use engine = 'cvxpy'"),
+    "another interface": ("qpsolvers:daqp", "has no native interface here"),
+    "unknown": ("dapq", "is not a backend; did you mean 'daqp'"),
 }
 
 
-@pytest.mark.parametrize(("name", "options", "sentence"), REFUSED.values(), ids=REFUSED)
-def test_what_native_does_not_reach_is_refused_naming_what_it_does(name, options, sentence, rng):
+@pytest.mark.parametrize(("name", "sentence"), REFUSED.values(), ids=REFUSED)
+def test_what_native_does_not_reach_is_refused_naming_what_it_does(name, sentence, rng):
     with pytest.raises(BackendError, match="native' reaches clarabel, ") as caught:
-        solve_step(random_step(rng), name, engine="native", **options)
+        solver_for(random_step(rng), name, "native")
     assert sentence in str(caught.value)
 
 
 def test_cones_and_extensions_that_are_more_than_rows_need_cvxpy(rng):
     step = random_step(rng)
     with pytest.raises(BackendError, match="cone = 'ellipsoid' needs engine = 'cvxpy'"):
-        solve_step(step.replace(cone="ellipsoid"), "clarabel", engine="native")
+        solver_for(step.replace(cone="ellipsoid"), "clarabel", "native")
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
-    with pytest.raises(BackendError, match="more needs engine = 'cvxpy'"):
-        solve_step(step, "clarabel", engine="native", extension=curved)
+    with pytest.raises(BackendError, match="more needs the name of a backend"):
+        solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
 
 
 def test_an_engine_that_there_is_not_is_refused(rng):
     with pytest.raises(BackendError, match="engine: must be one of cvxpy, native"):
-        solve_step(random_step(rng), engine="natve")
+        solver_for(random_step(rng), "clarabel", "natve")
     with pytest.raises(InputError, match=r"solver\.engine"):
         load_scenario("sphere_spin", ["solver.engine=fast"])
     with pytest.raises(InputError, match=r"solver\.backend: has no native interface"):

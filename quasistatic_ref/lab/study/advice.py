@@ -19,10 +19,12 @@ from quasistatic_ref.lab.study.page import (
 )
 from quasistatic_ref.lab.study.solver_tables import same_problems
 from quasistatic_ref.lab.study.statistics import shifted_geometric_mean, success
-from quasistatic_ref.solve.plain_options import TIME_LIMIT
+from quasistatic_ref.solve.backends import BACKENDS
 
 WANTED = 6.0
 """Digits that a simulator's step should have."""
+LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
+"""Options that are not advice."""
 ABOUT = 1.0
 """Shares that differ by no more are about the same [%]."""
 
@@ -98,7 +100,7 @@ def advice_table(
         (
             a.label,
             a.setting,
-            f"`{options_words(options[a.label][a.setting], tuple(TIME_LIMIT.values()))}`",
+            f"`{options_words(options[a.label][a.setting], LIMITS)}`",
             percent(a.share),
             digits(a.median),
             str(a.wrong),

@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.plain_options import DIRECT, PACKAGE
+from quasistatic_ref.solve.backends import BACKENDS
 
 
 def machine() -> dict[str, object]:
@@ -24,7 +24,7 @@ def machine() -> dict[str, object]:
 def versions(solvers: tuple[Solver, ...]) -> dict[str, str]:
     """Versions of this package, of what stands between it and the solvers, and of these."""
     packages = ["quasistatic-ref", "numpy", "scipy", "cvxpy", "qpsolvers"]
-    packages += [PACKAGE.get(str(s.target), str(s.target)) for s in solvers if s.target in DIRECT]
+    packages += [BACKENDS[str(s.target)].to_install for s in solvers if s.target in BACKENDS]
     return {name: _version(name) for name in dict.fromkeys(packages)}
 
 

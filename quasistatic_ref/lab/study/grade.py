@@ -13,9 +13,9 @@ import numpy as np
 
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.lab.study.qp import Answer, Problem, in_units, units_of
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import Units
+from quasistatic_ref.lab.study.qp import Problem, Truth, units_of
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.units import Units, natural_form
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -33,7 +33,7 @@ class Exam:
     forms : dict of str to StandardForm
         By units, ``"raw"`` and ``"natural"``.
     units : Units
-    answer : Answer
+    answer : Truth
         In natural units.
     norm : EnergyNorm
         Of the problem in natural units.
@@ -43,7 +43,7 @@ class Exam:
 
     forms: dict[str, StandardForm]
     units: Units
-    answer: Answer
+    answer: Truth
     norm: EnergyNorm
     free: float
 
@@ -51,10 +51,10 @@ class Exam:
 def exam(problem: Problem) -> Exam:
     """A problem prepared: its natural units, and the norm that errors are measured in."""
     units = units_of(problem.form)
-    natural = in_units(problem.form, units)
+    natural = natural_form(problem.form, units)
     norm = energy_norm(natural)
     S, rho = units.coordinate, units.size
-    answer = Answer(
+    answer = Truth(
         problem.answer.delta_q / (rho * S), problem.answer.net * S / rho, problem.answer.bound
     )
     free = float(norm.impulses(natural.g[None])[0])
@@ -88,15 +88,15 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
                 lam = None if lam is None else lam * (paper.units.length / paper.units.size)
             digits = _digits(paper, x, lam)
     found = digits["delta_q"]
-    wrong = reply.said_optimal and (found is None or found < promised)
+    wrong = reply.solved and (found is None or found < promised)
     return {
         "outcome": outcome,
-        "claimed": reply.claimed,
-        "said_optimal": reply.said_optimal,
+        "claimed": reply.status,
+        "said_optimal": reply.solved,
         "wrong": wrong,
         "digits": digits,
         "residuals": residuals,
-        "seconds": {"solver": _finite(reply.solver_seconds), "call": reply.call_seconds},
+        "seconds": {"solver": _finite(reply.seconds), "call": reply.call_seconds},
         "iterations": reply.iterations,
     }
 
@@ -124,8 +124,8 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     lam_finite = reply.lam is None or bool(np.isfinite(reply.lam).all())
     if not np.isfinite(reply.x).all() or not lam_finite:
         # A solver that gave up and says so has failed, whatever it left in its arrays.
-        return (NAN if reply.said_optimal else FAILED), None, None
-    return (SOLVED if reply.said_optimal else FAILED), reply.x, reply.lam
+        return (NAN if reply.solved else FAILED), None, None
+    return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
 
 
 def _digits(paper: Exam, x: Array, lam: Array | None) -> dict[str, float | None]:

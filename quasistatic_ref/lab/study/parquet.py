@@ -7,8 +7,9 @@ from typing import Final
 
 from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.study.problems import problems_read
-from quasistatic_ref.lab.study.qp import UNITS, Problem, in_units, units_of
+from quasistatic_ref.lab.study.qp import UNITS, Problem, units_of
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
+from quasistatic_ref.solve.units import natural_form
 
 MODULE: Final = '''"""Quadratic programs of contact, in {units} units.
 
@@ -79,5 +80,5 @@ def _program(problem: Problem, units: str) -> Program:
     form, delta_q = problem.form, problem.answer.delta_q
     if units == "natural":
         own = units_of(form)
-        form, delta_q = in_units(form, own), delta_q / (own.size * own.coordinate)
+        form, delta_q = natural_form(form, own), delta_q / (own.size * own.coordinate)
     return Program(problem.id, form.H, form.g, form.A, form.b, delta_q)

@@ -18,10 +18,11 @@ from quasistatic_ref.files import bytes_read, json_read, json_text, text_written
 from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
-from quasistatic_ref.lab.study.qp import Answer, Facts, Problem, condition, in_units, units_of
+from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.truth import answer_of
 from quasistatic_ref.simulate.npz import npz_arrays
+from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 FORMAT, VERSION = "quasistatic-ref/study-problems", 1
@@ -139,7 +140,7 @@ def problems_read(folder: str | Path) -> list[Problem]:
         facts = Facts(**{key: said[key] for key in Facts.__dataclass_fields__})
         form = StandardForm(*(numbers[name] for name in NAMES[:4]))
         problems.append(
-            Problem(facts, form, Answer(numbers["delta_q"], numbers["net"], said["bound"]))
+            Problem(facts, form, Truth(numbers["delta_q"], numbers["net"], said["bound"]))
         )
     return problems
 
@@ -172,7 +173,7 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
     lines = []
     for problem in problems:
         form = problem.form
-        natural = in_units(form, units_of(form))
+        natural = natural_form(form, units_of(form))
         lines.append(
             json_text(
                 problem.facts.record()

@@ -11,9 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.solve.reply import step_of
 from quasistatic_ref.solve.units import Units, natural_units
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 
 UNITS = ("raw", "natural")
@@ -51,7 +50,7 @@ class Facts:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class Truth:
     """The exact answer, correctly rounded, or an enclosure of it.
 
     Parameters
@@ -77,12 +76,12 @@ class Problem:
     ----------
     facts : Facts
     form : StandardForm
-    answer : Answer
+    answer : Truth
     """
 
     facts: Facts
     form: StandardForm
-    answer: Answer
+    answer: Truth
 
     @property
     def id(self) -> str:
@@ -90,15 +89,21 @@ class Problem:
         return self.facts.id
 
 
-def in_units(form: StandardForm, units: Units) -> StandardForm:
-    """The same problem in other units, without loss: they are powers of two."""
-    S, ell, rho = units.coordinate, units.length, units.size
-    return StandardForm(
-        H=form.H * np.outer(S, S),
-        g=form.g * S / rho,
-        A=form.A * (S / ell),
-        b=form.b / (rho * ell),
-    )
+def step_of(form: StandardForm) -> StepData:
+    """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
+    n, m = len(form.g), len(form.b)
+    nothing, frames = np.zeros(0), np.zeros((0, 3))
+    return StepData(
+        h=1.0,
+        K_q=form.H,
+        M_u=np.zeros((0, 0)),
+        tau_a=form.g,
+        tau_u=nothing,
+        delta_q_bar_a=np.zeros(n),
+        contacts=Contacts((), nothing, frames, frames, frames, np.zeros((0, 4, n)), nothing,
+                          nothing, np.zeros(0, dtype=np.int64)),
+        extra=Extra(tuple(f"row {i}" for i in range(m)), form.A, form.b),
+    )  # fmt: skip
 
 
 def units_of(form: StandardForm) -> Units:

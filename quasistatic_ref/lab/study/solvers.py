@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from quasistatic_ref.solve.plain_options import WARM, plain_options, time_option, tuned_options
+from quasistatic_ref.solve.backends import BACKENDS, Backend
 
 ROADS = ("cvxpy", "qpsolvers", "callable", "executable")
 
@@ -71,18 +71,23 @@ class Solver:
     @property
     def warm(self) -> bool:
         """Whether a start can be handed to it."""
-        return self.target in WARM.get(self.road, ())
+        return self.known and self.road in self.entry.warm
 
     @property
     def known(self) -> bool:
         """Whether its options are in our table."""
         return self.road in ("cvxpy", "qpsolvers")
 
+    @property
+    def entry(self) -> Backend:
+        """What the table says of it, if it is known."""
+        return BACKENDS[str(self.target)]
+
     def takes(self, setting: Setting) -> bool:
         """Whether a setting means anything to it."""
         if setting.name in self.options:
             return True
-        has_accuracy = self.known and self.target != "quadprog"
+        has_accuracy = self.known and self.entry.plain is not None
         return setting.accuracy is None or has_accuracy
 
     def settings_of(self, setting: Setting, seconds: float) -> dict[str, Any]:
@@ -98,7 +103,8 @@ class Solver:
             return dict(self.options[setting.name])
         if not self.known:
             return {}
-        name = str(self.target)
-        if setting.tuned and setting.accuracy is not None:
-            return tuned_options(name, setting.accuracy) | time_option(name, seconds)
-        return time_option(name, seconds) | plain_options(name, setting.accuracy)
+        entry, accuracy = self.entry, setting.accuracy
+        limit: dict[str, Any] = {entry.time_limit: seconds} if entry.time_limit else {}
+        if accuracy is None or entry.plain is None:
+            return limit
+        return entry.first(accuracy) | limit if setting.tuned else limit | entry.plain(accuracy)

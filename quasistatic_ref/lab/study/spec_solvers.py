@@ -9,9 +9,9 @@ from typing import Any
 from quasistatic_ref.errors import InputError, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.lab.study.solvers import Setting, Solver
-from quasistatic_ref.solve.plain_options import BY_CVXPY, DIRECT, PACKAGE, installed_solvers
+from quasistatic_ref.solve.backends import BACKENDS, installed
 
-BY_ROAD = {"cvxpy": BY_CVXPY, "qpsolvers": DIRECT}
+BY_ROAD = {"cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy], "qpsolvers": list(BACKENDS)}
 MODULE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*", re.ASCII)
 
 
@@ -57,7 +57,7 @@ def chosen_solvers(
             if road not in BY_ROAD:
                 known = [*own, *(f"{r}:*" for r in BY_ROAD)]
                 raise table.fail("solvers", f"holds no solver{suggestion(str(name), known)}", name)
-            everyone = installed_solvers(road) if solver == "*" else (solver,)
+            everyone = installed(road) if solver == "*" else (solver,)
             for one in everyone:
                 _check_installed(table, road, one)
             found = [Solver(one, road, one) for one in everyone]
@@ -71,9 +71,9 @@ def _check_installed(table: Fields, road: str, solver: str) -> None:
     if solver not in BY_ROAD[road]:
         hint = suggestion(solver, BY_ROAD[road])
         raise table.fail("solvers", f"holds no solver of {road}{hint}", solver)
-    if solver not in installed_solvers(road):
-        package = PACKAGE.get(solver, solver)
-        raise table.fail("solvers", f"is not installed; pip install {package}", solver)
+    if solver not in installed(road):
+        remedy = f"pip install {BACKENDS[solver].to_install}"
+        raise table.fail("solvers", f"is not installed; {remedy}", solver)
 
 
 def _target(table: Fields, road: str) -> str | tuple[str, ...]:

@@ -7,10 +7,12 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.study.qp import Answer, in_units, units_of
-from quasistatic_ref.solve.direct import direct_reply
-from quasistatic_ref.solve.plain_options import installed_solvers, tuned_options
-from quasistatic_ref.solve.reply import Reply, step_of
+from quasistatic_ref.lab.study.calls import tried
+from quasistatic_ref.lab.study.qp import Truth, step_of, units_of
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.backends import BACKENDS, installed
+from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, KNOWN
 
@@ -26,7 +28,7 @@ class NoAnswer(QuasistaticError):
     """A problem whose exact answer was not found."""
 
 
-def answer_of(form: StandardForm) -> Answer:
+def answer_of(form: StandardForm) -> Truth:
     """The exact answer of a problem; beyond 60 coordinates an enclosure, if one is tight enough.
 
     Parameters
@@ -36,32 +38,33 @@ def answer_of(form: StandardForm) -> Answer:
 
     Returns
     -------
-    Answer
+    Truth
 
     Raises
     ------
     NoAnswer
         If the problem has no solution.
     """
-    natural = in_units(form, units_of(form))
+    natural = natural_form(form, units_of(form))
     warm: list[int] = []
     for solver in WITNESSES:
         reply = _asked(natural, solver)
-        if reply is None or reply.x is None or reply.lam is None or not reply.said_optimal:
+        if reply is None or reply.x is None or reply.lam is None or not reply.solved:
             continue
         warm = warm_rows(natural.A, reply.lam, natural.A @ reply.x - natural.b)
         if len(form.g) <= EXACT_COORDINATES:
             break
         enclosed = enclosed_answer(step_of(form), warm)
         if enclosed is not None and enclosed.error < KNOWN:
-            return Answer(enclosed.delta_q, enclosed.net, enclosed.error)
+            return Truth(enclosed.delta_q, enclosed.net, enclosed.error)
     optimum = exact_optimum(exact_form_of(form.H, form.g, form.A, form.b), warm)
     if not isinstance(optimum, ExactOptimum):
         raise NoAnswer("has no solution")
-    return Answer(optimum.delta_q, optimum.net, 0.0)
+    return Truth(optimum.delta_q, optimum.net, 0.0)
 
 
 def _asked(natural: StandardForm, solver: str) -> Reply | None:
-    if solver not in installed_solvers("qpsolvers"):
+    if solver not in installed("qpsolvers"):
         return None
-    return direct_reply(natural, solver, tuned_options(solver, ACCURACY))
+    options = BACKENDS[solver].first(ACCURACY)
+    return tried(lambda: qpsolvers_reply(natural, solver, options))

@@ -15,7 +15,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.study.ask import Ask, Crashed, asking, neighbour, on_path
+from quasistatic_ref.lab.study.calls import Call, Crashed, call_of, neighbour, on_path
 from quasistatic_ref.lab.study.grade import CRASHED, TIMEOUT, Exam, exam, grades, ungraded
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.solvers import Setting, Solver
@@ -31,17 +31,17 @@ def main(read: int, write: int) -> None:
         solver, folder = inbox.recv()
         on_path(folder)
         try:
-            ask = asking(solver, folder)
+            call = call_of(solver, folder)
             outbox.send(None)
         except QuasistaticError as error:
             outbox.send(str(error))
             return
-        _serve(inbox, outbox, solver, ask)
+        _serve(inbox, outbox, solver, call)
     except (EOFError, BrokenPipeError):
         return  # the keeper is gone
 
 
-def _serve(inbox: Connection, outbox: Connection, solver: Solver, ask: Ask) -> None:
+def _serve(inbox: Connection, outbox: Connection, solver: Solver, call: Call) -> None:
     problem: Problem | None = None
     paper: Exam | None = None
     while True:
@@ -53,12 +53,12 @@ def _serve(inbox: Connection, outbox: Connection, solver: Solver, ask: Ask) -> N
         assert paper is not None
         # A looping solver holds the interpreter; this signal's default action ends the process.
         signal.setitimer(signal.ITIMER_REAL, (1 + message["warm"]) * message["limit"] + GRACE)
-        outbox.send(_answered(problem, paper, solver, ask, message))
+        outbox.send(_answered(problem, paper, solver, call, message))
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 def _answered(
-    problem: Problem, paper: Exam, solver: Solver, ask: Ask, request: dict[str, Any]
+    problem: Problem, paper: Exam, solver: Solver, call: Call, request: dict[str, Any]
 ) -> dict[str, Any]:
     setting: Setting = request["setting"]
     form, limit = paper.forms[request["units"]], float(request["limit"])
@@ -66,7 +66,7 @@ def _answered(
     start = neighbour(form, problem.id) if request["warm"] else None
     begin = time.perf_counter()
     try:
-        reply = ask(form, options, start, limit)
+        reply = call(form, options, start, limit)
     except subprocess.TimeoutExpired:
         return ungraded(TIMEOUT, f"no answer in {limit:g} s", time.perf_counter() - begin)
     except Crashed as crash:

@@ -2,43 +2,40 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import clarabel
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.adapters.sparse import full_columns, upper_triangle
+from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
 
 
 class Clarabel:
     """One Clarabel solver; it always starts cold."""
 
-    ORDER = "F"
+    ORDER: Literal["C", "F"] = "F"
     WARM = False
     NEAR = True
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
         self.program = program
         settings = clarabel.DefaultSettings()
         settings.verbose = False
         settings.presolve_enable = False  # it would drop rows, and with them the update in place
         for name, value in options.items():
             setattr(settings, name, value)
-        self.P, self.upper = upper_triangle(program.H)
+        P, A = program.columns()
         m = len(program.b)
         cones = [clarabel.NonnegativeConeT(m)] if m else []
-        self.solver = clarabel.DefaultSolver(
-            self.P, program.f, -full_columns(program.A), -program.b, cones, settings
-        )
+        self.solver = clarabel.DefaultSolver(P, program.f, -A, -program.b, cones, settings)
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
         del warm  # there is no such start
         p = self.program
         if not same_H:
-            self.solver.update(P=p.H[self.upper])
-        self.solver.update(q=p.f, A=-p.A.ravel(order="F"), b=-p.b)  # -A x + s = -b, s >= 0
+            self.solver.update(P=p.P_data)
+        self.solver.update(q=p.f, A=-p.A_data, b=-p.b)  # -A x + s = -b, s >= 0
         solution = self.solver.solve()
         status = str(solution.status)
         return Reply(

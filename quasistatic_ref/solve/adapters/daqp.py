@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import daqp
 import numpy as np
@@ -16,7 +16,7 @@ STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: 
 class Daqp:
     """One DAQP workspace."""
 
-    ORDER = "C"
+    ORDER: Literal["C", "F"] = "C"
     WARM = True
     NEAR = False
 

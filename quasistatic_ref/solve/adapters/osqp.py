@@ -2,39 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import osqp
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.adapters.sparse import full_columns, upper_triangle
+from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
 
 
 class Osqp:
     """One OSQP solver; warm, it starts from x and the multipliers of the step before."""
 
-    ORDER = "F"
+    ORDER: Literal["C", "F"] = "F"
     WARM = True
     NEAR = True
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
         self.program = program
-        self.P, self.upper = upper_triangle(program.H)
-        m, n = program.A.shape
+        P, A = program.columns()
+        m, n = A.shape
         self.cold = np.zeros(n), np.zeros(m)
         self.solver = osqp.OSQP()
         unbounded = np.full(m, np.inf)
-        self.solver.setup(
-            P=self.P, q=program.f, A=full_columns(program.A), l=program.b, u=unbounded, **options
-        )
+        self.solver.setup(P=P, q=program.f, A=A, l=program.b, u=unbounded, **options)
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
         p, solver = self.program, self.solver
-        matrices = {"Ax": p.A.ravel(order="F")}
+        matrices = {"Ax": p.A_data}
         if not same_H:
-            matrices["Px"] = p.H[self.upper]
+            matrices["Px"] = p.P_data
         solver.update(q=p.f, l=p.b, **matrices)
         if not warm:
             solver.warm_start(*self.cold)

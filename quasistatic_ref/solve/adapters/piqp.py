@@ -1,28 +1,27 @@
-"""PIQP, a proximal interior-point method, dense."""
+"""PIQP, a proximal interior-point method, dense or sparse as its program is."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import piqp
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
 
 
 class Piqp:
-    """One dense PIQP solver; it always starts cold."""
+    """One PIQP solver; it always starts cold."""
 
-    ORDER = "F"
+    ORDER: Literal["C", "F"] = "F"
     WARM = False
     NEAR = True
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
-        self.program = program
-        self.solver = piqp.DenseSolver()
+    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
+        self.program = p = program
+        self.solver = piqp.DenseSolver() if isinstance(p, Program) else piqp.SparseSolver()
         for name, value in options.items():
             setattr(self.solver.settings, name, value)
-        p = program
         self.solver.setup(p.H, p.f, None, None, p.A, p.b, None)
 
     def reply(self, same_H: bool, warm: bool) -> Reply:

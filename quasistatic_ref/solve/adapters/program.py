@@ -1,16 +1,21 @@
-"""What every adapter is given, and what it gives back."""
+"""The one protocol of adapters: what each is given, and what it gives back."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from functools import cached_property
+from typing import Any, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
 
 from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """min 1/2 x'Hx + f'x subject to A x >= b: arrays that are written anew at each step.
+    """min 1/2 x'Hx + f'x subject to A x >= b: arrays that are rewritten at each step.
 
     Parameters
     ----------
@@ -27,31 +32,101 @@ class Program:
     A: Array
     b: Array
 
+    @cached_property
+    def upper(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Rows and columns of H's upper triangle, column by column, shape (n (n + 1) / 2,) each."""
+        columns, rows = np.tril_indices(len(self.f))
+        return rows, columns
 
-@dataclass(eq=False)
-class Reply:
-    """What a solver said.
+    @property
+    def P_data(self) -> Array:
+        """Entries of H's upper triangle, in the order of :meth:`columns`, shape (entries,)."""
+        return self.H[self.upper]
+
+    @property
+    def A_data(self) -> Array:
+        """Entries of A, in the order of :meth:`columns`, shape (m n_v,)."""
+        return self.A.ravel(order="F")
+
+    def columns(self) -> tuple[csc_matrix, csc_matrix]:
+        """H's upper triangle and A in compressed columns of a fixed pattern, zeros included."""
+        m, n = self.A.shape
+        rows, _ = self.upper
+        starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
+        P = csc_matrix((self.P_data, rows, starts), shape=(n, n))
+        every, full = np.tile(np.arange(m), n), np.arange(n + 1) * m
+        return P, csc_matrix((self.A_data, every, full), shape=(m, n))
+
+
+@dataclass(frozen=True, eq=False)
+class SparseProgram:
+    """The same program with as many numbers as there are entries.
 
     Parameters
     ----------
-    x : ndarray, shape (n_v,)
-    lam : ndarray, shape (m,)
+    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
+        Upper triangle of H.
+    f : ndarray, shape (n_v,)
+        -g [N m s].
+    A : scipy.sparse.csc_matrix, shape (m, n_v)
+    b : ndarray, shape (m,)
+    """
+
+    P: csc_matrix
+    f: Array
+    A: csc_matrix
+    b: Array
+
+    @cached_property
+    def H(self) -> csc_matrix:
+        """The whole symmetric matrix."""
+        whole = self.P + self.P.T
+        whole.setdiag(self.P.diagonal())
+        return csc_matrix(whole)
+
+    @property
+    def P_data(self) -> Array:
+        """Entries of P, shape (entries,)."""
+        return np.asarray(self.P.data)
+
+    @property
+    def A_data(self) -> Array:
+        """Entries of A, shape (entries,)."""
+        return np.asarray(self.A.data)
+
+    def columns(self) -> tuple[csc_matrix, csc_matrix]:
+        """P and A."""
+        return self.P, self.A
+
+
+@dataclass(eq=False)
+class Reply:
+    """What came back from one call of a solver: as it is, not judged.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,), or None
+        The answer to min 1/2 x'Hx - g'x, A x >= b; any shape if the solver is broken.
+    lam : ndarray, shape (m,), or None
         Multipliers of A x >= b, >= 0 but for the solver's tolerance.
     solved : bool
         Whether it claims a full solution.
     status : str
-        Its own word.
+        Its own word, or what it raised.
     iterations : int or None
     seconds : float or None
         Inside the solver [s], where it says so.
+    call_seconds : float
+        Of the whole call [s], in a study.
     """
 
-    x: Array
-    lam: Array
+    x: Array | None
+    lam: Array | None
     solved: bool
     status: str
-    iterations: int | None
-    seconds: float | None
+    iterations: int | None = None
+    seconds: float | None = None
+    call_seconds: float = 0.0
 
 
 class Adapter(Protocol):
@@ -68,12 +143,12 @@ class Adapter(Protocol):
         does not: rows that are far are never in its set.
     """
 
-    ORDER: str
+    ORDER: Literal["C", "F"]
     WARM: bool
     NEAR: bool
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
-        """Set up with the program as it stands."""
+    def __init__(self, program: Any, options: dict[str, Any]) -> None:
+        """Set up with the program as it stands: a Program, or a SparseProgram where it takes it."""
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands now, from the answer before if `warm`."""

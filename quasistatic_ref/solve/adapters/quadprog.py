@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import quadprog
@@ -13,7 +13,7 @@ from quasistatic_ref.solve.adapters.program import Program, Reply
 class Quadprog:
     """Calls of quadprog; it always starts cold."""
 
-    ORDER = "F"  # it takes the transpose of A in C order
+    ORDER: Literal["C", "F"] = "F"  # it takes the transpose of A in C order
     WARM = False
     NEAR = False
 

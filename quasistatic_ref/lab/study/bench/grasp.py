@@ -12,14 +12,15 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.study.bench.bare import BareDaqp
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.adapters.bare import BareDaqp
-from quasistatic_ref.solve.backends import DEFAULT, installed_backends
+from quasistatic_ref.solve.adapters.program import Program
+from quasistatic_ref.solve.backends import DEFAULT, installed, installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
-from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
 
@@ -63,8 +64,9 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     run = _Run(at)
     native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
-    assert isinstance(native.problem, NativeProblem)
-    alone_call = BareDaqp(native.problem.program)
+    assert isinstance(native.solver, NativeSolver)
+    assert isinstance(native.solver.program, Program)
+    alone_call = BareDaqp(native.solver.program)
     # Each in turn with a step of a native run, and that after another step: it then finds the
     # caches as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
@@ -119,7 +121,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
     """The parts of a step for every engine and backend, the backends taking turns [us]."""
     simulators = {}
     for engine in (NATIVE, CVXPY):
-        names = native_backends() if engine == NATIVE else installed_backends()
+        names = installed("native") if engine == NATIVE else installed_backends()
         for name in names:
             if name not in UNFIT:
                 settings = replace(at.scenario, engine=engine, backend=name)
@@ -169,7 +171,7 @@ DEFAULT_STEP = f"{CERTIFY[0]}, {DEFAULT} (default)"
 
 
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
-    simulator.problem = None
+    simulator.solver = None
     simulator.step(q, goal)
 
 

@@ -26,7 +26,7 @@ from quasistatic_ref.lab.study.large import (
     few_contacts,
     piles,
 )
-from quasistatic_ref.solve.native import native_backends
+from quasistatic_ref.solve.backends import installed
 
 Tell = Callable[[str], None]
 
@@ -45,7 +45,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     InputError
         If DAQP, which the comparison is with, is not installed.
     """
-    if "daqp" not in native_backends():
+    if "daqp" not in installed("native"):
         raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
     steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}

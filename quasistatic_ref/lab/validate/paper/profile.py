@@ -13,8 +13,8 @@ from quasistatic_ref.lab.study.bench.timing import seconds
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.solve.adapters.program import Adapter, Reply
-from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.solve.backends import DEFAULT, installed
+from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 
 BACKENDS: Final = ("clarabel", "piqp", "osqp", "daqp")
@@ -106,7 +106,7 @@ def profiles(steps: int) -> Profiles:
 
     They are uncertified; the default of a scenario, Clarabel with a certificate, is added.
     """
-    names = [name for name in BACKENDS if name in native_backends()]
+    names = [name for name in BACKENDS if name in installed("native")]
     runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]
     brute, gaps = [], []
     for first in range(0, steps, TURN):
@@ -132,10 +132,10 @@ class _Run:
         self.kinematics = self.scenario.system.kinematics
         self.calls: list[float] = []
         self.laps: list[list[float]] = []
-        # The problem that the simulator makes for itself, with a clock at the solver's call.
+        # The solver that the simulator makes for itself, with a clock at the backend's call.
         first = self.simulator.step(self.q, self.scenario.targets(self.scenario.h))
-        self.simulator.problem = problem = NativeProblem(first.step, backend)
-        problem.adapter = _clocked(problem.adapter, self.calls)
+        self.simulator.solver = solver = NativeSolver(first.step, backend)
+        solver.adapter = _clocked(solver.adapter, self.calls)
 
     def step(self, k: int) -> tuple[Array, Array]:
         """Take step k: the configuration (n_q,) where it starts, and phi (n_c,) [m] there."""

@@ -1,4 +1,4 @@
-"""Four roads to a solver: CVXPY, qpsolvers, a Python callable, an executable."""
+"""Four ways to call a solver: CVXPY, qpsolvers, a Python callable, an executable."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 Options = dict[str, Any]
-Ask = Callable[[StandardForm, Options, StandardForm | None, float], Reply]
+Call = Callable[[StandardForm, Options, StandardForm | None, float], Reply]
 """(problem, options, neighbour to start from or None, time limit [s]) -> reply."""
 
 NEAR = 0.01
@@ -49,7 +49,7 @@ def neighbour(form: StandardForm, name: str) -> StandardForm:
                         form.b)  # fmt: skip
 
 
-def asking(solver: Solver, folder: str = ".") -> Ask:
+def call_of(solver: Solver, folder: str = ".") -> Call:
     """The function that puts a problem to a solver.
 
     Parameters
@@ -91,37 +91,50 @@ def imported(target: str) -> Callable[..., Any]:
     return function  # type: ignore[no-any-return]  # getattr's result
 
 
-def _by_cvxpy(name: str) -> Ask:
-    from quasistatic_ref.solve.by_cvxpy import ThroughCvxpy  # heavy, and not every worker's
+def tried(call: Callable[[], Reply]) -> Reply:
+    """The reply of a call; of one that raises, what it raised and when."""
+    begin = time.perf_counter()
+    try:
+        return call()
+    except Exception as error:  # whatever another package raises
+        return _failed(_words(error), time.perf_counter() - begin)
 
-    road = ThroughCvxpy(name)
 
-    def ask(
+def _failed(words: str, seconds: float) -> Reply:
+    return Reply(None, None, False, words, call_seconds=seconds)
+
+
+def _by_cvxpy(name: str) -> Call:
+    from quasistatic_ref.solve.through_cvxpy import PlainPrograms  # heavy, not every worker's
+
+    programs = PlainPrograms(name)
+
+    def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         if start is not None:
-            road.reply(start, options)
-        return road.reply(form, options, warm=start is not None)
+            tried(lambda: programs.reply(start, options))
+        return tried(lambda: programs.reply(form, options, warm=start is not None))
 
-    return ask
+    return call
 
 
-def _directly(name: str) -> Ask:
-    from quasistatic_ref.solve.direct import direct_reply
+def _directly(name: str) -> Call:
+    from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 
-    def ask(
+    def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         guess = None
         if start is not None:
-            guess = direct_reply(start, name, options).x
-        return direct_reply(form, name, options, guess)
+            guess = tried(lambda: qpsolvers_reply(start, name, options)).x
+        return tried(lambda: qpsolvers_reply(form, name, options, guess))
 
-    return ask
+    return call
 
 
-def _calling(function: Callable[..., Any]) -> Ask:
-    def ask(
+def _calling(function: Callable[..., Any]) -> Call:
+    def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
@@ -129,19 +142,18 @@ def _calling(function: Callable[..., Any]) -> Ask:
         try:
             returned = function(P, q, G, h, **options)
         except Exception as error:  # whatever somebody's solver raises
-            seconds = time.perf_counter() - begin
-            return Reply(None, None, _words(error), False, None, seconds, None)
+            return _failed(_words(error), time.perf_counter() - begin)
         seconds = time.perf_counter() - begin
         if returned is None:
-            return Reply(None, None, "returned None", False, None, seconds, None)
+            return _failed("returned None", seconds)
         try:
             x, z = returned
         except (TypeError, ValueError):
             x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
         lam = None if z is None else _numbers(z)
-        return Reply(_numbers(x), lam, "returned", True, None, seconds, None)
+        return Reply(_numbers(x), lam, True, "returned", call_seconds=seconds)
 
-    return ask
+    return call
 
 
 def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
@@ -151,8 +163,8 @@ def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
     return (program, *words[1:])
 
 
-def _running(command: tuple[str, ...], folder: str) -> Ask:
-    def ask(
+def _running(command: tuple[str, ...], folder: str) -> Call:
+    def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
@@ -171,10 +183,10 @@ def _running(command: tuple[str, ...], folder: str) -> Ask:
         if done.returncode > 0:
             last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
             words = f"exit status {done.returncode}: {' '.join(last)[:160]}"
-            return Reply(None, None, words, False, None, seconds, None)
+            return _failed(words, seconds)
         return _written(done.stdout, seconds)
 
-    return ask
+    return call
 
 
 class Crashed(Exception):
@@ -195,13 +207,12 @@ def _written(output: bytes, seconds: float) -> Reply:
         own = said.get("seconds")
         iterations = said.get("iterations")
         return Reply(
-            x, lam, status, status == "optimal" and x is not None,
-            None if own is None else float(own), seconds,
+            x, lam, status == "optimal" and x is not None, status,
             None if iterations is None else int(iterations),
+            None if own is None else float(own), seconds,
         )  # fmt: skip
     except (ValueError, TypeError, AttributeError, RecursionError) as error:
-        words = f"no usable JSON: {_words(error)}"
-        return Reply(None, None, words, False, None, seconds, None)
+        return _failed(f"no usable JSON: {_words(error)}", seconds)
 
 
 def _numbers(values: Any) -> Array:
