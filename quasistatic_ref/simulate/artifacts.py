@@ -107,7 +107,7 @@ def boundary_layer(step: StepData, solution: StepSolution) -> float:
 
 
 def warning(header: Mapping[str, Any]) -> str | None:
-    """One sentence on a run whose drag is not small beside what contacts bear, or None."""
+    """One sentence on a run whose drag is not small against what contacts bear, or None."""
     share = header["largest_drag_share"]
     if share is None or share <= SLOW:
         return None

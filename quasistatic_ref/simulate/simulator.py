@@ -219,3 +219,72 @@ class Simulator:
             certify=self.certify,
             extension=own,
         )
+
+
+def simulate(
+    simulator: Simulator,
+    q: Array,
+    target: Target | Array,
+    steps: int,
+    *,
+    force: Force | None = None,
+    record: str = "full",
+    progress: bool = True,
+) -> Trajectory:
+    """Step after step, recorded.
+
+    The step from t to t + h uses the target and the external force at t + h.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+        Where to start; quaternions are normalised.
+    target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
+        q_bar_a as a function of time [s], constant, or step by step.
+    steps : int
+    force : callable, optional
+        (t, q) -> external generalised force, shape (n_v,) [N, N m].
+    record : str
+        ``"full"``, or ``"light"`` to leave out the quadratic programs.
+    progress : bool
+        Whether to show a progress bar on standard error, where that is a terminal, and to warn
+        there, in a sentence, of a run whose drag is not small (docs/artifacts.md).
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    RunFailed
+        If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
+        trajectory so far, and the failing step.
+    """
+    q = simulator.system.checked(q)
+    q_bar_a = target_function(simulator.system, simulator.h, target, steps)
+    g = float(np.linalg.norm(simulator.gravity))
+    recorder = Recorder(
+        simulator.system, simulator.h, simulator.backend, record, q, g, cone=simulator.cone
+    )
+    bar: Iterable[int] = tqdm(
+        range(steps), unit="step", disable=None if progress else True, leave=False
+    )
+    with Interrupt() as interrupt:
+        for k in bar:
+            t = (k + 1) * simulator.h
+            try:
+                interrupt.check()
+                goal = q_bar_a(t)
+                result = simulator.step(q, goal, 0.0 if force is None else force(t, q))
+            except (QuasistaticError, KeyboardInterrupt) as failure:
+                interrupted = isinstance(failure, KeyboardInterrupt)
+                reason = f"step {k}: {'interrupted' if interrupted else failure}"
+                step = failure.step if isinstance(failure, StepNotSolved) else None
+                raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+            recorder.add(t, goal, result)
+            q = result.q
+    trajectory = recorder.trajectory()
+    if progress and (fast := warning(trajectory.header)):
+        print(f"quasistatic-ref: {fast}", file=sys.stderr)
+    return trajectory

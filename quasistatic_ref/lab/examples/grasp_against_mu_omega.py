@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 BELOW, ABOVE = 1.75e-3, 1.8e-3
 """Where it slips and where it holds [m]."""
 VALUES = (0.5e-3, 1e-3, 1.3e-3, 1.5e-3, 1.65e-3, BELOW, ABOVE, 2e-3, 4e-3, 5e-3)
-"""mu_omega [m] beside the two of Figure 1."""
+"""mu_omega [m], apart from the two of Figure 1."""
 LIFTING = 137
 """A step in the middle of the lift."""
 

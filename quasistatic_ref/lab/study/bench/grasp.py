@@ -153,7 +153,7 @@ def _selection(simulator: Simulator, q: Array) -> float:
     return seconds(lambda: [batch.selection(*found) for batch, found in measured])
 
 
-UNFIT = ("highs",)
+UNFIT = ("highs", "qpsolvers:highs")
 """At the accuracy asked for it leaves a third of the grasp unsolved (docs/conventions.md)."""
 
 
