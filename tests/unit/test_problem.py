@@ -141,6 +141,16 @@ def test_multipliers_are_contact_major_although_cvxpy_lists_them_row_by_row(rng)
     np.testing.assert_allclose(push, H_delta_q, rtol=0.0, atol=MULTIPLIERS * np.abs(push).max())
 
 
+def test_multipliers_of_the_step_s_own_rows_come_after_those_of_the_contacts(rng):
+    # The row is far from tight: its multiplier is zero, the others are the planted ones.
+    step, delta_q, lam = planted_step(rng)
+    far = float(np.abs(delta_q).sum()) + 1.0
+    problem = filled(step.replace(extra=Extra(("far",), np.ones((1, 7)), [-far])))
+    problem.problem.solve(solver=cp.DAQP)
+    expected = [*lam, 0.0]
+    np.testing.assert_allclose(problem.dual(), expected, rtol=0.0, atol=MULTIPLIERS * lam.max())
+
+
 OTHERS = {
     "another mu_v": lambda step, rng: step.replace(
         contacts=changed(step.contacts, mu_v=[*step.contacts.mu_v[:2], 2.0])
