@@ -70,7 +70,8 @@ autodoc_mock_imports = ["mujoco", "pydrake"]
 nitpick_ignore_regex = [
     (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),
     # Bases of classes in the standard library, for the same reason.
-    (r"py:.*", r"(argparse|collections|contextlib|enum|fractions|pathlib|typing|types|json)\..*"),
+    (r"py:.*", r"(abc|argparse|collections|contextlib|enum|fractions|json|pathlib)\..*"),
+    (r"py:.*", r"(types|typing)\..*"),
     (r"py:(class|exc|obj)", r"(object|Exception|ValueError|TypeError|ImportError|RuntimeError)"),
 ]
 

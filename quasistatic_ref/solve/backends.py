@@ -2,7 +2,7 @@
 
 A backend is somebody else's solver. It is reached by three interfaces: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form; and natively, where :mod:`~quasistatic_ref.solve.adapters` has a file of its name.
+form; and natively, where ``solve/adapters/`` has a file of its name.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A solver of steps: one object that holds a compiled problem and says what it is.
 
-It knows its backend (:attr:`Solver.name`), the interface by which it reaches that
-(:attr:`Solver.engine`) and the kind of step that its problem was compiled for
+It knows its backend (``name``), the interface by which it reaches that
+(``engine``) and the kind of step that its problem was compiled for
 (:meth:`Solver.fits`). Each interface is one class in a file of its own, and
 :func:`~quasistatic_ref.solve.engines.solver_for` chooses among them.
 """
@@ -99,7 +99,7 @@ class Solver(ABC):
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
-        What the steps that it solves have in common, of :data:`KIND`.
+        What the steps that it solves have in common, of ``KIND``.
     certifies : bool
         Whether its answers can be the start of an exact certificate.
     """
@@ -138,7 +138,7 @@ class Solver(ABC):
             raise InputError(problem, field="solver", value=f"{self.name}, {self.engine}")
 
     def differences(self, step: StepData) -> list[str]:
-        """In what of :attr:`fixed` a step is not like the one that the problem was compiled for."""
+        """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
         pairs = ((what, KIND[what](self.like), KIND[what](step)) for what in self.fixed)
         return [what for what, one, other in pairs if not np.array_equal(one, other)]
 
