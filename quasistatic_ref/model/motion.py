@@ -11,11 +11,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 
 Array = NDArray[np.float64]
-_LEVI_CIVITA = np.zeros((3, 3, 3))
-_LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
-_LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
-OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
-"""r @ OF_VECTOR are the entries of [r x], row by row: each is a sum with two zeros, and exact."""
 
 
 def cross_matrix(r: Array) -> Array:
@@ -28,9 +23,10 @@ def cross_matrix(r: Array) -> Array:
     Returns
     -------
     ndarray, shape (N, 3, 3)
-        Its entries are those of r, exactly: each is a sum with two zeros.
     """
-    return (r @ OF_VECTOR).reshape(-1, 3, 3)
+    x, y, z = r.T
+    o = np.zeros(len(r))
+    return np.array([[o, -z, y], [z, o, -x], [-y, x, o]]).transpose(2, 0, 1)
 
 
 class Motion:

@@ -16,13 +16,14 @@ from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf
-from quasistatic_ref.model.workspace import PART, Workspace
+from quasistatic_ref.model.workspace import PART
+from quasistatic_ref.plain import Plain
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class World:
+class World(Plain):
     """Several bodies in one pinocchio model.
 
     Parameters
@@ -40,8 +41,10 @@ class World:
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
-    workspace : Workspace
-        The same bodies, to be computed with.
+    parts : tuple of pinocchio.Model
+        The same bodies in groups, to be computed with.
+    part_frames : tuple of list of int
+        The frame of each link, group by group.
     roots : dict of str to int
         Number of each body's root link.
     start : ndarray, shape (n_q,)
@@ -53,7 +56,8 @@ class World:
     """
 
     model: Any
-    workspace: Workspace
+    parts: tuple[Any, ...]
+    part_frames: tuple[list[int], ...]
     joints: tuple[ModelJoint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
@@ -113,7 +117,8 @@ def world_of(bodies: Sequence[Body]) -> World:
     ]
     return World(
         model=model,
-        workspace=Workspace(parts, frames),
+        parts=tuple(parts),
+        part_frames=tuple(frames),
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),

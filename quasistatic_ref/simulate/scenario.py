@@ -16,6 +16,7 @@ from quasistatic_ref.errors import BackendError, InputError, ScenarioError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
@@ -49,7 +50,7 @@ _DEEP_KEY = re.compile(
 
 
 @dataclass(frozen=True, eq=False)
-class Scenario:
+class Scenario(Plain):
     """Everything that a scenario file says, checked and loaded.
 
     Parameters
@@ -104,7 +105,7 @@ class Scenario:
             K_q=self.K_q,
             gravity=self.gravity.tolist(),
             feels_gravity=self.feels_gravity,
-            backend=self.backend,
+            solver=self.backend,
             engine=self.engine,
             accuracy=self.accuracy,
             certify=self.certify,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
@@ -35,7 +36,7 @@ PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Plain):
     """A run, or the part of it that succeeded.
 
     Parameters
@@ -63,7 +64,7 @@ class Trajectory:
 
     header: Mapping[str, Any]
     arrays: Mapping[str, NDArray[Any]]
-    seconds: Mapping[str, Array] = field(default_factory=dict)
+    seconds: Mapping[str, Array] = field(default_factory=dict, compare=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]

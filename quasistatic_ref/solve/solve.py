@@ -283,11 +283,11 @@ def _solution(
     statistics: SolverStatistics,
 ) -> StepSolution:
     m = int(step.offsets[-1])
-    return StepSolution.with_later_wrench(
-        lambda: contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
+    return StepSolution(
         delta_q=delta_q,
         lam=lam[:m],
         lam_extra=lam[m:],
+        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
         backend=backend,
         certificate=certificate,
         statistics=statistics,

@@ -103,11 +103,11 @@ class SparseProblem:
         statistics = SolverStatistics(
             self.backend, "optimal", reply.iterations, reply.seconds, accuracy
         )
-        return StepSolution.with_later_wrench(
-            lambda: contact_wrenches(step.contacts, lam, step.h, step.cone),
+        return StepSolution(
             delta_q=delta_q,
             lam=lam,
             lam_extra=np.zeros(0),
+            wrench=contact_wrenches(step.contacts, lam, step.h, step.cone),
             backend=self.backend,
             certificate=certificate,
             statistics=statistics,

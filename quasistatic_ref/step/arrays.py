@@ -28,13 +28,15 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def numbers(value: Any, name: str) -> Array:
-    """A float64 copy of real numbers, of the same shape.
+    """Real numbers as a float64 array, of the same shape; not a copy if they are one already.
 
     Raises
     ------
     StepDataError
         Of strings, booleans and ragged lists.
     """
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        return value
     try:
         array = np.array(value)
         if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
@@ -64,23 +66,66 @@ def names(value: Any, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
-def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
-    """Replace a field by a read-only float64 copy, -0.0 becoming 0.0.
+def frozen(value: Any, name: str, shape: tuple[int, ...]) -> Array:
+    """A read-only float64 copy of numbers of any unit [-], of that shape, -0.0 becoming 0.0.
 
     Raises
     ------
     StepDataError
-        If it holds no finite numbers, or is of another shape.
+        If they are no finite numbers, or of another shape.
     """
-    name = f"{prefix}.{key}" if prefix else key
-    array = numbers(getattr(owner, key), name) + 0.0
+    array = numbers(value, name) + 0.0
     if array.size == 0 and 0 in shape:
         array = array.reshape(shape)
     if array.shape != shape:
         raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
-    if not np.isfinite(array).all():
+    if np.count_nonzero(np.isfinite(array)) < array.size:  # half the time of all()
         raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
-    object.__setattr__(owner, key, read_only(array))
+    return read_only(array)
+
+
+def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
+    """Replace a field of a frozen dataclass by :func:`frozen` of it; the prefix names the owner."""
+    name = f"{prefix}.{key}" if prefix else key
+    object.__setattr__(owner, key, frozen(getattr(owner, key), name, shape))
+
+
+class Definite:
+    """A symmetric positive definite matrix: K_q or M_u, checked when this is made, not again.
+
+    Whoever takes many steps with one K_q holds it as this, and hands it to each ``StepData``.
+
+    Parameters
+    ----------
+    name : str
+        Of the field, for messages.
+    matrix : ndarray, shape (n, n)
+        Of any unit [-]; kept as a read-only copy, exactly symmetric.
+
+    Raises
+    ------
+    StepDataError
+        If it is not square, not finite, not symmetric or not positive definite.
+    """
+
+    def __init__(self, name: str, matrix: Any) -> None:
+        n = len(numbers(matrix, name)) if np.ndim(matrix) else 0
+        self.matrix = positive_definite(name, frozen(matrix, name, (n, n)))
+
+
+def definite(name: str, matrix: Any, n: int) -> Array:
+    """The checked matrix of shape (n, n) [any unit] behind an array or a :class:`Definite`.
+
+    Raises
+    ------
+    StepDataError
+        If it is of another shape, or not symmetric positive definite.
+    """
+    if not isinstance(matrix, Definite):
+        return positive_definite(name, frozen(matrix, name, (n, n)))
+    if matrix.matrix.shape != (n, n):
+        raise StepDataError(f"must have shape {(n, n)}", field=name, value=matrix.matrix.shape)
+    return matrix.matrix
 
 
 def positive_definite(key: str, S: Array) -> Array:

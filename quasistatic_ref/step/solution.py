@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+import numpy as np
+
+from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.lazy import Lazy
 
 
-@dataclass(frozen=True)
-class Certificate:
+@dataclass(frozen=True, eq=False)
+class Certificate(Plain):
     """What is known about an answer, and how.
 
     Parameters
@@ -75,7 +78,7 @@ class SolverStatistics(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class StepSolution(Lazy):
+class StepSolution(Plain):
     """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -92,6 +95,7 @@ class StepSolution(Lazy):
     backend : str
     certificate : Certificate
     statistics : SolverStatistics
+        Not compared: wall times are in it.
     cone : str
     """
 
@@ -101,15 +105,12 @@ class StepSolution(Lazy):
     wrench: Array
     backend: str
     certificate: Certificate
-    statistics: SolverStatistics
+    statistics: SolverStatistics = field(compare=False)
     cone: str = "pyramid"
 
-    @classmethod
-    def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:
-        """A solution whose wrenches are formed when somebody asks for them."""
-        solution = object.__new__(cls)
-        solution.__dict__.update(fields, later={"wrench": wrench})
-        return solution
+    def __post_init__(self) -> None:
+        for key in ("delta_q", "lam", "lam_extra", "wrench"):
+            object.__setattr__(self, key, read_only(np.array(getattr(self, key))))
 
     @property
     def status(self) -> str:

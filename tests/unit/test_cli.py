@@ -150,7 +150,7 @@ def test_extract_and_solve_write_to_standard_output(scene, out, tmp_path, capsys
     assert main(["extract", str(out / "scene.npz"), "--step", "0"]) == 0
     path = tmp_path / "step.json"
     path.write_text(capsys.readouterr().out)
-    assert step_read(path).same_as(trajectory_read(out / "scene.npz").step_data(0))
+    assert step_read(path) == trajectory_read(out / "scene.npz").step_data(0)
     assert main(["solve", str(path), "--backend", "osqp", "--certify", "off"]) == 0
     captured = capsys.readouterr()
     solution = json.loads(captured.out)

@@ -112,9 +112,7 @@ def pile(
         before = np.delete(index, -1, axis=axis).ravel()
         after = np.delete(index, 0, axis=axis).ravel()
         pairs += [_pair(boxes[links[i]], clouds[j], k) for i, j in zip(before, after, strict=True)]
-    simulator = Simulator(
-        system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
-    )
+    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), solver=backend, certify=certify)
     force = np.zeros(system.n_v)
     force[0] = PUSH * index.size  # along x
     contacts = sum(pair.n_c for pair in pairs)

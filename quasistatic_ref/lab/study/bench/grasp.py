@@ -20,6 +20,7 @@ from quasistatic_ref.solve.adapters.bare import BareDaqp
 from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeProblem, native_backends
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 
 SETTINGS = ["solver.certify=off", "record=light"]
@@ -62,8 +63,8 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     run = _Run(at)
     native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
-    assert isinstance(native.problem, NativeProblem)
-    alone_call = BareDaqp(native.problem.program)
+    assert isinstance(native.solver.problem, NativeProblem)
+    alone_call = BareDaqp(native.solver.problem.program)
     # Each in turn with a step of a native run, and that after another step: it then finds the
     # caches as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
@@ -164,12 +165,16 @@ def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
 
 
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
-    simulator.problem = None
-    simulator.step(q, goal)
+    """The parts of a step, with a solver of which nothing is kept."""
+    system, asked = simulator.system, simulator.solver
+    at = system.kinematics(q)
+    step = simulator.step_data(q, goal, 0.0, simulator.tracker.closest_points(at.R, at.t), at)
+    solution = solve_step(step, asked.backend, accuracy=asked.accuracy, certify=asked.certify)
+    system.kinematics(system.integrate(q, solution.delta_q))
 
 
 def _brute_force(simulator: Simulator, q: Array) -> None:
-    closest_points(simulator.pairs, simulator.kinematics(q))
+    closest_points(simulator.pairs, simulator.system.kinematics(q))
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
