@@ -11,6 +11,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.posed import PosedContacts
 
 AXES = np.eye(3)
 
@@ -28,9 +29,8 @@ class ContactGeometry:
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout, self.motion = layout, motion
-        # Of each contact, 1 for the columns that move its body and 0 for the others.
-        self.moves_alpha = motion.moves[layout.link_alpha]
-        self.moves_beta = motion.moves[layout.link_beta]
+        # Of alpha's bodies and of beta's, 1 for the columns that move them and 0 for the others.
+        self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs.
@@ -45,7 +45,7 @@ class ContactGeometry:
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
         names = layout.contact_names(points.point)
-        return Contacts(names, phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
+        return PosedContacts(names, phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
@@ -65,36 +65,34 @@ class ContactGeometry:
             Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
             [rad].
         """
-        nu_alpha, spin_alpha = velocity_and_spin(self.moves_alpha * columns, alpha, n)
-        nu_beta, spin_beta = velocity_and_spin(self.moves_beta * columns, beta, n)
+        moved = self.moves * columns_at(columns, np.array([alpha, beta]), n)
+        (nu_alpha, nu_beta), (spin_alpha, spin_beta) = moved[..., :3, :], moved[..., 3:, :]
         f = np.concatenate([nu_beta - nu_alpha, spin_beta - spin_alpha], axis=1)  # Eq. (2)
         return self.motion.of_coordinates(f)  # Eq. (3)
 
 
-def velocity_and_spin(twist: Array, r: Array, n: Array) -> tuple[Array, Array]:
-    """Velocity of a body's point r, and the body's spin about n.
+def columns_at(columns: Array, r: Array, n: Array) -> Array:
+    """Velocity of points, and spin about unit vectors, of bodies that every column moves.
 
     Parameters
     ----------
-    twist : ndarray, shape (n_c, 6, n_x)
-        Velocity of the body's point at the world's origin, then its angular velocity omega, per
-        unit of each coordinate [m, rad].
-    r, n : ndarray, shape (n_c, 3)
-        Point [m] and unit vector [-], world frame.
+    columns : ndarray, shape (6, n_x)
+        Velocity of a body's point at the world's origin, then its angular velocity omega, per unit
+        of each coordinate [m, rad].
+    r, n : ndarray, shapes (..., 3)
+        Points [m] and unit vectors [-], world frame.
 
     Returns
     -------
-    nu : ndarray, shape (n_c, 3, n_x)
-        nu_origin + omega x r [m].
-    spin : ndarray, shape (n_c, 1, n_x)
-        n'omega [rad].
+    ndarray, shape (..., 4, n_x)
+        Rows 0-2: nu_origin + omega x r [m]; row 3: n'omega [rad].
     """
-    of_twist = np.zeros((len(r), 4, 6))
-    of_twist[:, :3, :3] = AXES  # nu_origin
-    of_twist[:, :3, 3:] = -cross_matrix(r)  # omega x r = -[r x] omega
-    of_twist[:, 3, 3:] = n  # n'omega
-    both = of_twist @ twist
-    return both[:, :3], both[:, 3:]
+    at = np.zeros((*r.shape[:-1], 4, 6))
+    at[..., :3, :3] = AXES  # nu_origin
+    at[..., :3, 3:] = -cross_matrix(r)  # omega x r = -[r x] omega
+    at[..., 3, 3:] = n  # n'omega
+    found: Array = at.reshape(-1, 6) @ columns
+    return found.reshape(*at.shape[:-1], columns.shape[1])
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -113,7 +111,7 @@ def tangents(n: Array) -> tuple[Array, Array]:
     d1, d2 : ndarray, shape (n_c, 3)
     """
     axis = AXES[np.abs(n).argmin(axis=1)]
-    along = (n * axis).sum(axis=1, keepdims=True)
+    along = np.vecdot(n, axis)[:, None]
     length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
     n_cross_axis = (cross_matrix(n) @ axis[:, :, None])[:, :, 0]
     return (axis - along * n) / length, n_cross_axis / length

@@ -111,6 +111,10 @@ class ContactLayout(Plain):
     mu_omega: Array
     rows: NDArray[np.int64]
 
+    def __post_init__(self) -> None:
+        for array in (self.mu_v, self.mu_omega, self.rows):
+            array.setflags(write=False)  # one array for all steps
+
     def contact_names(self, point: NDArray[np.int64]) -> tuple[str, ...]:
         """A name for each contact: its pair, and its point's number, of shape (n_c,)."""
         numbered = zip(self.names, point.tolist(), strict=True)

@@ -12,21 +12,31 @@ from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 
 Array = NDArray[np.float64]
 
+CROSS = np.array(
+    [
+        [[0, 0, 0], [0, 0, -1], [0, 1, 0]],
+        [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+        [[0, -1, 0], [1, 0, 0], [0, 0, 0]],
+    ],
+    dtype=np.float64,
+).reshape(3, 9)
+"""[x], [y] and [z] of the axes, each row by row."""
+
 
 def cross_matrix(r: Array) -> Array:
     """[r x], so that [r x] w = r x w.
 
     Parameters
     ----------
-    r : ndarray, shape (N, 3)
+    r : ndarray, shape (..., 3)
 
     Returns
     -------
-    ndarray, shape (N, 3, 3)
+    ndarray, shape (..., 3, 3)
+        Its entries are those of r, exactly: each is a sum with two zeros.
     """
-    x, y, z = r.T
-    o = np.zeros(len(r))
-    return np.array([[o, -z, y], [z, o, -x], [-y, x, o]]).transpose(2, 0, 1)
+    entries: Array = r @ CROSS
+    return entries.reshape(*r.shape, 3)
 
 
 class Motion:

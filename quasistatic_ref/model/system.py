@@ -96,6 +96,7 @@ class System:
         self.bodies, self._world = bodies, world
         self._model = world.model
         self._workspace = Workspace(world.parts, world.part_frames)
+        self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
         self._M_u: Array | None = None  # kept where it is the same at every q
@@ -253,8 +254,15 @@ class System:
         return tau
 
     def kinematics(self, q: Array) -> Kinematics:
-        """Pose and Jacobian of every link at q."""
-        return Kinematics(*self._workspace.poses(self._order.model_q(q)), self.motion)
+        """Pose and Jacobian of every link at q; those asked for last are kept.
+
+        Those of the end of a step are those of the start of the next.
+        """
+        at = np.asarray(q, dtype=np.float64).tobytes()
+        if self._latest is None or self._latest[0] != at:
+            poses = self._workspace.poses(self._order.model_q(q))
+            self._latest = at, Kinematics(*poses, self.motion)
+        return self._latest[1]
 
     def body_jacobians(self, q: Array) -> Array:
         """Jacobian of every link at q, shape (L, 6, n_v); see :class:`Kinematics`."""

@@ -44,9 +44,6 @@ class Part(NamedTuple):
 class Workspace:
     """All bodies of a world, in pinocchio's order.
 
-    It keeps the poses of the configuration asked for last: those of the end of a step are those of
-    the start of the next.
-
     Parameters
     ----------
     models : sequence of pinocchio.Model
@@ -68,19 +65,12 @@ class Workspace:
             q, v = q + model.nq, v + model.nv
         self.n_v, self._none = v, np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
-        self._last: tuple[bytes, tuple[Array, Array, Array]] | None = None
 
     def poses(self, q: Array) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
 
         Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
-        at = q.tobytes()
-        if self._last is None or self._last[0] != at:
-            self._last = at, self._poses(q)
-        return self._last[1]
-
-    def _poses(self, q: Array) -> tuple[Array, Array, Array]:
         R, t, columns = [WORLD], [ORIGIN], []
         for part in self.parts:
             pin.computeJointJacobians(part.model, part.data, q[part.q])

@@ -13,6 +13,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.limits import Limits
@@ -20,10 +21,11 @@ from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.step.arrays import Definite
+from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, StepData, seconds
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.posed import PosedStep
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -88,7 +90,7 @@ class Simulator:
     Raises
     ------
     StepDataError
-        If K_q is not symmetric positive definite.
+        If K_q, or M_u at the start, is not symmetric positive definite, or h not positive.
     """
 
     def __init__(
@@ -109,9 +111,13 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
-        self.h, self.cone, self.gravity = h, cone, tuple(np.asarray(gravity, np.float64).tolist())
-        self.K_q = Definite("K_q", K_q)
-        self.M_u = Definite("M_u", system.M_u(system.q_start)) if system.rigid else None
+        self.h, self.cone, self.gravity = (
+            seconds(h),
+            cone,
+            tuple(np.asarray(gravity, np.float64).tolist()),
+        )
+        self.K_q = definite("K_q", K_q, system.n_a)
+        definite("M_u", system.M_u(system.q_start), system.n_u)
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
@@ -128,7 +134,7 @@ class Simulator:
     def __reduce__(self) -> tuple[Any, ...]:
         settings: dict[str, Any] = {
             "h": self.h,
-            "K_q": self.K_q.matrix,
+            "K_q": self.K_q,
             "gravity": self.gravity,
             "feels_gravity": self.weighs[: self.system.n_a],
             "solver": self.solver.backend,
@@ -159,7 +165,7 @@ class Simulator:
         Raises
         ------
         StepDataError
-            If a number is not finite, or M_u not positive definite.
+            If a force has another shape, or a number is not finite.
         StepNotSolved
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
@@ -188,13 +194,14 @@ class Simulator:
     ) -> StepData:
         """The problem of one step: everything in Eq. :eq:`eq-13` at q."""
         system, n_a = self.system, self.system.n_a
-        M_u = system.M_u(q) if self.M_u is None else self.M_u
         tau = self.weighs * system.gravity_force(q, self.gravity) + force
+        if tau.shape != self.weighs.shape:
+            problem = f"must have shape {self.weighs.shape}"
+            raise StepDataError(problem, field="force", value=np.shape(force))
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
         contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
-        return StepData(
-            self.h, self.K_q, M_u, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts, self.cone
-        )
+        tau_a, tau_u, M_u = tau[:n_a], tau[n_a:], system.M_u(q)
+        return PosedStep(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, contacts, self.cone)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""

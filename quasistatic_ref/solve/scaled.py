@@ -33,7 +33,7 @@ class Scaled:
     def __init__(self, step: StepData, like: Metric | None = None) -> None:
         self.step, self.form = step, standard_form(step)
         try:
-            if like is None or not np.array_equal(like.H, self.form.H):
+            if like is None or like.H.tobytes() != self.form.H.tobytes():
                 like = metric(self.form.H)
             self.metric = like
             self.units = units_of(self.form, self.metric)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextvars import copy_context
 from typing import Any
 
@@ -66,66 +67,59 @@ def names(value: Any, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
-def frozen(value: Any, name: str, shape: tuple[int, ...]) -> Array:
-    """A read-only float64 copy of numbers of any unit [-], of that shape, -0.0 becoming 0.0.
+def frozen(given: Mapping[str, tuple[Any, tuple[int, ...]]], prefix: str = "") -> dict[str, Array]:
+    """Read-only float64 copies of numbers of any units [-], -0.0 becoming 0.0.
 
-    Raises
-    ------
-    StepDataError
-        If they are no finite numbers, or of another shape.
-    """
-    array = numbers(value, name) + 0.0
-    if array.size == 0 and 0 in shape:
-        array = array.reshape(shape)
-    if array.shape != shape:
-        raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
-    if np.count_nonzero(np.isfinite(array)) < array.size:  # half the time of all()
-        raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
-    return read_only(array)
-
-
-def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
-    """Replace a field of a frozen dataclass by :func:`frozen` of it; the prefix names the owner."""
-    name = f"{prefix}.{key}" if prefix else key
-    object.__setattr__(owner, key, frozen(getattr(owner, key), name, shape))
-
-
-class Definite:
-    """A symmetric positive definite matrix: K_q or M_u, checked when this is made, not again.
-
-    Whoever takes many steps with one K_q holds it as this, and hands it to each ``StepData``.
+    They share one piece of memory, so that one look tells whether all of them are finite.
 
     Parameters
     ----------
-    name : str
-        Of the field, for messages.
-    matrix : ndarray, shape (n, n)
-        Of any unit [-]; kept as a read-only copy, exactly symmetric.
+    given : mapping of str to (numbers, shape)
+        By the name of the field, which messages show behind the prefix.
+    prefix : str
 
     Raises
     ------
     StepDataError
-        If it is not square, not finite, not symmetric or not positive definite.
+        If some are no finite numbers, or not of that shape.
     """
+    flat = []
+    for key, (value, shape) in given.items():
+        array = numbers(value, prefix + key)
+        if array.shape != shape and (array.size or 0 not in shape):
+            problem = f"must have shape {shape}"
+            raise StepDataError(problem, field=prefix + key, value=array.shape)
+        flat.append(array.ravel())
+    whole = read_only(np.concatenate(flat) + 0.0)
+    if np.count_nonzero(np.isfinite(whole)) < whole.size:
+        for key, array in zip(given, flat, strict=True):
+            if not np.isfinite(array).all():
+                value = array.reshape(given[key][1]).tolist()
+                problem = "must hold finite numbers only"
+                raise StepDataError(problem, field=prefix + key, value=value)
+    found, start = {}, 0
+    for (key, (_, shape)), array in zip(given.items(), flat, strict=True):
+        found[key] = whole[start : start + array.size].reshape(shape)
+        start += array.size
+    return found
 
-    def __init__(self, name: str, matrix: Any) -> None:
-        n = len(numbers(matrix, name)) if np.ndim(matrix) else 0
-        self.matrix = positive_definite(name, frozen(matrix, name, (n, n)))
+
+def freeze(owner: Any, shapes: Mapping[str, tuple[int, ...]], prefix: str) -> None:
+    """Replace fields of a frozen dataclass, of those shapes, by :func:`frozen` of them."""
+    given = {key: (getattr(owner, key), shape) for key, shape in shapes.items()}
+    for key, array in frozen(given, prefix).items():
+        object.__setattr__(owner, key, array)
 
 
 def definite(name: str, matrix: Any, n: int) -> Array:
-    """The checked matrix of shape (n, n) [any unit] behind an array or a :class:`Definite`.
+    """A read-only copy, shape (n, n) [any unit], of a symmetric positive definite matrix.
 
     Raises
     ------
     StepDataError
-        If it is of another shape, or not symmetric positive definite.
+        If it is none, not finite or of another shape.
     """
-    if not isinstance(matrix, Definite):
-        return positive_definite(name, frozen(matrix, name, (n, n)))
-    if matrix.matrix.shape != (n, n):
-        raise StepDataError(f"must have shape {(n, n)}", field=name, value=matrix.matrix.shape)
-    return matrix.matrix
+    return positive_definite(name, frozen({name: (matrix, (n, n))})[name])
 
 
 def positive_definite(key: str, S: Array) -> Array:

@@ -46,7 +46,7 @@ class Blocks(Plain):
             column = column.astype(np.int64)
             column.setflags(write=False)
             object.__setattr__(self, "column", column)
-        freeze(self, "J", (len(column), 4, column.shape[1]), "blocks")
+        freeze(self, {"J": (len(column), 4, column.shape[1])}, "blocks.")
 
     def dense(self) -> Array:
         """All columns, shape (n_c, 4, n_v)."""

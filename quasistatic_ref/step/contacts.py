@@ -15,6 +15,8 @@ from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
+AXES = np.eye(3)
+ROWS = {4, 6}
 
 
 class Points(Plain):
@@ -29,16 +31,16 @@ class Points(Plain):
     mu_omega: Array
     rows: NDArray[np.int64]
 
-    def __post_init__(self) -> None:
+    def _check(self, **own: tuple[int, ...]) -> None:
+        """Check all fields, and `own` ones of those shapes."""
         object.__setattr__(self, "name", names(self.name, "contacts.name"))
         n_c = len(self.name)
-        for key in ("phi", "mu_v", "mu_omega"):
-            freeze(self, key, (n_c,), "contacts")
-        for key in ("n", "d1", "d2"):
-            freeze(self, key, (n_c, 3), "contacts")
+        shapes = {"phi": (n_c,), "mu_v": (n_c,), "mu_omega": (n_c,)}
+        vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
+        freeze(self, {**shapes, **vectors, **own}, "contacts.")
         self._check_rows(n_c)
         self._check_friction()
-        self._check_frames()
+        self._check_frames(n_c)
 
     @property
     def n_c(self) -> int:
@@ -48,16 +50,19 @@ class Points(Plain):
     @property
     def mu(self) -> Array:
         """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
-        mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
-        return np.stack([self.mu_v, self.mu_v, mu_omega], axis=1)
+        mu = np.empty((self.n_c, 3))
+        mu[:, 0] = mu[:, 1] = self.mu_v
+        mu[:, 2] = self.mu_omega * (self.rows == 6)
+        return mu
 
     def _check_rows(self, n_c: int) -> None:
         whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
         rows = self.rows if whole else numbers(self.rows, "contacts.rows")
-        if rows.shape != (n_c,) or not ((rows == 4) | (rows == 6)).all():
+        if rows.shape != (n_c,) or not set(rows.tolist()) <= ROWS:
             problem = "must be 4 or 6 for each contact"
             raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
-        object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
+        if rows.flags.writeable or not whole:
+            object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
 
     def _check_friction(self) -> None:
         for key in ("mu_v", "mu_omega"):
@@ -67,17 +72,17 @@ class Points(Plain):
                 field = f"contacts[{self.name[j]}].{key}"
                 raise StepDataError("must be >= 0", field=field, value=float(mu[j]))
 
-    def _check_frames(self) -> None:
-        frame = np.array([self.d1, self.d2, self.n]).transpose(1, 0, 2)
-        with np.errstate(over="ignore", invalid="ignore"):  # what overflows is no unit vector
-            defect = np.abs(frame @ frame.transpose(0, 2, 1) - np.eye(3))
-            good = (defect <= ORTHONORMAL).all(axis=(1, 2)) & (np.linalg.det(frame) > 0)
-        if not good.all():
-            j = int(good.argmin())
+    def _check_frames(self, n_c: int) -> None:
+        axes = np.array([self.d1, self.d2, self.n])
+        # Not by matmul, which warns where numbers overflow; what overflows is no unit vector.
+        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
+        dextral = np.linalg.det(axes.transpose(1, 0, 2)) > 0
+        if n_c and not (defect.max() <= ORTHONORMAL and dextral.all()):
+            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~dextral).argmax())
             raise StepDataError(
                 "d1, d2, n must be a right-handed orthonormal frame",
                 field=f"contacts[{self.name[j]}]",
-                value=frame[j].tolist(),
+                value=axes[:, j].tolist(),
             )
 
 
@@ -121,8 +126,7 @@ class Contacts(Points):
     blocks: ClassVar[Blocks | None] = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
-        freeze(self, "J", (self.n_c, 4, columns(self.J, "contacts.J", 3)), "contacts")
+        self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
 
     @property
     def n_v(self) -> int:
@@ -161,7 +165,7 @@ class SparseContacts(Points):
     rows: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        super().__post_init__()
+        self._check()
         if len(self.blocks.J) != self.n_c:
             problem = f"must have {self.n_c} contacts"
             raise StepDataError(problem, field="contacts.blocks", value=len(self.blocks.J))

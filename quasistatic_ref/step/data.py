@@ -6,17 +6,16 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.plain import Plain, field_values
 from quasistatic_ref.step.arrays import (
-    Definite,
     columns,
     definite,
     freeze,
@@ -52,8 +51,8 @@ class Extra(Plain):
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
         n_v = columns(self.A, "extra.A", 2)
-        freeze(self, "A", (len(self.names), n_v), "extra")
-        freeze(self, "b", (len(self.names),), "extra")
+        m = len(self.names)
+        freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
 
 
 @lru_cache(maxsize=8)
@@ -104,9 +103,9 @@ class StepData(Plain):
     ----------
     h : float
         Time step [s], > 0.
-    K_q : ndarray, shape (n_a, n_a), or Definite
+    K_q : ndarray, shape (n_a, n_a)
         Joint stiffness [N/m, N m/rad], symmetric positive definite.
-    M_u : ndarray, shape (n_u, n_u), or Definite
+    M_u : ndarray, shape (n_u, n_u)
         Un-actuated block of the mass matrix [kg, kg m^2], symmetric positive definite.
     tau_a : ndarray, shape (n_a,)
         Generalised force on the actuated coordinates besides the stiffness [N, N m].
@@ -128,9 +127,8 @@ class StepData(Plain):
 
     Notes
     -----
-    Each field is checked, and copied read-only. What costs more than the rest together, whether K_q
-    and M_u are positive definite, was checked already where they come as
-    :class:`~quasistatic_ref.step.arrays.Definite`; the step has their matrices.
+    Each field is checked, and copied read-only. The steps of a simulator are
+    :class:`~quasistatic_ref.step.posed.PosedStep`.
     """
 
     h: float
@@ -146,8 +144,8 @@ class StepData(Plain):
     def __init__(
         self,
         h: float,
-        K_q: ArrayLike | Definite,
-        M_u: ArrayLike | Definite,
+        K_q: ArrayLike,
+        M_u: ArrayLike,
         tau_a: ArrayLike,
         tau_u: ArrayLike,
         delta_q_bar_a: ArrayLike,
@@ -159,19 +157,24 @@ class StepData(Plain):
         n_a, n_u = np.size(tau_a), np.size(tau_u)
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
+        vectors = {
+            "tau_a": (tau_a, (n_a,)),
+            "tau_u": (tau_u, (n_u,)),
+            "delta_q_bar_a": (delta_q_bar_a, (n_a,)),
+        }
         checked = {
-            "h": _seconds(h),
+            "h": seconds(h),
             "K_q": definite("K_q", K_q, n_a),
             "M_u": definite("M_u", M_u, n_u),
-            "tau_a": frozen(tau_a, "tau_a", (n_a,)),
-            "tau_u": frozen(tau_u, "tau_u", (n_u,)),
-            "delta_q_bar_a": frozen(delta_q_bar_a, "delta_q_bar_a", (n_a,)),
+            **frozen(vectors),
             "contacts": contacts,
             "cone": cone,
             "extra": extra,
         }
         if not isinstance(contacts, Contacts | SparseContacts):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
+        if type(contacts) is not (checks := contacts.compared_as()):  # posed by a simulator
+            checked["contacts"] = checks(**field_values(contacts))
         for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if found != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
@@ -194,7 +197,7 @@ class StepData(Plain):
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
 
-    @property
+    @cached_property
     def layout(self) -> RowLayout:
         """Which rows of the cone the contacts have; one object for steps that have the same."""
         return row_layout(self.cone, self.contacts.rows.tobytes())
@@ -234,10 +237,11 @@ class StepData(Plain):
 
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
-        return replace(self, **changes)
+        return StepData(**(field_values(self) | changes))
 
 
-def _seconds(h: Any) -> float:
+def seconds(h: Any) -> float:
+    """A time step h [s], checked; StepDataError unless it is a positive number."""
     value = numbers(h, "h")
     if value.shape != () or not 0 < value < np.inf:
         raise StepDataError("must be a positive number of seconds", field="h", value=h)

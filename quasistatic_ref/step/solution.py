@@ -6,8 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-import numpy as np
-
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array
@@ -97,6 +95,10 @@ class StepSolution(Plain):
     statistics : SolverStatistics
         Not compared: wall times are in it.
     cone : str
+
+    Notes
+    -----
+    Arrays are taken as they are, and cannot be written any more.
     """
 
     delta_q: Array
@@ -110,7 +112,7 @@ class StepSolution(Plain):
 
     def __post_init__(self) -> None:
         for key in ("delta_q", "lam", "lam_extra", "wrench"):
-            object.__setattr__(self, key, read_only(np.array(getattr(self, key))))
+            read_only(getattr(self, key))
 
     @property
     def status(self) -> str:

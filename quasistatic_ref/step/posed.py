@@ -1,0 +1,54 @@
+"""Steps as a simulator poses them: right by construction, and so not checked number by number.
+
+To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, equal to one of the
+same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.data import StepData, no_rows
+
+
+@dataclass(frozen=True, eq=False)
+class PosedContacts(Contacts):
+    """Contacts of a layout that was checked, at points and normals that were measured."""
+
+    def __post_init__(self) -> None:
+        for key in ("phi", "n", "d1", "d2", "J"):
+            object.__setattr__(self, key, read_only(getattr(self, key) + 0.0))  # never -0.0
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """They are compared as :class:`~quasistatic_ref.step.contacts.Contacts`."""
+        return Contacts
+
+
+class PosedStep(StepData):
+    """A step of the K_q and M_u of a simulator, which were checked; without rows of a user's."""
+
+    def __init__(
+        self,
+        h: float,
+        K_q: Array,
+        M_u: Array,
+        tau_a: Array,
+        tau_u: Array,
+        delta_q_bar_a: Array,
+        contacts: Contacts | SparseContacts,
+        cone: str,
+    ) -> None:
+        vectors = {"tau_a": tau_a, "tau_u": tau_u, "delta_q_bar_a": delta_q_bar_a}
+        own = {key: read_only(vector + 0.0) for key, vector in vectors.items()}
+        extra = no_rows(tau_a.size + tau_u.size)
+        rest = {"h": h, "K_q": K_q, "M_u": M_u, "contacts": contacts, "cone": cone, "extra": extra}
+        for key, value in (own | rest).items():
+            object.__setattr__(self, key, value)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """It is compared as :class:`~quasistatic_ref.step.data.StepData`."""
+        return StepData
