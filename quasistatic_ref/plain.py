@@ -13,10 +13,11 @@ import numpy as np
 class Plain:
     """What a frozen dataclass inherits to be plain data.
 
-    Two objects are equal if they are of one class and their fields hold the same bits: 0.0 is not
-    -0.0, and NaN is NaN. Fields of ``compare=False``, such as wall times, do not count. The hash is
-    one of the content. A copy, also one through a pickle, has the fields as they were: nothing is
-    computed, and an array that could not be written still cannot.
+    Two objects are equal if they are of one class and their fields hold the same bits. NaN is then
+    NaN, and -0.0 is 0.0, as which it is written everywhere. Fields of ``compare=False``, such as
+    wall times, do not count. The hash is one of the content. A copy, also one through a pickle, has
+    the fields as they were: nothing is computed, and an array that could not be written still
+    cannot.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -62,9 +63,10 @@ def bits(value: Any) -> Any:
         own = [f.name for f in fields(value) if f.compare]  # type: ignore[arg-type]
         return value.compared_as(), tuple(bits(getattr(value, name)) for name in own)
     if isinstance(value, np.ndarray):
-        return value.dtype.str, value.shape, value.tobytes()
+        numbers = value + 0.0 if value.dtype.kind == "f" else value
+        return value.dtype.str, value.shape, numbers.tobytes()
     if isinstance(value, float):
-        return type(value), struct.pack("d", value)
+        return type(value), struct.pack("d", value + 0.0)
     if isinstance(value, tuple | list):
         return type(value), tuple(map(bits, value))
     if isinstance(value, Mapping):

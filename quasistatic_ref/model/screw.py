@@ -27,8 +27,8 @@ def position(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
     if joint.kind == "planar":
         own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
     moved = translation(own[:3], own[3:])
-    there = [x + dot(row, moved) for x, row in zip(at, _rotation(joint, q), strict=False)]
-    return there[:2] if joint.kind == "planar" else there
+    R = _rotation(joint, q)
+    return [at[i] + dot(R[i], moved) for i in ((0, 1) if joint.kind == "planar" else (0, 1, 2))]
 
 
 def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
@@ -126,11 +126,9 @@ def dot(w: Vector, v: Vector) -> float:
 
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
     """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
-    along = twice * dot(w, v) / (a * a) if a * a else 0.0
-    return [
-        (1 - twice) * v_i + once * w_cross_v_i + along * w_i
-        for v_i, w_cross_v_i, w_i in zip(v, cross(w, v), w, strict=True)
-    ]
+    rest, along = 1 - twice, twice * dot(w, v) / (a * a) if a * a else 0.0
+    w_x_v = cross(w, v)
+    return [rest * v[i] + once * w_x_v[i] + along * w[i] for i in (0, 1, 2)]
 
 
 def _rotation(joint: Joint, q: list[float]) -> list[list[float]]:

@@ -230,7 +230,8 @@ class StepData(Plain):
     @property
     def H(self) -> Array:
         """H of Eq. :eq:`eq-13`, shape (n_v, n_v): formed whenever it is asked for."""
-        H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
+        n_a, n_v = self.n_a, self.n_v
+        H = np.zeros((n_v, n_v))
         H[:n_a, :n_a] = self.h * self.K_q
         H[n_a:, n_a:] = self.M_u / self.h
         return H

@@ -6,11 +6,13 @@ same numbers. Whatever is made of their parts by hand, also through ``replace``,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.data import StepData, no_rows
+
+FIELDS = tuple(field.name for field in fields(StepData))
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,8 +20,8 @@ class PosedContacts(Contacts):
     """Contacts of a layout that was checked, at points and normals that were measured."""
 
     def __post_init__(self) -> None:
-        for key in ("phi", "n", "d1", "d2", "J"):
-            object.__setattr__(self, key, read_only(getattr(self, key) + 0.0))  # never -0.0
+        for array in (self.phi, self.n, self.d1, self.d2, self.J):
+            array.setflags(write=False)
 
     @classmethod
     def compared_as(cls) -> type:
@@ -41,11 +43,11 @@ class PosedStep(StepData):
         contacts: Contacts | SparseContacts,
         cone: str,
     ) -> None:
-        vectors = {"tau_a": tau_a, "tau_u": tau_u, "delta_q_bar_a": delta_q_bar_a}
-        own = {key: read_only(vector + 0.0) for key, vector in vectors.items()}
+        for array in (tau_a, tau_u, delta_q_bar_a):
+            array.setflags(write=False)
         extra = no_rows(tau_a.size + tau_u.size)
-        rest = {"h": h, "K_q": K_q, "M_u": M_u, "contacts": contacts, "cone": cone, "extra": extra}
-        for key, value in (own | rest).items():
+        given = (h, K_q, M_u, tau_a, tau_u, delta_q_bar_a, contacts, cone, extra)
+        for key, value in zip(FIELDS, given, strict=True):
             object.__setattr__(self, key, value)
 
     @classmethod
