@@ -21,11 +21,10 @@ from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData, seconds
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.posed import PosedStep
+from quasistatic_ref.step.posed import PosedStep, constants
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -111,13 +110,10 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
-        self.h, self.cone, self.gravity = (
-            seconds(h),
-            cone,
-            tuple(np.asarray(gravity, np.float64).tolist()),
-        )
-        self.K_q = definite("K_q", K_q, system.n_a)
-        definite("M_u", system.M_u(system.q_start), system.n_u)
+        M_u = system.M_u(system.q_start)
+        self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
+        self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
+        self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
@@ -200,8 +196,8 @@ class Simulator:
             raise StepDataError(problem, field="force", value=np.shape(force))
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
         contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
-        tau_a, tau_u, M_u = tau[:n_a], tau[n_a:], system.M_u(q)
-        return PosedStep(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, contacts, self.cone)
+        constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
+        return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""

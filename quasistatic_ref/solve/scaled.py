@@ -22,7 +22,7 @@ class Scaled:
     step : StepData
         SI units.
     like : Metric, optional
-        Of an earlier step: taken over if H holds the same numbers.
+        Of an earlier step: taken over if H is the same array.
 
     Raises
     ------
@@ -33,9 +33,8 @@ class Scaled:
     def __init__(self, step: StepData, like: Metric | None = None) -> None:
         self.step, self.form = step, standard_form(step)
         try:
-            if like is None or like.H.tobytes() != self.form.H.tobytes():
-                like = metric(self.form.H)
-            self.metric = like
+            kept = like if like is not None and like.H is self.form.H else None
+            self.metric = metric(self.form.H) if kept is None else kept
             self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None

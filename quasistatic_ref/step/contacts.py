@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -47,13 +48,13 @@ class Points(Plain):
         """Number of contacts."""
         return len(self.name)
 
-    @property
+    @cached_property
     def mu(self) -> Array:
         """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
         mu = np.empty((self.n_c, 3))
         mu[:, 0] = mu[:, 1] = self.mu_v
         mu[:, 2] = self.mu_omega * (self.rows == 6)
-        return mu
+        return read_only(mu)
 
     def _check_rows(self, n_c: int) -> None:
         whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64

@@ -227,18 +227,23 @@ class StepData(Plain):
         """The contact that each row belongs to, shape (m,)."""
         return self.layout.row_contact
 
-    @property
+    @cached_property
     def H(self) -> Array:
-        """H of Eq. :eq:`eq-13`, shape (n_v, n_v): formed whenever it is asked for."""
-        n_a, n_v = self.n_a, self.n_v
-        H = np.zeros((n_v, n_v))
-        H[:n_a, :n_a] = self.h * self.K_q
-        H[n_a:, n_a:] = self.M_u / self.h
-        return H
+        """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
+        return hessian(self.h, self.K_q, self.M_u)
 
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
         return StepData(**(field_values(self) | changes))
+
+
+def hessian(h: float, K_q: Array, M_u: Array) -> Array:
+    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg]."""
+    n_a, n_v = len(K_q), len(K_q) + len(M_u)
+    H = np.zeros((n_v, n_v))
+    H[:n_a, :n_a] = h * K_q
+    H[n_a:, n_a:] = M_u / h
+    return read_only(H)
 
 
 def seconds(h: Any) -> float:
