@@ -36,8 +36,8 @@ class System:
 
     Methods that take q trust it; :meth:`checked` is for what comes from outside. They share a
     workspace: one System must not be used from two threads at once; a copy has its own. Copies
-    and pickles hold what was read from the URDFs, not their paths alone: they do not read again.
-    Two systems are equal if the same was said of the same bodies and read from their files.
+    and pickles hold the texts of the URDFs, and read no file. Two systems are equal if the same
+    was said of the same bodies and read from their files.
 
     Parameters
     ----------
@@ -76,25 +76,24 @@ class System:
     """
 
     def __init__(self, bodies: Sequence[Body]) -> None:
-        self._make(tuple(bodies), world_of(bodies))
+        self._make(world_of(bodies))
 
-    def __getstate__(self) -> tuple[tuple[Body, ...], World]:
-        return self.bodies, self._world
+    def __getstate__(self) -> tuple[World]:
+        return (self._world,)
 
-    def __setstate__(self, state: tuple[tuple[Body, ...], World]) -> None:
+    def __setstate__(self, state: tuple[World]) -> None:
         self._make(*state)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
             return NotImplemented
-        return self.bodies == other.bodies and self._world == other._world
+        return self._world == other._world
 
     def __hash__(self) -> int:
         return hash(self.bodies)
 
-    def _make(self, bodies: tuple[Body, ...], world: World) -> None:
-        self.bodies, self._world = bodies, world
-        self._model = world.model
+    def _make(self, world: World) -> None:
+        self.bodies, self._world, self._model = world.bodies, world, world.model
         self._workspace = Workspace(world.parts, world.part_frames)
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames

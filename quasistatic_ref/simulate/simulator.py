@@ -188,7 +188,13 @@ class Simulator:
         points: ClosestPoints,
         kinematics: Kinematics,
     ) -> StepData:
-        """The problem of one step: everything in Eq. :eq:`eq-13` at q."""
+        """The problem of one step: everything in Eq. :eq:`eq-13` at q.
+
+        Raises
+        ------
+        StepDataError
+            If the force has another shape.
+        """
         system, n_a = self.system, self.system.n_a
         tau = self.weighs * system.gravity_force(q, self.gravity) + force
         if tau.shape != self.weighs.shape:

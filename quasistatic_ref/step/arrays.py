@@ -78,6 +78,11 @@ def frozen(given: Mapping[str, tuple[Any, tuple[int, ...]]], prefix: str = "") -
         By the name of the field, which messages show behind the prefix.
     prefix : str
 
+    Returns
+    -------
+    dict of str to ndarray
+        By field, each of its shape.
+
     Raises
     ------
     StepDataError
