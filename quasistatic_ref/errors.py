@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from quasistatic_ref.plain import bits
+
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
@@ -23,6 +25,14 @@ class QuasistaticError(Exception):
 
     def __str__(self) -> str:
         return one_line(super().__str__())
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return bool(bits((self.args, vars(self))) == bits((other.args, vars(other))))
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.args))
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Exceptions are rebuilt from `args`, which here hold the message only.

@@ -16,6 +16,7 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 
@@ -23,7 +24,7 @@ _FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
 
 
 @dataclass(frozen=True, eq=False)
-class FarkasVector:
+class FarkasVector(Plain):
     """The proof y, its largest entry being one.
 
     Parameters

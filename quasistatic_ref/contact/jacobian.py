@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.motion import OF_VECTOR, Motion
+from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.posed import PosedContacts
 
 AXES = np.eye(3)
-MINUS_CROSS = -OF_VECTOR
-"""r @ MINUS_CROSS are the entries of -[r x], row by row."""
-
-CROSS_AXES = -OF_VECTOR
-"""n @ CROSS_AXES are n x (axis i), one after the other: the rows of -[n x]."""
 
 
 class ContactGeometry:
-    """Contacts of the same links at every step, in arrays that are kept.
+    """Contacts of the same links at every step.
 
     Parameters
     ----------
@@ -34,15 +28,11 @@ class ContactGeometry:
     """
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
-        self.layout, self.motion, self.n_c = layout, motion, len(layout.names)
+        self.layout, self.motion = layout, motion
+        # Of alpha's bodies and of beta's, 1 for the columns that move them and 0 for the others.
         self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
-        # Of alpha's points, then beta's: velocity (rows 0-2) and spin (row 3) of a twist.
-        self.of_twist = np.zeros((2, self.n_c, 4, 6))
-        self.of_twist[:, :, :3, :3] = AXES
 
-    def contacts(
-        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
-    ) -> Contacts:
+    def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs.
 
         Parameters
@@ -50,20 +40,12 @@ class ContactGeometry:
         points : ClosestPoints
         kinematics : Kinematics
             At the same configuration.
-        like : Contacts, optional
-            Those of an earlier step: these are then not checked again.
         """
         phi, n, layout = points.phi, points.n, self.layout
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
-
-        def name() -> tuple[str, ...]:
-            numbered = zip(layout.names, points.point.tolist(), strict=True)
-            return tuple([f"{pair}/{i}" for pair, i in numbered])
-
-        if like is not None:
-            return like.moved(name, phi=phi, n=n, d1=d1, d2=d2, J=J)
-        return Contacts(name(), phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
+        names = layout.contact_names(points.point)
+        return PosedContacts(names, phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
@@ -83,13 +65,34 @@ class ContactGeometry:
             Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
             [rad].
         """
-        n_c, of_twist = self.n_c, self.of_twist
-        r = np.concatenate([alpha, beta])
-        of_twist[:, :, :3, 3:] = r.dot(MINUS_CROSS).reshape(2, n_c, 3, 3)  # nu_origin + omega x r
-        of_twist[:, :, 3, 3:] = n
-        moved = of_twist.reshape(-1, 6).dot(columns).reshape(2, n_c, 4, columns.shape[1])
-        moved *= self.moves
-        return self.motion.of_coordinates(moved[1] - moved[0])  # Eqs. (2)-(3)
+        moved = self.moves * columns_at(columns, np.array([alpha, beta]), n)
+        (nu_alpha, nu_beta), (spin_alpha, spin_beta) = moved[..., :3, :], moved[..., 3:, :]
+        f = np.concatenate([nu_beta - nu_alpha, spin_beta - spin_alpha], axis=1)  # Eq. (2)
+        return self.motion.of_coordinates(f)  # Eq. (3)
+
+
+def columns_at(columns: Array, r: Array, n: Array) -> Array:
+    """Velocity of points, and spin about unit vectors, of bodies that every column moves.
+
+    Parameters
+    ----------
+    columns : ndarray, shape (6, n_x)
+        Velocity of a body's point at the world's origin, then its angular velocity omega, per unit
+        of each coordinate [m, rad].
+    r, n : ndarray, shapes (..., 3)
+        Points [m] and unit vectors [-], world frame.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, n_x)
+        Rows 0-2: nu_origin + omega x r [m]; row 3: n'omega [rad].
+    """
+    at = np.zeros((*r.shape[:-1], 4, 6))
+    at[..., :3, :3] = AXES  # nu_origin
+    at[..., :3, 3:] = -cross_matrix(r)  # omega x r = -[r x] omega
+    at[..., 3, 3:] = n  # n'omega
+    found: Array = at.reshape(-1, 6) @ columns
+    return found.reshape(*at.shape[:-1], columns.shape[1])
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -107,19 +110,11 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    axis = np.abs(n).argmin(axis=1)
-    at = _starts(len(n)) + axis
-    n_axis = n.take(at)[:, None]
-    both = np.empty((2, *n.shape))
-    np.subtract(AXES.take(axis, axis=0), n_axis * n, out=both[0])
-    both[1] = n.dot(CROSS_AXES).reshape(-1, 3).take(at, axis=0)  # n x axis
-    both /= np.sqrt(1 - n_axis * n_axis)  # the length of both
-    return both[0], both[1]
-
-
-@cache
-def _starts(n: int) -> NDArray[np.int64]:
-    return np.arange(0, 3 * n, 3)
+    axis = AXES[np.abs(n).argmin(axis=1)]
+    along = np.vecdot(n, axis)[:, None]
+    length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
+    n_cross_axis = (cross_matrix(n) @ axis[:, :, None])[:, :, 0]
+    return (axis - along * n) / length, n_cross_axis / length
 
 
 def contact_jacobian(

@@ -12,11 +12,12 @@ from quasistatic_ref.contact.corners import corner_count
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True, eq=False)
-class ContactPair:
+class ContactPair(Plain):
     """Two shapes that may touch.
 
     Parameters
@@ -90,7 +91,7 @@ class ContactPair:
 
 
 @dataclass(frozen=True, eq=False)
-class ContactLayout:
+class ContactLayout(Plain):
     """What does not change from step to step about the contacts of a list of pairs.
 
     Parameters
@@ -109,6 +110,15 @@ class ContactLayout:
     mu_v: Array
     mu_omega: Array
     rows: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        for array in (self.mu_v, self.mu_omega, self.rows):
+            array.setflags(write=False)  # one array for all steps
+
+    def contact_names(self, point: NDArray[np.int64]) -> tuple[str, ...]:
+        """A name for each contact: its pair, and its point's number, of shape (n_c,)."""
+        numbered = zip(self.names, point.tolist(), strict=True)
+        return tuple([f"{pair}/{i}" for pair, i in numbered])
 
 
 def contact_layout(pairs: Sequence[ContactPair]) -> ContactLayout:

@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.data import Contacts
+from quasistatic_ref.step.data import SparseContacts
+from quasistatic_ref.tolerances import SPARSE_FROM
 
 Indices = NDArray[np.int64]
 
@@ -47,28 +48,21 @@ class BlockGeometry:
         at, place, column = _ragged(coordinate)
         self.column = np.full((len(a), 1 + int(place.max(initial=-1))), self.n_v)
         self.column[at, place] = column
+        self.column.setflags(write=False)  # one array for all steps
         self.sums = None
         if motion.mimics:  # the columns of one coordinate add up
             self.sums = np.zeros((*shape, self.column.shape[1]))
             position = coordinate.cumsum(axis=1) - 1
             self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0
 
-    def contacts(
-        self, points: ClosestPoints, kinematics: Kinematics, like: Contacts | None = None
-    ) -> Contacts:
+    def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> SparseContacts:
         """The contacts of one step, from the closest points of all pairs."""
-        layout, (d1, d2) = self.layout, tangents(points.n)
-
-        def name() -> tuple[str, ...]:
-            numbered = zip(layout.names, points.point.tolist(), strict=True)
-            return tuple([f"{pair}/{i}" for pair, i in numbered])
-
-        if like is None:
-            without = np.zeros((len(points.phi), 4, 0))
-            mu = layout.mu_v, layout.mu_omega, layout.rows
-            like = Contacts(name(), points.phi, points.n, d1, d2, without, *mu)
-        J = self.jacobian(kinematics, points)
-        return like.moved(name, blocks=J, phi=points.phi, n=points.n, d1=d1, d2=d2)
+        phi, n, layout = points.phi, points.n, self.layout
+        d1, d2 = tangents(n)
+        blocks, names = self.jacobian(kinematics, points), layout.contact_names(points.point)
+        return SparseContacts(
+            names, phi, n, d1, d2, blocks, layout.mu_v, layout.mu_omega, layout.rows
+        )
 
     def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
         """J of Eq. :eq:`eq-3`, those columns."""
@@ -80,6 +74,23 @@ class BlockGeometry:
         spin = points.n[:, None] @ (omega * (b - a))
         J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
         return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
+
+
+def contact_geometry(
+    layout: ContactLayout, motion: Motion, blocks: bool
+) -> ContactGeometry | BlockGeometry:
+    """The geometry of contacts: in blocks where these are allowed, and J is as large as to pay.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+    blocks : bool
+        Whether the steps' solver takes blocks.
+    """
+    entries = 4 * len(layout.rows) * motion.coordinates.shape[1]
+    form = BlockGeometry if blocks and entries >= SPARSE_FROM else ContactGeometry
+    return form(layout, motion)
 
 
 def _ragged(marked: NDArray[np.bool_]) -> tuple[Indices, Indices, Indices]:

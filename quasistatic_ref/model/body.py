@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,13 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.solid import Homogeneous, solid_urdf
+from quasistatic_ref.plain import Plain
 
 BASES = ("fixed", "floating", "planar")
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class Body(Plain):
     """One URDF in the world.
 
     Parameters
@@ -79,7 +79,7 @@ class Body:
             problem = "must be [0, 0, yaw]: a planar base stays upright"
             raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
         positions = {name: self._position(name) for name in self.positions}
-        object.__setattr__(self, "positions", MappingProxyType(positions))
+        object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
 
     @classmethod

@@ -13,6 +13,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import freeze_array
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.tolerances import CONVEX
 
 Array = NDArray[np.float64]
@@ -22,7 +23,7 @@ BLOCK = 1 << 22
 
 
 @dataclass(frozen=True, eq=False)
-class ConvexMesh:
+class ConvexMesh(Plain):
     """A convex polytope; made by :func:`convex_hull` or :func:`hull_of_mesh`.
 
     Parameters

@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.plain import Plain
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 _TWISTS = {
@@ -42,8 +44,8 @@ class Coordinate:
     actuated: bool
 
 
-@dataclass(frozen=True)
-class Joint:
+@dataclass(frozen=True, eq=False)
+class Joint(Plain):
     """One joint with coordinates of its own.
 
     Parameters

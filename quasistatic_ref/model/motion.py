@@ -11,11 +11,16 @@ from numpy.typing import NDArray
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 
 Array = NDArray[np.float64]
-_LEVI_CIVITA = np.zeros((3, 3, 3))
-_LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = 1.0
-_LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = -1.0
-OF_VECTOR = _LEVI_CIVITA.reshape(3, 9)
-"""r @ OF_VECTOR are the entries of [r x], row by row: each is a sum with two zeros, and exact."""
+
+CROSS = np.array(
+    [
+        [[0, 0, 0], [0, 0, -1], [0, 1, 0]],
+        [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+        [[0, -1, 0], [1, 0, 0], [0, 0, 0]],
+    ],
+    dtype=np.float64,
+).reshape(3, 9)
+"""[x], [y] and [z] of the axes, each row by row."""
 
 
 def cross_matrix(r: Array) -> Array:
@@ -23,14 +28,15 @@ def cross_matrix(r: Array) -> Array:
 
     Parameters
     ----------
-    r : ndarray, shape (N, 3)
+    r : ndarray, shape (..., 3)
 
     Returns
     -------
-    ndarray, shape (N, 3, 3)
+    ndarray, shape (..., 3, 3)
         Its entries are those of r, exactly: each is a sum with two zeros.
     """
-    return (r @ OF_VECTOR).reshape(-1, 3, 3)
+    entries: Array = r @ CROSS
+    return entries.reshape(*r.shape, 3)
 
 
 class Motion:

@@ -17,19 +17,18 @@ import numpy as np
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.data import Array
 
-Vector = list[float]
+Vector = Sequence[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
 
 
-def position(joint: Joint, q: Vector, delta_q: Vector) -> Vector:
+def position(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
     """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
     own, at = delta_q[joint.v], q[joint.q]
     if joint.kind == "planar":
         own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
-    x, y, z = translation(own[:3], own[3:])
-    (a, b, c), (d, e, f), (g, h, i) = _rotation(joint, q)
-    moved = [at[0] + (a * x + b * y + c * z), at[1] + (d * x + e * y + f * z)]
-    return moved if joint.kind == "planar" else [*moved, at[2] + (g * x + h * y + i * z)]
+    moved = translation(own[:3], own[3:])
+    R = _rotation(joint, q)
+    return [at[i] + dot(R[i], moved) for i in ((0, 1) if joint.kind == "planar" else (0, 1, 2))]
 
 
 def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
@@ -53,7 +52,7 @@ def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) ->
     return np.array(anew)
 
 
-def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:
+def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[float]) -> list[float]:
     """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
 
     Parameters
@@ -64,17 +63,19 @@ def change(joint: Joint, q: Vector, q_next: Vector, delta_q: Vector) -> Vector:
     delta_q : list of n_v floats, or those of the actuated coordinates
         Its entries for the rotation of a floating base are taken as they are.
     """
+    here, there = q[joint.q], q_next[joint.q]
     if joint.kind == "continuous":
-        return [_turn(q[joint.q], q_next[joint.q])]
-    planar, here, there = joint.kind == "planar", q[joint.q], q_next[joint.q]
-    x, y, z = there[0] - here[0], there[1] - here[1], 0.0 if planar else there[2] - here[2]
-    (a, b, c), (d, e, f), (g, h, i) = _rotation(joint, q)
-    moved = [a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + i * z]
+        return [_turn(here, there)]
+    planar = joint.kind == "planar"
+    z = 0.0 if planar else there[2] - here[2]
+    apart = [there[0] - here[0], there[1] - here[1], z]
+    columns = zip(*_rotation(joint, q), strict=True)  # of R: the base's own axes in the world
+    moved = [dot(axis, apart) for axis in columns]
     if planar:
-        angle = _turn(q[joint.q][2:], q_next[joint.q][2:])
-        return [*linear_part([*moved[:2], 0.0], [0.0, 0.0, angle])[:2], angle]
+        angle = _turn(here[2:], there[2:])
+        return [*linear_part(moved, [0.0, 0.0, angle])[:2], angle]
     angular = delta_q[joint.v][3:]
-    return linear_part(moved, angular) + angular
+    return [*linear_part(moved, angular), *angular]
 
 
 def place(joint: Joint) -> slice:
@@ -82,33 +83,55 @@ def place(joint: Joint) -> slice:
     return slice(joint.q.start, joint.q.start + (3 if joint.kind == "floating" else 2))
 
 
-def translation(linear: Vector, angular: Vector) -> Vector:
+def translation(v: Vector, w: Vector) -> list[float]:
     """Translation of exp6 of a twist, in the frame that it starts from [m].
 
     V v = v + (1 - cos a) / a^2 w x v + (1 - sin a / a) e x (e x v), with a = |w| and e = w / a.
 
     Parameters
     ----------
-    linear, angular : list of 3 floats
-        v [m] and w [rad].
+    v, w : sequence of 3 floats
+        Linear [m] and angular [rad] part of the twist.
     """
-    a = math.hypot(*angular)
-    half = _sinc(a / 2)
-    return _combined(linear, angular, a, half * half / 2, 1 - _sinc(a))
+    a = math.hypot(*w)
+    half = _sinc(a / 2)  # (1 - cos a) / a^2 = half^2 / 2, without the difference
+    return _combined(v, w, a, half * half / 2, 1 - _sinc(a))
 
 
-def linear_part(translation: Vector, angular: Vector) -> Vector:
-    """The v whose twist (v, w) carries a base by a translation, 3 numbers [m].
-
-    The rotation vector w is `angular` [rad].
+def linear_part(t: Vector, w: Vector) -> list[float]:
+    """The v whose twist (v, w) carries a base by a translation t, 3 numbers [m].
 
     V^-1 t = t - w x t / 2 + (1 - (a / 2) cot(a / 2)) e x (e x t), for a < 2 pi.
+
+    Parameters
+    ----------
+    t, w : sequence of 3 floats
+        Translation [m] and rotation vector [rad].
     """
-    a = math.hypot(*angular)
-    return _combined(translation, angular, a, -0.5, 1 - a / 2 / math.tan(a / 2) if a else 0.0)
+    a = math.hypot(*w)
+    return _combined(t, w, a, -0.5, 1 - a / 2 / math.tan(a / 2) if a else 0.0)
 
 
-def _rotation(joint: Joint, q: Vector) -> list[Vector]:
+def cross(w: Vector, v: Vector) -> list[float]:
+    """The product w x v of three numbers each [any unit]."""
+    (p, q, r), (x, y, z) = w, v
+    return [q * z - r * y, r * x - p * z, p * y - q * x]
+
+
+def dot(w: Vector, v: Vector) -> float:
+    """The product w'v of three numbers each [any unit]; ``sum`` rounds as its Python does."""
+    (p, q, r), (x, y, z) = w, v
+    return p * x + q * y + r * z
+
+
+def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
+    """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
+    rest, along = 1 - twice, twice * dot(w, v) / (a * a) if a * a else 0.0
+    w_x_v = cross(w, v)
+    return [rest * v[i] + once * w_x_v[i] + along * w[i] for i in (0, 1, 2)]
+
+
+def _rotation(joint: Joint, q: list[float]) -> list[list[float]]:
     """Rows of the rotation matrix of a base."""
     if joint.kind == "planar":
         c, s = q[joint.q][2:]
@@ -125,18 +148,6 @@ def _turn(before: Vector, after: Vector) -> float:
     """Angle from one (cos, sin) to another."""
     (c, s), (c_next, s_next) = before, after
     return math.atan2(c * s_next - s * c_next, c * c_next + s * s_next)
-
-
-def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> Vector:
-    """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
-    (x, y, z), (p, q, r) = v, w
-    across = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0
-    rest = 1 - twice
-    return [
-        rest * x + once * (q * z - r * y) + across * p,
-        rest * y + once * (r * x - p * z) + across * q,
-        rest * z + once * (p * y - q * x) + across * r,
-    ]
 
 
 def _sinc(x: float) -> float:

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.frozen import finite, freeze_array, freeze_lengths, freeze_size
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Sphere:
+@dataclass(frozen=True, eq=False)
+class Sphere(Plain):
     """A ball of the given radius [m] about the origin of its frame."""
 
     radius: float
@@ -34,7 +35,7 @@ class Sphere:
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class Box(Plain):
     """A cuboid along the axes of its frame: |x_i| <= half_extents_i, shape (3,) [m]."""
 
     half_extents: Array
@@ -48,8 +49,8 @@ class Box:
         return coal.Box(2 * self.half_extents)
 
 
-@dataclass(frozen=True)
-class Cylinder:
+@dataclass(frozen=True, eq=False)
+class Cylinder(Plain):
     """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m]."""
 
     radius: float
@@ -65,8 +66,8 @@ class Cylinder:
         return coal.Cylinder(self.radius, 2 * self.half_length)
 
 
-@dataclass(frozen=True)
-class Capsule:
+@dataclass(frozen=True, eq=False)
+class Capsule(Plain):
     """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
 
     half_length is that of the segment, as in URDF and coal: the caps lie beyond it.
@@ -85,8 +86,8 @@ class Capsule:
         return coal.Capsule(self.radius, 2 * self.half_length)
 
 
-@dataclass(frozen=True)
-class Cone:
+@dataclass(frozen=True, eq=False)
+class Cone(Plain):
     """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
 
     radius [m] is that of the base.
@@ -106,7 +107,7 @@ class Cone:
 
 
 @dataclass(frozen=True, eq=False)
-class Ellipsoid:
+class Ellipsoid(Plain):
     """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m]."""
 
     half_axes: Array
@@ -121,7 +122,7 @@ class Ellipsoid:
 
 
 @dataclass(frozen=True, eq=False)
-class HalfSpace:
+class HalfSpace(Plain):
     """The solid {x : normal . x <= offset}; the normal points out of it.
 
     Parameters
@@ -155,7 +156,7 @@ class HalfSpace:
 
 
 @dataclass(frozen=True, eq=False)
-class PointCloud:
+class PointCloud(Plain):
     """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object."""
 
     points: Array
@@ -176,7 +177,7 @@ Shape = Solid | PointCloud
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedShape:
+class PlacedShape(Plain):
     """A shape placed in the frame of a link.
 
     Parameters

@@ -21,7 +21,8 @@ from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.words import system_page
-from quasistatic_ref.model.world import world_of
+from quasistatic_ref.model.workspace import Workspace
+from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
@@ -36,7 +37,9 @@ class System:
     """Bodies in one world.
 
     Methods that take q trust it; :meth:`checked` is for what comes from outside. They share a
-    workspace: one System must not be used from two threads at once.
+    workspace: one System must not be used from two threads at once; a copy has its own. Copies
+    and pickles hold the texts of the URDFs, and read no file. Two systems are equal if the same
+    was said of the same bodies and read from their files.
 
     Parameters
     ----------
@@ -77,12 +80,28 @@ class System:
     __repr__, _repr_html_ = shown(system_page)
 
     def __init__(self, bodies: Sequence[Body]) -> None:
-        self.bodies = tuple(bodies)
-        world = world_of(self.bodies)
-        self._model, self._workspace = world.model, world.workspace
+        self._make(world_of(bodies))
+
+    def __getstate__(self) -> tuple[World]:
+        return (self._world,)
+
+    def __setstate__(self, state: tuple[World]) -> None:
+        self._make(*state)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, System):
+            return NotImplemented
+        return self._world == other._world
+
+    def __hash__(self) -> int:
+        return hash(self.bodies)
+
+    def _make(self, world: World) -> None:
+        self.bodies, self._world, self._model = world.bodies, world, world.model
+        self._workspace = Workspace(world.parts, world.part_frames)
+        self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
-        self._gravity: ArrayLike | None = None
         self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
@@ -231,18 +250,22 @@ class System:
         gravity : array_like, shape (3,)
             Acceleration of free fall in the world frame [m/s^2].
         """
-        if gravity is not self._gravity:
-            self._workspace.set_gravity(np.array(gravity, dtype=np.float64))
-            # Kept only if it cannot change unseen.
-            self._gravity = gravity if isinstance(gravity, tuple) else None
+        down = gravity if isinstance(gravity, tuple) else tuple(np.asarray(gravity).tolist())
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = self._workspace.gravity_torque(self._order.model_q(q))
+        force = self._workspace.gravity_torque(self._order.model_q(q), down)
         tau: Array = 0.0 - self._order.paper_v(force)
         return tau
 
     def kinematics(self, q: Array) -> Kinematics:
-        """Pose and Jacobian of every link at q."""
-        return Kinematics(*self._workspace.poses(self._order.model_q(q)), self.motion)
+        """Pose and Jacobian of every link at q; those asked for last are kept.
+
+        Those of the end of a step are those of the start of the next.
+        """
+        at = np.asarray(q, dtype=np.float64).tobytes()
+        if self._latest is None or self._latest[0] != at:
+            poses = self._workspace.poses(self._order.model_q(q))
+            self._latest = at, Kinematics(*poses, self.motion)
+        return self._latest[1]
 
     def centre_of_mass_force(
         self, q: Array, body_name: str, force: ArrayLike, torque: ArrayLike

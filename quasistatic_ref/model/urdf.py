@@ -38,6 +38,8 @@ class Urdf:
     ----------
     file : UrdfFile
         What it says.
+    text : str
+        The same as loaded, its meshes' addresses resolved.
     base : str
         How its root link moves (joint ``base``): ``"fixed"``, ``"floating"`` or ``"planar"``.
     model : pinocchio.Model
@@ -51,6 +53,7 @@ class Urdf:
     """
 
     file: UrdfFile
+    text: str
     base: str
     model: Any
     links: tuple[str, ...]
@@ -89,7 +92,8 @@ def loaded_urdf(
         moving = _moving_joints(file, base)
         free = [] if actuated == "all" else [name for name in moving if name not in actuated]
         inertias = checked_inertias(file, free)
-        model, geometry = _loaded(file, base, package_dirs)
+        text = resolved_text(file, package_dirs)
+        model, geometry = _loaded(text, base)
         _check_names(file, model, base)
         _check_poses(file, model)
         _check_inertias(file, model)
@@ -98,7 +102,7 @@ def loaded_urdf(
         shapes, meshes = checked_shapes(file, model, geometry, links, frames)
     except ModelError as error:
         raise error.in_file(file.path) from None
-    return Urdf(file, base, model, links, shapes, (*inertias, *meshes))
+    return Urdf(file, text, base, model, links, shapes, (*inertias, *meshes))
 
 
 def body_frame(model: Any, link: str) -> int:
@@ -117,12 +121,16 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
     return [*moving, BASE]
 
 
-def _loaded(file: UrdfFile, base: str, package_dirs: Sequence[str | Path]) -> tuple[Any, Any]:
-    # From the text, not the path: what is loaded is what was read and checked.
-    text = resolved_text(file, package_dirs)
+def urdf_model(text: str, base: str) -> Any:
+    """The pinocchio model of a URDF's text."""
     root = () if base == "fixed" else (BASES[base](), BASE)
+    return pin.buildModelFromXML(text, *root, mimic=True)
+
+
+def _loaded(text: str, base: str) -> tuple[Any, Any]:
+    # From the text, not the path: what is loaded is what was read and checked.
     try:
-        model = pin.buildModelFromXML(text, *root, mimic=True)
+        model = urdf_model(text, base)
         geometry = pin.buildGeomFromUrdfString(model, text, pin.GeometryType.COLLISION)
     except (ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())

@@ -47,7 +47,7 @@ class Workspace:
     Parameters
     ----------
     models : sequence of pinocchio.Model
-        Of groups of bodies, in the order in which the whole model has them.
+        Of groups of bodies, in the order in which the whole model has them; they are copied.
     frames : sequence of list of int
         Of the links of each group.
     """
@@ -57,17 +57,19 @@ class Workspace:
         q = v = 0
         for model, links in zip(models, frames, strict=True):
             entries = slice(q, q + model.nq), slice(v, v + model.nv)
+            model = model.copy()  # its gravity is this workspace's own
             data = pin.Data(model)
             placements = [data.oMf[link] for link in links]
             R, t = [p.rotation for p in placements], [p.translation for p in placements]
             self.parts.append(Part(model, data, R, t, *entries))
             q, v = q + model.nq, v + model.nv
         self.n_v, self._none = v, np.zeros((6, 0))
+        self._gravity: tuple[float, ...] | None = None
 
     def poses(self, q: Array) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
 
-        Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`.
+        Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
         R, t, columns = [WORLD], [ORIGIN], []
         for part in self.parts:
@@ -77,7 +79,10 @@ class Workspace:
             t += part.t
             columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector
         all_columns = columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
-        return np.array(R), np.array(t), all_columns
+        found = np.array(R), np.array(t), all_columns
+        for array in found:
+            array.setflags(write=False)
+        return found
 
     def mass(self, q: Array) -> Array:
         """Mass matrix, shape (n_v, n_v)."""
@@ -87,13 +92,15 @@ class Workspace:
             M[part.v, part.v] = pin.crba(part.model, part.data, q[part.q])
         return M
 
-    def set_gravity(self, gravity: Array) -> None:
-        """Acceleration of free fall in the world frame, shape (3,) [m/s^2]."""
-        for part in self.parts:
-            part.model.gravity.linear = gravity
+    def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
+        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
 
-    def gravity_torque(self, q: Array) -> Array:
-        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m]."""
+        Gravity is the acceleration of free fall in the world frame, three numbers [m/s^2].
+        """
+        if gravity != self._gravity:
+            for part in self.parts:
+                part.model.gravity.linear = np.array(gravity)
+            self._gravity = gravity
         torques: list[Array] = [
             pin.computeGeneralizedGravity(part.model, part.data, q[part.q]) for part in self.parts
         ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,18 +15,25 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.shapes import PlacedShape
-from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf
-from quasistatic_ref.model.workspace import PART, Workspace
+from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
+from quasistatic_ref.model.workspace import PART
+from quasistatic_ref.plain import Plain
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class World:
+class World(Plain):
     """Several bodies in one pinocchio model.
+
+    Copies and pickles hold the texts of the URDFs, of which the models are made once more:
+    pinocchio's own pickles lose which joint a mimic follows, and crash.
 
     Parameters
     ----------
+    bodies : tuple of Body
+    texts : tuple of str
+        The URDF of each.
     model : pinocchio.Model
     joints : tuple of ModelJoint
         Those with coordinates of their own, numbered as pinocchio does.
@@ -40,8 +47,10 @@ class World:
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
-    workspace : Workspace
-        The same bodies, to be computed with.
+    parts : tuple of pinocchio.Model
+        The same bodies in groups, to be computed with.
+    part_frames : tuple of list of int
+        The frame of each link, group by group.
     roots : dict of str to int
         Number of each body's root link.
     start : ndarray, shape (n_q,)
@@ -52,8 +61,11 @@ class World:
         What was taken otherwise than the URDFs say.
     """
 
-    model: Any
-    workspace: Workspace
+    bodies: tuple[Body, ...]
+    texts: tuple[str, ...]
+    model: Any = field(compare=False)
+    parts: tuple[Any, ...] = field(compare=False)
+    part_frames: tuple[list[int], ...] = field(compare=False)
     joints: tuple[ModelJoint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
@@ -66,6 +78,19 @@ class World:
     ignored: tuple[str, ...]
     notes: tuple[str, ...]
 
+    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
+        values, locked = super().__getstate__()
+        return {key: values[key] for key in values if key not in MODELS}, locked
+
+    def __setstate__(self, state: tuple[dict[str, Any], list[str]]) -> None:
+        super().__setstate__(state)
+        own = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
+        for key, value in zip(MODELS, _joined(self.bodies, own, self.links), strict=True):
+            object.__setattr__(self, key, value)
+
+
+MODELS = ("model", "parts", "part_frames")
+
 
 def world_of(bodies: Sequence[Body]) -> World:
     """Load every body's URDF and append it to one model.
@@ -76,8 +101,6 @@ def world_of(bodies: Sequence[Body]) -> World:
         If a URDF is not usable, two bodies share a name, or a body names a joint that it
         does not have.
     """
-    model = pin.Model()
-    parts, own = [pin.Model()], [list[str]()]
     urdfs: dict[str, Urdf] = {}
     for body in bodies:
         if body.name in urdfs:
@@ -87,13 +110,6 @@ def world_of(bodies: Sequence[Body]) -> World:
         )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
-        prefixed, anchor = _prefixed(urdf.model, body.name), _anchor(body)
-        if parts[-1].nv and parts[-1].nv + prefixed.nv > PART:
-            parts.append(pin.Model())
-            own.append([])
-        own[-1] += [f"{body.name}/{link}" for link in urdf.links]
-        parts[-1] = pin.appendModel(parts[-1], prefixed, 0, anchor)
-        model = pin.appendModel(model, prefixed, 0, anchor)
     links, masses, roots, shapes = ["world"], [0.0], {}, []
     inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
@@ -103,17 +119,18 @@ def world_of(bodies: Sequence[Body]) -> World:
         inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
+    model, parts, part_frames = _joined(bodies, [urdf.model for urdf in urdfs.values()], links)
     joints, start = [], pin.neutral(model)
     for body in bodies:
         for joint, position in _joints(body, urdfs[body.name], model):
             joints.append(joint)
             start[joint.q[0] : sum(joint.q)] = position
-    frames = [
-        [body_frame(part, link) for link in some] for part, some in zip(parts, own, strict=True)
-    ]
     return World(
+        bodies=tuple(bodies),
+        texts=tuple(urdf.text for urdf in urdfs.values()),
         model=model,
-        workspace=Workspace(parts, frames),
+        parts=parts,
+        part_frames=part_frames,
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
@@ -126,6 +143,25 @@ def world_of(bodies: Sequence[Body]) -> World:
         ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
         notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
     )
+
+
+def _joined(
+    bodies: Sequence[Body], models: Sequence[Any], links: Sequence[str]
+) -> tuple[Any, tuple[Any, ...], tuple[list[int], ...]]:
+    """All bodies in one model; the same in parts; and the frames of the links of each part."""
+    model, parts, names = pin.Model(), [pin.Model()], [list[str]()]
+    for body, own in zip(bodies, models, strict=True):
+        prefixed, anchor = _prefixed(own, body.name), _anchor(body)
+        if parts[-1].nv and parts[-1].nv + prefixed.nv > PART:
+            parts.append(pin.Model())
+            names.append([])
+        names[-1] += [link for link in links if link.startswith(f"{body.name}/")]
+        parts[-1] = pin.appendModel(parts[-1], prefixed, 0, anchor)
+        model = pin.appendModel(model, prefixed, 0, anchor)
+    frames = [
+        [body_frame(part, link) for link in some] for part, some in zip(parts, names, strict=True)
+    ]
+    return model, tuple(parts), tuple(frames)
 
 
 def _prefixed(model: Any, name: str) -> Any:
@@ -157,7 +193,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
     moves = urdf.base != "fixed"
     known = scalar | {BASE} if moves else scalar
     actuated = () if body.actuated == "all" else body.actuated
-    for field, names, allowed in (
+    for key, names, allowed in (
         ("actuated", actuated, known),
         ("positions", tuple(body.positions), scalar),
     ):
@@ -172,9 +208,9 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
                 problem = "is placed by xyz and rpy"
             elif name == BASE:
                 problem = 'is fixed; say base = "floating" or "planar" to move it'
-            raise ModelError(problem, field=f"{body.name}.{field}", value=name)
+            raise ModelError(problem, field=f"{body.name}.{key}", value=name)
         if len(set(names)) != len(names):
-            raise ModelError("names a joint twice", field=f"{body.name}.{field}", value=names)
+            raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
 
 
 def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]]:

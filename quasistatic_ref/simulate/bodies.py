@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.paths import path_in, shared_folders
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
@@ -22,7 +23,7 @@ ZERO = np.zeros(3)
 
 
 @dataclass(frozen=True, eq=False)
-class Wrenches:
+class Wrenches(Plain):
     """An external wrench at a body's centre of mass, piecewise linear in time.
 
     Parameters
@@ -45,7 +46,7 @@ class Wrenches:
 
 
 @dataclass(frozen=True, eq=False)
-class BodyEntry:
+class BodyEntry(Plain):
     """What one table says, before the system is known.
 
     Parameters
@@ -64,7 +65,7 @@ class BodyEntry:
     """
 
     body: Body
-    table: Fields
+    table: Fields = field(compare=False)
     K_q: Any
     targets: list[Any]
     cloud: Path | None

@@ -49,7 +49,7 @@ def rollout(
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to warn
-        there, in a sentence, of a run that is not slow (docs/artifacts.md).
+        there, in a sentence, of a run whose drag is not small (docs/artifacts.md).
 
     Returns
     -------

@@ -15,6 +15,7 @@ from quasistatic_ref.errors import BackendError, InputError, ScenarioError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
@@ -43,7 +44,7 @@ MOST_STEPS = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Scenario:
+class Scenario(Plain):
     """Everything that a scenario file says, checked and loaded.
 
     Parameters

@@ -3,41 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
+from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import (
-    CVXPY,
-    check_solver,
-    default_engine,
-    may_be_sparse,
-    solver_for,
-)
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.show import html_page, shown, text_page
+from quasistatic_ref.step.posed import PosedStep, constants
+from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.solution import StepSolution
-from quasistatic_ref.tolerances import ACCURACY, SPARSE_FROM
+from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
 
 
-class StepResult(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class StepResult(Plain):
     """Everything that one step came to.
 
     Parameters
@@ -50,24 +47,23 @@ class StepResult(NamedTuple):
     points : ClosestPoints
         Where the contacts were, before the step.
     seconds : dict of str to float
-        Wall time of the parts: distances, rows, solve, integrate [s].
+        Wall time of the parts: distances, rows, solve, integrate [s]; not compared.
     """
 
     q: Array
     step: StepData
     solution: StepSolution
     points: ClosestPoints
-    seconds: dict[str, float]
+    seconds: dict[str, float] = field(compare=False)
 
-    def __repr__(self) -> str:
-        return text_page(result_page(self), *NOT_IN_TEXT)
-
-    def _repr_html_(self) -> str:
-        return html_page(result_page(self))
+    __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
 
 
 class Simulator:
     """A system, what may touch in it, and how each step is solved.
+
+    It keeps what is slow to make and the same at every step: which points of the clouds may matter,
+    the columns that move a contact, the solver. A copy is a new simulator of the same settings.
 
     Parameters
     ----------
@@ -82,9 +78,8 @@ class Simulator:
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     solver : str
-        Name of a backend, as in :func:`~quasistatic_ref.solve.solve.solve_step`.
-    accuracy, certify
-        As there.
+        Name of a backend; it, accuracy and certify are as in
+        :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; ``"native"`` by default where that
         reaches the backend and the cone.
@@ -95,6 +90,11 @@ class Simulator:
     limits : Limits, optional
         Beyond which no step is taken; by default those of
         :class:`~quasistatic_ref.simulate.limits.Limits`.
+
+    Raises
+    ------
+    StepDataError
+        If K_q, or M_u at the start, is not symmetric positive definite, or h not positive.
     """
 
     __repr__, _repr_html_ = shown(simulator_page)
@@ -117,24 +117,38 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
-        self.tracker = ContactTracker(self.pairs)
-        self.h, self.K_q, self.gravity = h, K_q, np.asarray(gravity, dtype=np.float64)
-        self._gravity = tuple(self.gravity.tolist())
+        M_u = system.M_u(system.q_start)
+        self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
+        self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
+        self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
-        self.backend, self.accuracy, self.certify = solver, accuracy, certify
-        self.cone, self.extension = cone, extension
-        self.limits = Limits() if limits is None else limits
-        self.engine = default_engine(solver, cone) if engine is None else engine
-        check_solver(solver, self.engine, cone)
-        self._curved = CVXPY if engine is None else engine  # extensions that are more than rows
-        self.solver: Solver | None = None
-        large = 4 * len(self.layout.rows) * system.n_v >= SPARSE_FROM
-        able = may_be_sparse(self.engine, solver, certify) and extension is None and system.rigid
-        geometry = BlockGeometry if large and able else ContactGeometry
-        self.geometry = geometry(self.layout, system.motion)
-        self._like: StepData | None = None
-        self._here: tuple[bytes, Kinematics] | None = None
+        self.extension, self.limits = extension, Limits() if limits is None else limits
+        self.solver = StepSolver(solver, engine, accuracy, certify, cone)
+        self.tracker = ContactTracker(self.pairs)
+        blocks = self.solver.takes_blocks and extension is None and system.rigid
+        self.geometry = contact_geometry(self.layout, system.motion, blocks)
+
+    @property
+    def backend(self) -> str:
+        """Name of the backend."""
+        return self.solver.backend
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        settings: dict[str, Any] = {
+            "h": self.h,
+            "K_q": self.K_q,
+            "gravity": self.gravity,
+            "feels_gravity": self.weighs[: self.system.n_a],
+            "solver": self.solver.backend,
+            "engine": self.solver.asked,
+            "accuracy": self.solver.accuracy,
+            "certify": self.solver.certify,
+            "cone": self.cone,
+            "extension": self.extension,
+            "limits": self.limits,
+        }
+        return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
@@ -153,31 +167,25 @@ class Simulator:
 
         Raises
         ------
+        StepDataError
+            If a force has another shape, or a number is not finite.
         StepNotSolved
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
         """
         lap = Stopwatch()
-        kinematics = self.kinematics(q)
+        kinematics = self.system.kinematics(q)
         points = self.tracker.closest_points(kinematics.R, kinematics.t)
         lap("distances")
-        step = self.step_data(q, q_bar_a, force, points, kinematics)
-        step, own = self.extended(step, q)
+        step, own = self.extended(self.step_data(q, q_bar_a, force, points, kinematics), q)
         lap("rows")
-        solution = self.solved(step, own)
+        solution = self.solver.solution(step, own)  # Eq. (13)
         self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
-        self.limits.check_reach(step, self.system.links, self.kinematics(q_next).t)
+        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
-
-    def kinematics(self, q: Array) -> Kinematics:
-        """Poses and Jacobians at q; those of the end of a step serve the next one too."""
-        key = np.asarray(q, dtype=np.float64).tobytes()
-        if self._here is None or self._here[0] != key:
-            self._here = key, self.system.kinematics(q)
-        return self._here[1]
 
     def step_data(
         self,
@@ -187,19 +195,22 @@ class Simulator:
         points: ClosestPoints,
         kinematics: Kinematics,
     ) -> StepData:
-        """The problem of one step: everything in Eq. :eq:`eq-13` at q."""
+        """The problem of one step: everything in Eq. :eq:`eq-13` at q.
+
+        Raises
+        ------
+        StepDataError
+            If the force has another shape.
+        """
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self._gravity) + force
+        tau = self.weighs * system.gravity_force(q, self.gravity) + force
+        if tau.shape != self.weighs.shape:
+            problem = f"must have shape {self.weighs.shape}"
+            raise StepDataError(problem, field="force", value=np.shape(force))
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
-        tau_a, tau_u, M_u, like = tau[:n_a], tau[n_a:], system.M_u(q), self._like
-        if like is None or tau.shape != self.weighs.shape:  # checked once, or to say what is wrong
-            at = self.geometry.contacts(points, kinematics)
-            step = StepData(self.h, self.K_q, M_u, tau_a, tau_u, delta_q_bar_a, at, self.cone)
-        else:
-            at = self.geometry.contacts(points, kinematics, like.contacts)
-            step = like.moved(M_u, tau_a, tau_u, delta_q_bar_a, at)
-        self._like = step
-        return step
+        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
+        constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
+        return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
@@ -207,15 +218,3 @@ class Simulator:
         if own is not None and (rows := extension_rows(step, own)) is not None:
             return with_rows(step, rows), None
         return step, own
-
-    def solved(self, step: StepData, own: Extension | None = None) -> StepSolution:
-        """The step solved, by a solver that is made once."""
-        if self.solver is None or not self.solver.fits(step):
-            self.solver = solver_for(step, self.backend, self.engine)
-        return solve_step(
-            step,
-            self.backend if own is not None and self._curved == CVXPY else self.solver,
-            accuracy=self.accuracy,
-            certify=self.certify,
-            extension=own,
-        )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.data import Array
 
 
@@ -32,7 +34,8 @@ def piecewise_linear(times: Array, values: Array, t: float) -> Array:
     return np.asarray(values[i] if s == 0 else (1 - s) * values[i] + s * values[i + 1])
 
 
-class JointTrack:
+@dataclass(frozen=True, eq=False)
+class JointTrack(Plain):
     """The target of one actuated joint: linear for scalar joints, geodesic for a base.
 
     Parameters
@@ -50,12 +53,18 @@ class JointTrack:
         If the times do not increase.
     """
 
-    def __init__(self, system: System, joint: Joint, times: Array, values: Array) -> None:
-        if not (np.diff(times) > 0).all():
+    system: System
+    joint: Joint
+    times: Array
+    values: Array
+
+    def __post_init__(self) -> None:
+        if not (np.diff(self.times) > 0).all():
             raise ScenarioError(
-                "waypoint times must increase", field=f"targets of {joint.name}", value=times
+                "waypoint times must increase",
+                field=f"targets of {self.joint.name}",
+                value=self.times,
             )
-        self.system, self.joint, self.times, self.values = system, joint, times, values
 
     def at(self, t: float) -> Array:
         """The joint's entries of q at time t, shape (nq,)."""
@@ -78,7 +87,8 @@ class JointTrack:
         return q
 
 
-class Targets:
+@dataclass(frozen=True, eq=False)
+class Targets(Plain):
     """q_bar_a as a function of time.
 
     Parameters
@@ -88,8 +98,8 @@ class Targets:
     tracks : sequence of JointTrack
     """
 
-    def __init__(self, q_a_start: Array, tracks: Sequence[JointTrack]) -> None:
-        self.q_a_start, self.tracks = q_a_start, tuple(tracks)
+    q_a_start: Array
+    tracks: Sequence[JointTrack]
 
     def __call__(self, t: float) -> Array:
         """q_bar_a at time t [s], shape (n_q_a,)."""

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError, nearest_name
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.simulate.table import data_frame
@@ -41,7 +42,7 @@ PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Plain):
     """A run, or the part of it that succeeded.
 
     Parameters
@@ -74,7 +75,7 @@ class Trajectory:
 
     header: Mapping[str, Any]
     arrays: Mapping[str, NDArray[Any]]
-    seconds: Mapping[str, Array] = field(default_factory=dict)
+    seconds: Mapping[str, Array] = field(default_factory=dict, compare=False)
     scene: Scene | None = field(default=None, compare=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:

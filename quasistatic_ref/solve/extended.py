@@ -18,6 +18,8 @@ from quasistatic_ref.certify.conic import ConicProgram, conic_residuals
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.backends import backend, cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
+from quasistatic_ref.solve.solver import RELAXED
+from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Extra, StepData
@@ -26,9 +28,6 @@ from quasistatic_ref.step.friction import cone_function, contact_wrenches, frict
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
-
-RELAXED = (1.0, 1e2, 1e4)
-"""Accuracies tried, relative to the one asked for: curved cones seldom reach 1e-12."""
 
 
 def extension_rows(step: StepData, extension: Extension) -> Extra | None:
@@ -185,7 +184,9 @@ def _solved(
     """Solve the conic program and judge the raw answer; its values are left in the problem."""
     solver = name.upper()
     try:
-        data, chain, inverse = problem.problem.get_problem_data(solver, solver_opts=options)
+        data, chain, inverse = problem.problem.get_problem_data(
+            solver, canon_backend=CANON, solver_opts=options
+        )
         raw = chain.solve_via_data(problem.problem, data, False, False, options)
         with warnings.catch_warnings():
             # "Solution may be inaccurate" is dealt with below, by the status.

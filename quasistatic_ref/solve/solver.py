@@ -40,7 +40,7 @@ KIND: dict[str, Callable[[StepData], Any]] = {
     "rows of the user's own": lambda step: len(step.extra.names),
     "h": lambda step: step.h,
     "mu_v": lambda step: step.contacts.mu_v,
-    "mu_omega": lambda step: step.contacts.mu_omega,
+    "mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
 }
 """What the steps of one compiled problem may have in common."""
 

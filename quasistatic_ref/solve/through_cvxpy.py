@@ -28,6 +28,10 @@ from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 
+CANON = cp.CPP_CANON_BACKEND
+"""CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
+another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
+
 KEPT = 2
 """Compiled programs that are kept: one program in raw and in natural units."""
 
@@ -105,7 +109,7 @@ def cvxpy_reply(compiled: Compiled, name: str, options: Options, warm: bool) -> 
     with warnings.catch_warnings():
         # "Solution may be inaccurate" is dealt with below, by the status.
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
-        problem.solve(solver=name.upper(), warm_start=warm, **options)
+        problem.solve(solver=name.upper(), warm_start=warm, canon_backend=CANON, **options)
     seconds = time.perf_counter() - begin
     status, stats = str(problem.status), problem.solver_stats
     known = all(x.value is not None for x in problem.variables() if x.size)
@@ -137,7 +141,7 @@ class PlainProgram:
         objective = cp.quad_form(self.x, cp.psd_wrap(form.H)) / 2 - self.g @ self.x
         self.rows = form.A @ self.x >= form.b
         self.problem = cp.Problem(cp.Minimize(objective), [self.rows])
-        self.problem.get_problem_data(name.upper(), solver_opts={})
+        self.problem.get_problem_data(name.upper(), canon_backend=CANON, solver_opts={})
 
     def primal(self) -> Array:
         """X of the last solve, shape (n,)."""

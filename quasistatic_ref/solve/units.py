@@ -144,9 +144,8 @@ def to_natural(step: StepData, units: Units) -> StepData:
     """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are."""
     S, ell, rho = units.coordinate, units.length, units.size
     S_a, S_u = S[: step.n_a], S[step.n_a :]
-    contacts = replace(
-        step.contacts, phi=step.contacts.phi / (rho * ell), J=step.contacts.J * (S / ell)
-    )
+    dense = step.contacts.dense()
+    contacts = replace(dense, phi=dense.phi / (rho * ell), J=dense.J * (S / ell))
     extra = Extra(step.extra.names, step.extra.A * (S / ell), step.extra.b / (rho * ell))
     return step.replace(
         K_q=step.K_q * np.outer(S_a, S_a),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextvars import copy_context
 from typing import Any
 
@@ -28,13 +29,15 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def numbers(value: Any, name: str) -> Array:
-    """A float64 copy of real numbers, of the same shape.
+    """Real numbers as a float64 array, of the same shape; not a copy if they are one already.
 
     Raises
     ------
     StepDataError
         Of strings, booleans and ragged lists.
     """
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        return value
     try:
         array = np.array(value)
         if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
@@ -64,23 +67,64 @@ def names(value: Any, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
-def freeze(owner: Any, key: str, shape: tuple[int, ...], prefix: str = "") -> None:
-    """Replace a field by a read-only float64 copy, -0.0 becoming 0.0.
+def frozen(given: Mapping[str, tuple[Any, tuple[int, ...]]], prefix: str = "") -> dict[str, Array]:
+    """Read-only float64 copies of numbers of any units [-], -0.0 becoming 0.0.
+
+    They share one piece of memory, so that one look tells whether all of them are finite.
+
+    Parameters
+    ----------
+    given : mapping of str to (numbers, shape)
+        By the name of the field, which messages show behind the prefix.
+    prefix : str
+
+    Returns
+    -------
+    dict of str to ndarray
+        By field, each of its shape.
 
     Raises
     ------
     StepDataError
-        If it holds no finite numbers, or is of another shape.
+        If some are no finite numbers, or not of that shape.
     """
-    name = f"{prefix}.{key}" if prefix else key
-    array = numbers(getattr(owner, key), name) + 0.0
-    if array.size == 0 and 0 in shape:
-        array = array.reshape(shape)
-    if array.shape != shape:
-        raise StepDataError(f"must have shape {shape}", field=name, value=array.shape)
-    if not np.isfinite(array).all():
-        raise StepDataError("must hold finite numbers only", field=name, value=array.tolist())
-    object.__setattr__(owner, key, read_only(array))
+    flat = []
+    for key, (value, shape) in given.items():
+        array = numbers(value, prefix + key)
+        if array.shape != shape and (array.size or 0 not in shape):
+            problem = f"must have shape {shape}"
+            raise StepDataError(problem, field=prefix + key, value=array.shape)
+        flat.append(array.ravel())
+    whole = read_only(np.concatenate(flat) + 0.0)
+    if np.count_nonzero(np.isfinite(whole)) < whole.size:
+        for key, array in zip(given, flat, strict=True):
+            if not np.isfinite(array).all():
+                value = array.reshape(given[key][1]).tolist()
+                problem = "must hold finite numbers only"
+                raise StepDataError(problem, field=prefix + key, value=value)
+    found, start = {}, 0
+    for (key, (_, shape)), array in zip(given.items(), flat, strict=True):
+        found[key] = whole[start : start + array.size].reshape(shape)
+        start += array.size
+    return found
+
+
+def freeze(owner: Any, shapes: Mapping[str, tuple[int, ...]], prefix: str) -> None:
+    """Replace fields of a frozen dataclass, of those shapes, by :func:`frozen` of them."""
+    given = {key: (getattr(owner, key), shape) for key, shape in shapes.items()}
+    for key, array in frozen(given, prefix).items():
+        object.__setattr__(owner, key, array)
+
+
+def definite(name: str, matrix: Any, n: int) -> Array:
+    """A read-only copy, shape (n, n) [any unit], of a symmetric positive definite matrix.
+
+    Raises
+    ------
+    StepDataError
+        If it is none, not finite or of another shape.
+    """
+    return positive_definite(name, frozen({name: (matrix, (n, n))})[name])
 
 
 def positive_definite(key: str, S: Array) -> Array:

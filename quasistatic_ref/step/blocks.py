@@ -7,26 +7,46 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import Array, freeze
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class Blocks(Plain):
     """Of each contact, the columns of the coordinates that move one of its two bodies.
 
     Parameters
     ----------
     column : ndarray of int, shape (n_c, w)
-        Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w.
+        Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w. An
+        array that cannot be written is kept as it is, and says by being the same that steps have
+        their entries in the same places.
     J : ndarray, shape (n_c, 4, w)
         As J of ``Contacts``, those columns; zero where there are fewer.
     n_v : int
         Number of coordinates.
+
+    Raises
+    ------
+    StepDataError
+        If a shape is wrong, or a number is not finite.
     """
 
     column: NDArray[np.int64]
     J: Array
     n_v: int
+
+    def __post_init__(self) -> None:
+        column = np.asarray(self.column)
+        if column.ndim != 2 or column.dtype.kind != "i":
+            problem = "must hold whole numbers, w for each contact"
+            raise StepDataError(problem, field="blocks.column", value=column.shape)
+        if column.flags.writeable:
+            column = column.astype(np.int64)
+            column.setflags(write=False)
+            object.__setattr__(self, "column", column)
+        freeze(self, {"J": (len(column), 4, column.shape[1])}, "blocks.")
 
     def dense(self) -> Array:
         """All columns, shape (n_c, 4, n_v)."""

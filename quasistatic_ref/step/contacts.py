@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -11,19 +10,87 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.arrays import columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import contacts_page
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 Array = NDArray[np.float64]
-ROWS = (4, 6)
+AXES = np.eye(3)
+ROWS = {4, 6}
+
+
+class Points(Plain):
+    """What contacts have, in whichever form their J is kept."""
+
+    name: tuple[str, ...]
+    phi: Array
+    n: Array
+    d1: Array
+    d2: Array
+    mu_v: Array
+    mu_omega: Array
+    rows: NDArray[np.int64]
+
+    def _check(self, **own: tuple[int, ...]) -> None:
+        """Check all fields, and `own` ones of those shapes."""
+        object.__setattr__(self, "name", names(self.name, "contacts.name"))
+        n_c = len(self.name)
+        shapes = {"phi": (n_c,), "mu_v": (n_c,), "mu_omega": (n_c,)}
+        vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
+        freeze(self, {**shapes, **vectors, **own}, "contacts.")
+        self._check_rows(n_c)
+        self._check_friction()
+        self._check_frames(n_c)
+
+    @property
+    def n_c(self) -> int:
+        """Number of contacts."""
+        return len(self.name)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
+        mu = np.empty((self.n_c, 3))
+        mu[:, 0] = mu[:, 1] = self.mu_v
+        mu[:, 2] = self.mu_omega * (self.rows == 6)
+        return read_only(mu)
+
+    def _check_rows(self, n_c: int) -> None:
+        whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
+        rows = self.rows if whole else numbers(self.rows, "contacts.rows")
+        if rows.shape != (n_c,) or not set(rows.tolist()) <= ROWS:
+            problem = "must be 4 or 6 for each contact"
+            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
+        if rows.flags.writeable or not whole:
+            object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
+
+    def _check_friction(self) -> None:
+        for key in ("mu_v", "mu_omega"):
+            mu = getattr(self, key)
+            if mu.min(initial=0.0) < 0:
+                j = int(mu.argmin())
+                field = f"contacts[{self.name[j]}].{key}"
+                raise StepDataError("must be >= 0", field=field, value=float(mu[j]))
+
+    def _check_frames(self, n_c: int) -> None:
+        axes = np.array([self.d1, self.d2, self.n])
+        # Not by matmul, which warns where numbers overflow; what overflows is no unit vector.
+        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
+        dextral = np.linalg.det(axes.transpose(1, 0, 2)) > 0
+        if n_c and not (defect.max() <= ORTHONORMAL and dextral.all()):
+            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~dextral).argmax())
+            raise StepDataError(
+                "d1, d2, n must be a right-handed orthonormal frame",
+                field=f"contacts[{self.name[j]}]",
+                value=axes[:, j].tolist(),
+            )
 
 
 @dataclass(frozen=True, eq=False)
-class Contacts(Lazy):
+class Contacts(Points):
     """The contact points of one step.
 
     Parameters
@@ -43,11 +110,6 @@ class Contacts(Lazy):
         Torsional friction coefficient, a length [m], >= 0.
     rows : ndarray of int, shape (n_c,)
         6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
-
-    Attributes
-    ----------
-    blocks : Blocks or None
-        In steps of many bodies, J without its zeros; J is then formed when somebody asks for it.
 
     Raises
     ------
@@ -69,83 +131,67 @@ class Contacts(Lazy):
     __repr__, _repr_html_ = shown(contacts_page)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "name", names(self.name, "contacts.name"))
-        n_c = len(self.name)
-        n_v = columns(self.J, "contacts.J", 3)
-        shapes = {"phi": (n_c,), "n": (n_c, 3), "d1": (n_c, 3), "d2": (n_c, 3)}
-        shapes |= {"J": (n_c, 4, n_v), "mu_v": (n_c,), "mu_omega": (n_c,)}
-        for key, shape in shapes.items():
-            freeze(self, key, shape, "contacts")
-        rows = numbers(self.rows, "contacts.rows")
-        if rows.shape != (n_c,) or not np.isin(rows, ROWS).all():
-            problem = "must be 4 or 6 for each contact"
-            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
-        object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
-        for key in ("mu_v", "mu_omega"):
-            bad = np.flatnonzero(getattr(self, key) < 0)
-            if bad.size:
-                at, value = self.name[bad[0]], float(getattr(self, key)[bad[0]])
-                raise StepDataError("must be >= 0", field=f"contacts[{at}].{key}", value=value)
-        frame = np.stack([self.d1, self.d2, self.n], axis=2)
-        with np.errstate(over="ignore", invalid="ignore"):  # what overflows is no unit vector
-            product = np.swapaxes(frame, 1, 2) @ frame
-            defect = np.abs(product - np.eye(3)).max(axis=(1, 2), initial=0)
-            dextral = np.einsum("ci,ci->c", np.cross(self.d1, self.d2), self.n) > 0
-        bad = np.flatnonzero(~(defect <= ORTHONORMAL) | ~dextral)
-        if bad.size:
-            raise StepDataError(
-                "d1, d2, n must be a right-handed orthonormal frame",
-                field=f"contacts[{self.name[bad[0]]}]",
-                value=frame[bad[0]].T.tolist(),
-            )
-
-    @property
-    def n_c(self) -> int:
-        """Number of contacts."""
-        return len(self.phi)
-
-    @cached_property
-    def mu(self) -> Array:
-        """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
-        mu_omega = np.where(self.rows == 6, self.mu_omega, 0.0)
-        return read_only(np.stack([self.mu_v, self.mu_v, mu_omega], axis=1))
+        self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
 
     @property
     def n_v(self) -> int:
         """Number of columns of J."""
-        return int(self.J.shape[-1]) if self.blocks is None else self.blocks.n_v
+        return int(self.J.shape[-1])
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-        return self.J @ delta_q if self.blocks is None else self.blocks.motion(delta_q)
+        return self.J @ delta_q
 
-    def moved(
-        self,
-        name: Callable[[], tuple[str, ...]],
-        *,
-        blocks: Blocks | None = None,
-        **geometry: Array,
-    ) -> Contacts:
-        """The same contacts elsewhere: `geometry` anew, unchecked.
+    def dense(self) -> Contacts:
+        """Themselves; see :class:`SparseContacts`."""
+        return self
 
-        With blocks in place of J, J is formed from them when somebody asks for it.
 
-        For steps in sequence: what does not depend on where they are is not made again, and
-        their names are not made before somebody asks for them.
+@dataclass(frozen=True, eq=False)
+class SparseContacts(Points):
+    """The contact points of a step of many bodies: as :class:`Contacts`, J without its zeros.
 
-        Parameters
-        ----------
-        name : callable
-            The names of the contacts.
-        blocks : Blocks, optional
-        geometry : ndarray
-            phi of shape (n_c,) [m], and n, d1, d2 and J in the shapes of the class.
-        """
-        other = object.__new__(Contacts)
-        other.__dict__.update(self.__dict__, **geometry, later={"name": name})
-        other.__dict__.pop("name", None)
-        other.__dict__.pop("blocks", None)
-        if blocks is not None:
-            other.__dict__.pop("J", None)
-            other.__dict__["blocks"], other.__dict__["later"]["J"] = blocks, blocks.dense
-        return other
+    Parameters
+    ----------
+    name, phi, n, d1, d2, mu_v, mu_omega, rows
+        As there.
+    blocks : Blocks
+        The columns of J that are not zero.
+    """
+
+    name: tuple[str, ...]
+    phi: Array
+    n: Array
+    d1: Array
+    d2: Array
+    blocks: Blocks
+    mu_v: Array
+    mu_omega: Array
+    rows: NDArray[np.int64]
+
+    __repr__, _repr_html_ = shown(contacts_page)
+
+    def __post_init__(self) -> None:
+        self._check()
+        if len(self.blocks.J) != self.n_c:
+            problem = f"must have {self.n_c} contacts"
+            raise StepDataError(problem, field="contacts.blocks", value=len(self.blocks.J))
+
+    @property
+    def J(self) -> Array:
+        """All of J, shape (n_c, 4, n_v): formed whenever it is asked for, and not kept."""
+        return read_only(self.blocks.dense())
+
+    @property
+    def n_v(self) -> int:
+        """Number of columns of J."""
+        return self.blocks.n_v
+
+    def motion(self, delta_q: Array) -> Array:
+        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
+        return self.blocks.motion(delta_q)
+
+    def dense(self) -> Contacts:
+        """The same contacts with all of J."""
+        own = (self.name, self.phi, self.n, self.d1, self.d2, self.J)
+        return Contacts(*own, self.mu_v, self.mu_omega, self.rows)

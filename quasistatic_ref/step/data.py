@@ -6,34 +6,37 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
-from typing import Any
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.plain import Plain, field_values
 from quasistatic_ref.step.arrays import (
     columns,
+    definite,
     freeze,
+    frozen,
     names,
     numbers,
-    positive_definite,
     read_only,
 )
-from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.cones import cone as cone_of
+from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import extra_page, step_page
 
-__all__ = ["Array", "Contacts", "Extra", "StepData"]
+__all__ = ["Array", "Contacts", "Extra", "SparseContacts", "StepData"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Extra:
+class Extra(Plain):
     """Polyhedral rows of the user's own, A delta_q >= b.
 
     Parameters
@@ -52,12 +55,52 @@ class Extra:
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
         n_v = columns(self.A, "extra.A", 2)
-        freeze(self, "A", (len(self.names), n_v), "extra")
-        freeze(self, "b", (len(self.names),), "extra")
+        m = len(self.names)
+        freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
 
 
-@dataclass(frozen=True, eq=False)
-class StepData:
+@lru_cache(maxsize=8)
+def no_rows(n_v: int) -> Extra:
+    """No rows of the user's own, of n_v coordinates."""
+    return Extra((), np.zeros((0, n_v)), np.zeros(0))
+
+
+class RowLayout(NamedTuple):
+    """Which rows of the cone the contacts have, and where those stand in A, b and lam.
+
+    Parameters
+    ----------
+    counts : ndarray of int, shape (n_c,)
+        Number of multipliers of each contact; in a polyhedral cone, of rows.
+    mask : ndarray of bool, shape (n_c, R)
+        Which of the cone's rows each contact has.
+    offsets : ndarray of int, shape (n_c + 1,)
+        Where each contact's rows start.
+    row_index : ndarray of int, shape (m,)
+        Which rows of all the cone's, contact-major, the contacts have.
+    row_contact : ndarray of int, shape (m,)
+        The contact that each row belongs to.
+    """
+
+    counts: NDArray[np.int64]
+    mask: NDArray[np.bool_]
+    offsets: NDArray[np.int64]
+    row_index: NDArray[np.int64]
+    row_contact: NDArray[np.int64]
+
+
+@lru_cache(maxsize=32)
+def row_layout(cone_name: str, rows: bytes) -> RowLayout:
+    """The layout of contacts in a cone, from the bytes of their ``rows``."""
+    counts = cone_of(cone_name).counts(np.frombuffer(rows, np.int64))
+    mask = np.arange(len(cone_of(cone_name).row_names)) < counts[:, None]
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    contact = np.repeat(np.arange(len(counts)), counts)
+    return RowLayout(*map(read_only, (counts, mask, offsets, np.flatnonzero(mask), contact)))
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class StepData(Plain):
     """Everything that Eq. :eq:`eq-13` needs.
 
     Parameters
@@ -74,17 +117,22 @@ class StepData:
         Generalised force on the un-actuated coordinates [N, N m].
     delta_q_bar_a : ndarray, shape (n_a,)
         Desired change of the actuated coordinates [m, rad].
-    contacts : Contacts
+    contacts : Contacts or SparseContacts
         The contact points considered.
     cone : str
         Friction cone; ``"pyramid"`` is the paper's. See :mod:`~quasistatic_ref.step.cones`.
-    extra : Extra
+    extra : Extra, optional
         Further rows; none by default.
 
     Raises
     ------
     StepDataError
         If a shape is wrong, a number is not finite, or H is not positive definite.
+
+    Notes
+    -----
+    Each field is checked, and copied read-only. The steps of a simulator are
+    :class:`~quasistatic_ref.step.posed.PosedStep`.
     """
 
     h: float
@@ -93,36 +141,52 @@ class StepData:
     tau_a: Array
     tau_u: Array
     delta_q_bar_a: Array
-    contacts: Contacts
-    cone: str = PYRAMID
-    extra: Extra = field(default=None)  # type: ignore[assignment]  # filled in __post_init__
+    contacts: Contacts  # or SparseContacts, which are read in the same way
+    cone: str
+    extra: Extra
 
     __repr__, _repr_html_ = shown(step_page)
 
-    def __post_init__(self) -> None:
-        h = numbers(self.h, "h")
-        if h.shape != () or not (np.isfinite(h) and h > 0):
-            raise StepDataError("must be a positive number of seconds", field="h", value=self.h)
-        object.__setattr__(self, "h", float(h))
-        if not isinstance(self.contacts, Contacts):
-            raise StepDataError("must be Contacts", field="contacts", value=self.contacts)
-        cone(self.cone)  # refuses a name that it does not know
-        n_a, n_u = np.size(self.tau_a), np.size(self.tau_u)
-        if self.extra is None:
-            object.__setattr__(self, "extra", Extra((), np.zeros((0, n_a + n_u)), np.zeros(0)))
-        freeze(self, "K_q", (n_a, n_a))
-        freeze(self, "M_u", (n_u, n_u))
-        freeze(self, "tau_a", (n_a,))
-        freeze(self, "tau_u", (n_u,))
-        freeze(self, "delta_q_bar_a", (n_a,))
-        for key in ("K_q", "M_u"):
-            object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
-        shape_of_J = (self.contacts.n_c, 4, self.contacts.n_v)
-        for key, shape in (("contacts.J", shape_of_J), ("extra.A", self.extra.A.shape)):
-            if shape[-1] != self.n_v:
-                raise StepDataError(
-                    f"must have n_a + n_u = {self.n_v} columns", field=key, value=shape
-                )
+    def __init__(
+        self,
+        h: float,
+        K_q: ArrayLike,
+        M_u: ArrayLike,
+        tau_a: ArrayLike,
+        tau_u: ArrayLike,
+        delta_q_bar_a: ArrayLike,
+        contacts: Contacts | SparseContacts,
+        cone: str = PYRAMID,
+        extra: Extra | None = None,
+    ) -> None:
+        cone_of(cone)  # refuses a name that it does not know
+        n_a, n_u = np.size(tau_a), np.size(tau_u)
+        n_v = n_a + n_u
+        extra = no_rows(n_v) if extra is None else extra
+        vectors = {
+            "tau_a": (tau_a, (n_a,)),
+            "tau_u": (tau_u, (n_u,)),
+            "delta_q_bar_a": (delta_q_bar_a, (n_a,)),
+        }
+        checked = {
+            "h": seconds(h),
+            "K_q": definite("K_q", K_q, n_a),
+            "M_u": definite("M_u", M_u, n_u),
+            **frozen(vectors),
+            "contacts": contacts,
+            "cone": cone,
+            "extra": extra,
+        }
+        if not isinstance(contacts, Contacts | SparseContacts):
+            raise StepDataError("must be Contacts", field="contacts", value=contacts)
+        if type(contacts) is not (checks := contacts.compared_as()):  # posed by a simulator
+            checked["contacts"] = checks(**field_values(contacts))
+        for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
+            if found != n_v:
+                problem = f"must have n_a + n_u = {n_v} columns"
+                raise StepDataError(problem, field=key, value=found)
+        for key, value in checked.items():
+            object.__setattr__(self, key, value)
 
     @property
     def n_a(self) -> int:
@@ -140,71 +204,57 @@ class StepData:
         return self.n_a + self.n_u
 
     @cached_property
+    def layout(self) -> RowLayout:
+        """Which rows of the cone the contacts have; one object for steps that have the same."""
+        return row_layout(self.cone, self.contacts.rows.tobytes())
+
+    @property
     def counts(self) -> NDArray[np.int64]:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
-        return read_only(cone(self.cone).counts(self.contacts.rows))
+        return self.layout.counts
 
-    @cached_property
+    @property
     def mask(self) -> NDArray[np.bool_]:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
-        return read_only(np.arange(len(cone(self.cone).row_names)) < self.counts[:, None])
+        return self.layout.mask
 
-    @cached_property
+    @property
     def offsets(self) -> NDArray[np.int64]:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return read_only(np.concatenate([[0], np.cumsum(self.counts)]))
+        return self.layout.offsets
 
-    @cached_property
+    @property
     def row_index(self) -> NDArray[np.int64]:
         """Which rows of all the cone's, contact-major, the contacts have, shape (m,)."""
-        return read_only(np.flatnonzero(self.mask))
+        return self.layout.row_index
 
-    @cached_property
+    @property
     def row_contact(self) -> NDArray[np.int64]:
         """The contact that each row belongs to, shape (m,)."""
-        return read_only(np.repeat(np.arange(self.contacts.n_c), self.counts))
+        return self.layout.row_contact
 
     @cached_property
     def H(self) -> Array:
         """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
-        H, n_a = np.zeros((self.n_v, self.n_v)), self.n_a
-        H[:n_a, :n_a] = self.h * self.K_q
-        H[n_a:, n_a:] = self.M_u / self.h
-        return read_only(H)
+        return hessian(self.h, self.K_q, self.M_u)
 
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated anew."""
-        return replace(self, **changes)
-
-    def moved(
-        self, M_u: Array, tau_a: Array, tau_u: Array, delta_q_bar_a: Array, contacts: Contacts
-    ) -> StepData:
-        """The same kind of step elsewhere: the rest is kept, and nothing is checked.
-
-        For steps in sequence, whose numbers are as good as those of the step before. M_u must be
-        read-only; while it is the same array, H is not formed again.
-        """
-        other = object.__new__(StepData)
-        loads = {"tau_a": tau_a, "tau_u": tau_u, "delta_q_bar_a": delta_q_bar_a}
-        other.__dict__.update(self.__dict__, contacts=contacts, M_u=M_u, **loads)
-        if M_u is not self.M_u:
-            other.__dict__.pop("H", None)
-        return other
-
-    def same_as(self, other: StepData) -> bool:
-        """Tell whether two steps hold the same numbers, bit for bit."""
-        return _same(self, other)
+        return StepData(**(field_values(self) | changes))
 
 
-def _same(one: Any, two: Any) -> bool:
-    for f in fields(one):
-        a, b = getattr(one, f.name), getattr(two, f.name)
-        if isinstance(a, Contacts | Extra):
-            if not _same(a, b):
-                return False
-        elif isinstance(a, np.ndarray):
-            if a.shape != b.shape or not np.array_equal(a, b):
-                return False
-        elif a != b:
-            return False
-    return True
+def hessian(h: float, K_q: Array, M_u: Array) -> Array:
+    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg]."""
+    n_a, n_v = len(K_q), len(K_q) + len(M_u)
+    H = np.zeros((n_v, n_v))
+    H[:n_a, :n_a] = h * K_q
+    H[n_a:, n_a:] = M_u / h
+    return read_only(H)
+
+
+def seconds(h: Any) -> float:
+    """A time step h [s], checked; StepDataError unless it is a positive number."""
+    value = numbers(h, "h")
+    if value.shape != () or not 0 < value < np.inf:
+        raise StepDataError("must be a positive number of seconds", field="h", value=h)
+    return float(value)

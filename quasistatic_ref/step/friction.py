@@ -28,6 +28,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone, direction
 from quasistatic_ref.step.contacts import Array, Contacts
+from quasistatic_ref.step.data import row_layout
 
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
@@ -209,9 +210,10 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     """
     if name == ELLIPSOID:
         return lam.reshape(-1, 4)[:, [1, 2, 0, 3]] / h
-    counts, rows = cone(name).counts(contacts.rows), cone_matrix(name)
-    impulses = np.zeros((contacts.n_c, len(rows)))
-    impulses[np.arange(len(rows)) < counts[:, None]] = lam
-    f_n, *sliding = (impulses @ rows).T
-    f_d1, f_d2, tau_n = contacts.mu.T * sliding
-    return np.stack([f_d1, f_d2, f_n, tau_n], axis=1) / h
+    mask = row_layout(name, contacts.rows.tobytes()).mask
+    impulses = np.zeros(mask.shape)
+    impulses[mask] = lam
+    f_n, f_d1, f_d2, tau_n = (impulses @ cone_matrix(name)).T
+    mu_v, _, mu_omega = contacts.mu.T
+    wrench = np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n])
+    return wrench.T / h

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.lazy import Lazy
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import certificate_page, solution_page
 
 
-@dataclass(frozen=True)
-class Certificate:
+@dataclass(frozen=True, eq=False)
+class Certificate(Plain):
     """What is known about an answer, and how.
 
     Parameters
@@ -83,7 +84,7 @@ class SolverStatistics(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class StepSolution(Lazy):
+class StepSolution(Plain):
     """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -100,7 +101,12 @@ class StepSolution(Lazy):
     backend : str
     certificate : Certificate
     statistics : SolverStatistics
+        Not compared: wall times are in it.
     cone : str
+
+    Notes
+    -----
+    Arrays are taken as they are, and cannot be written any more.
     """
 
     delta_q: Array
@@ -109,17 +115,14 @@ class StepSolution(Lazy):
     wrench: Array
     backend: str
     certificate: Certificate
-    statistics: SolverStatistics
+    statistics: SolverStatistics = field(compare=False)
     cone: str = "pyramid"
 
     __repr__, _repr_html_ = shown(solution_page)
 
-    @classmethod
-    def with_later_wrench(cls, wrench: Callable[[], Array], **fields: Any) -> StepSolution:
-        """A solution whose wrenches are formed when somebody asks for them."""
-        solution = object.__new__(cls)
-        solution.__dict__.update(fields, later={"wrench": wrench})
-        return solution
+    def __post_init__(self) -> None:
+        for key in ("delta_q", "lam", "lam_extra", "wrench"):
+            read_only(getattr(self, key))
 
     @property
     def status(self) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.errors import StepDataError
@@ -42,18 +44,24 @@ class Pattern:
         self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
         self.P = csc_matrix(np.triu(step.H))
         self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
-        self.blocks_column, self.M_u, self.K_q = blocks.column, step.M_u, step.K_q
+        self.like, self.blocks = step, blocks
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
-        blocks = step.contacts.blocks
+        like, blocks = self.like, step.contacts.blocks
+        if blocks is None or step.extra.names or (step.h, step.cone) != (like.h, like.cone):
+            return False
         return (
-            blocks is not None
-            and not step.extra.names
-            and blocks.column is self.blocks_column
-            and step.M_u is self.M_u
-            and step.K_q is self.K_q
+            _same(blocks.column, self.blocks.column)
+            and _same(step.contacts.rows, like.contacts.rows)
+            and _same(step.M_u, like.M_u)
+            and _same(step.K_q, like.K_q)
         )
+
+
+def _same(one: NDArray[Any], two: NDArray[Any]) -> bool:
+    """Whether two arrays are equal; in a run they are one, which is seen at once."""
+    return one is two or np.array_equal(one, two)
 
 
 @dataclass(frozen=True, eq=False)

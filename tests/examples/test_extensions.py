@@ -143,7 +143,7 @@ def test_rows_of_an_extension_travel_in_a_step_file(tmp_path):
     assert own is not None
     extended = with_rows(step, own)
     read = step_read(step_written(tmp_path / "step.json", extended))
-    assert read.same_as(extended)
+    assert read == extended
     answer = solve_step(step, extension=limits)
     again = solve_step(read, "piqp")
     np.testing.assert_allclose(again.delta_q, answer.delta_q, rtol=EXACT, atol=EXACT)

@@ -6,8 +6,10 @@ Then docs/studies.md, which lists them, is out of date, and the workaround may g
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems import problem_of
 from quasistatic_ref.lab.study.qp import units_of
+from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.problem import StepProblem
@@ -43,3 +45,16 @@ def test_proxqp_through_cvxpy_still_raises_on_a_warm_start_after_a_gap_changed()
     problem.fill(second)
     with pytest.raises(TypeError, match="incompatible function arguments"):
         problem.problem.solve(solver="PROXQP", warm_start=True)
+
+
+def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
+    some = pile((2, 1, 2))
+    step = some.simulator.step(some.q, np.zeros(0), some.force).step
+    fails, works = StepProblem(step), StepProblem(step)
+    assert sum(parameter.size for parameter in fails.parameters) >= 1000
+    fails.fill(step)
+    with pytest.raises(ValueError, match="truth value of an array"):
+        fails.problem.solve(solver="CLARABEL")
+    works.fill(step)
+    works.problem.solve(solver="CLARABEL", canon_backend=CANON)
+    assert works.problem.status == "optimal"

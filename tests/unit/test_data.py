@@ -175,13 +175,13 @@ def test_empty_blocks_and_no_contacts_are_steps_too(rng):
     assert random_step(rng, n_a=2, n_u=0, rows=()).n_v == 2
 
 
-def test_same_as_sees_every_bit():
-    assert STEP.same_as(STEP.replace())
+def test_equality_sees_every_bit():
+    assert STEP.replace() == STEP
     tau_u = STEP.tau_u.copy()
     tau_u[1] = np.nextafter(tau_u[1], INF)
-    assert not STEP.same_as(STEP.replace(tau_u=tau_u))
-    assert not STEP.same_as(STEP.replace(h=np.nextafter(STEP.h, 1.0)))
-    assert not STEP.same_as(STEP.replace(contacts=repeated(CONTACTS, [1, 0])))
-    assert not STEP.same_as(STEP.replace(contacts=changed(CONTACTS, name=("c0", "other"))))
-    assert not STEP.same_as(STEP.replace(contacts=changed(CONTACTS, rows=[4, 4])))
-    assert not STEP.same_as(STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])))
+    assert STEP.replace(tau_u=tau_u) != STEP
+    assert STEP.replace(h=np.nextafter(STEP.h, 1.0)) != STEP
+    assert STEP.replace(contacts=repeated(CONTACTS, [1, 0])) != STEP
+    assert STEP.replace(contacts=changed(CONTACTS, name=("c0", "other"))) != STEP
+    assert STEP.replace(contacts=changed(CONTACTS, rows=[4, 4])) != STEP
+    assert STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])) != STEP

@@ -9,10 +9,10 @@ from pathlib import Path
 import cvxpy as cp
 import numpy as np
 import pytest
-from quasistatic_ref.lab.study.piles import pile
 
+from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.simulate import simulator
+from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
@@ -42,7 +42,7 @@ def step(rng):
 @pytest.fixture
 def large_step(monkeypatch):
     """A step whose contacts are in blocks."""
-    monkeypatch.setattr(simulator, "SPARSE_FROM", 0)
+    monkeypatch.setattr(sparse_jacobian, "SPARSE_FROM", 0)
     some = pile((2, 1, 2))
     return some.simulator.step(some.q, np.zeros(0), some.force).step
 
@@ -202,13 +202,13 @@ def test_a_simulator_keeps_its_solver_while_steps_fit_and_makes_another_where_no
     some = load_scenario("two_finger_pinch", [f"solver.engine={engine}", "solver.certify=off"])
     run, q = some.simulator(), some.system.q_start
     result = run.step(q, some.targets(some.h))
-    first = run.solver
+    first = run.solver.kept
     run.step(result.q, some.targets(2 * some.h))
-    assert run.solver is first
+    assert run.solver.kept is first
     extra = Extra(("stop",), np.ones((1, result.step.n_v)), [-1.0])
-    solution = run.solved(result.step.replace(extra=extra))
-    assert run.solver is not first
-    assert type(run.solver) is type(first)
+    solution = run.solver.solution(result.step.replace(extra=extra))
+    assert run.solver.kept is not first
+    assert type(run.solver.kept) is type(first)
     assert solution.statistics.engine == engine
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import contacts
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
@@ -13,12 +14,12 @@ from quasistatic_ref.lab.scenes import piles
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.large import exponent, large_step, table
 from quasistatic_ref.model import world
-from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import SparseSolver, reachable
+from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
@@ -29,7 +30,7 @@ NO_TARGET = np.zeros(0)
 
 @pytest.fixture
 def always_sparse(monkeypatch):
-    monkeypatch.setattr(simulator, "SPARSE_FROM", 0)
+    monkeypatch.setattr(sparse_jacobian, "SPARSE_FROM", 0)
 
 
 def step_after(some, count):
@@ -103,23 +104,16 @@ def test_the_size_of_a_step_and_its_certificate_decide_whether_it_is_sparse(monk
         (entries + 1, "off", False),
         (entries, "full", False),
     ):
-        monkeypatch.setattr(simulator, "SPARSE_FROM", limit)
+        monkeypatch.setattr(sparse_jacobian, "SPARSE_FROM", limit)
         some = pile(BOXES, certify=certify)
         assert some.contacts == 24
         step = step_after(some, 1).step
         assert (step.contacts.blocks is not None) == sparse
 
 
-def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse):
-    some = pile(BOXES)
-    steps, taken = [], some.simulator.step
-
-    def noted(*given):
-        result = taken(*given)
-        steps.append(result.step)
-        return result
-
-    some.simulator.step = noted
+def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse, monkeypatch):
+    some, formed, dense = pile(BOXES), [], Blocks.dense
+    monkeypatch.setattr(Blocks, "dense", lambda blocks: formed.append(blocks) or dense(blocks))
     run = rollout(
         some.simulator,
         some.q,
@@ -130,7 +124,9 @@ def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sp
         progress=False,
     )
     assert run.steps == 3
-    assert not any("J" in step.contacts.__dict__ for step in steps)
+    assert not formed
+    assert step_after(some, 1).step.contacts.J.shape[1:] == (4, 24)
+    assert len(formed) == 1  # asked for, it is
 
 
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
@@ -154,9 +150,9 @@ def test_a_large_step_without_solution_is_no_answer(always_sparse):
     J[1::2] = J[::2]
     n, d1, d2 = (np.repeat(vectors[::2], 2, axis=0) for vectors in (at.n, at.d1, at.d2))
     n[1::2], d2[1::2] = -n[1::2], -d2[1::2]
-    blocks = replace(at.blocks, J=J)
-    torn = at.moved(lambda: at.name, blocks=blocks, phi=np.full(at.n_c, -1e-3), n=n, d1=d1, d2=d2)
-    stuck = step.moved(step.M_u, step.tau_a, step.tau_u, step.delta_q_bar_a, torn)
+    phi, blocks = np.full(at.n_c, -1e-3), replace(at.blocks, J=J)
+    torn = replace(at, phi=phi, n=n, d1=d1, d2=d2, blocks=blocks)
+    stuck = step.replace(contacts=torn)
     with pytest.raises(StepNotSolved, match="clarabel did not solve"):
         solve_step(stuck, solver, certify="off")
 

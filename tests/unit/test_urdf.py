@@ -1,7 +1,6 @@
 """URDF files: what is loaded is what was written, and anything else is refused in words."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +12,6 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model import urdf as urdf_module
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Sphere
 from quasistatic_ref.model.urdf import loaded_urdf
-from quasistatic_ref.model.urdf_file import UrdfFile
 from tests.tolerances import ROUNDING
 from tests.unit.urdf_texts import (
     BOX,
@@ -194,8 +192,9 @@ def test_a_loader_of_another_text_is_noticed(
     text = CHAIN if old != "0.1 0.2 0.3" else CHAIN.replace('size="0.1 0.2 0.3"', 'size="1 2 3"')
     assert old in text
 
-    def dishonest(file: UrdfFile, *others: object) -> tuple[pin.Model, pin.GeometryModel]:
-        return honest(replace(file, text=file.text.replace(old, new)), *others)
+    def dishonest(read: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
+        assert old in read
+        return honest(read.replace(old, new), base)
 
     monkeypatch.setattr(urdf_module, "_loaded", dishonest)
     with pytest.raises(ModelError, match=words):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.model.system import System
@@ -19,7 +20,6 @@ from quasistatic_ref.step.show import clipped, counted, html_page, number, short
 from tests.helpers import (
     changed,
     contacts_of,
-    no_contacts,
     point_on_floor,
     random_frame,
     random_step,

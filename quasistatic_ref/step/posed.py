@@ -1,0 +1,123 @@
+"""Steps as a simulator poses them: right by construction, and so not checked number by number.
+
+To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, equal to one of the
+same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.step.arrays import Array, definite
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.data import (
+    Extra,
+    RowLayout,
+    StepData,
+    hessian,
+    no_rows,
+    row_layout,
+    seconds,
+)
+
+
+class Constants(NamedTuple):
+    """What the steps of a simulator have in common, checked and formed once.
+
+    Parameters
+    ----------
+    h : float
+        Time step [s].
+    cone : str
+    K_q, M_u : ndarray, shapes (n_a, n_a) and (n_u, n_u)
+        As in :class:`~quasistatic_ref.step.data.StepData`.
+    extra : Extra
+        No rows of a user's own.
+    H : ndarray, shape (n_v, n_v)
+        Of Eq. :eq:`eq-13`.
+    layout : RowLayout
+    """
+
+    h: float
+    cone: str
+    K_q: Array
+    M_u: Array
+    extra: Extra
+    H: Array
+    layout: RowLayout
+
+    def at(self, M_u: Array) -> Constants:
+        """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
+        if M_u is self.M_u:
+            return self
+        return self._replace(M_u=M_u, H=hessian(self.h, self.K_q, M_u))
+
+
+def constants(
+    h: float, K_q: Array, n_a: int, M_u: Array, rows: NDArray[np.int64], cone: str = PYRAMID
+) -> Constants:
+    """The constants of steps of n_c contacts with `rows`, shape (n_c,).
+
+    Raises
+    ------
+    StepDataError
+        If h is not positive, or K_q or M_u not symmetric positive definite.
+    """
+    n_v, n_u = n_a + len(M_u), len(M_u)
+    h, K_q = seconds(h), definite("K_q", K_q, n_a)
+    definite("M_u", M_u, n_u)
+    layout = row_layout(cone, rows.tobytes())
+    return Constants(h, cone, K_q, M_u, no_rows(n_v), hessian(h, K_q, M_u), layout)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PosedContacts(Contacts):
+    """Contacts of a layout that was checked, at points and normals that were measured."""
+
+    def __post_init__(self) -> None:
+        for array in (self.phi, self.n, self.d1, self.d2, self.J):
+            array.setflags(write=False)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """They are compared as :class:`~quasistatic_ref.step.contacts.Contacts`."""
+        return Contacts
+
+
+class PosedStep(StepData):
+    """A step of a simulator.
+
+    Parameters
+    ----------
+    constant : Constants
+    tau_a, tau_u, delta_q_bar_a, contacts
+        As in :class:`~quasistatic_ref.step.data.StepData`; taken as they are, and not written any
+        more.
+    """
+
+    def __init__(
+        self,
+        constant: Constants,
+        tau_a: Array,
+        tau_u: Array,
+        delta_q_bar_a: Array,
+        contacts: Contacts | SparseContacts,
+    ) -> None:
+        for array in (tau_a, tau_u, delta_q_bar_a):
+            array.setflags(write=False)
+        own = (tau_a, tau_u, delta_q_bar_a, contacts)
+        for key, value in zip(NAMES, (*constant, *own), strict=True):
+            object.__setattr__(self, key, value)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """It is compared as :class:`~quasistatic_ref.step.data.StepData`."""
+        return StepData
+
+
+NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")
