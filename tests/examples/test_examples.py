@@ -156,10 +156,15 @@ def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
     assert needed < used < limit
 
 
-def test_the_shares_of_a_step_s_time_add_up_to_one():
-    milliseconds, *shares = numbers("time_of_a_step").values()
-    assert milliseconds > 0
-    np.testing.assert_allclose(sum(shares), 1.0, rtol=ROUNDING)
+def test_all_distances_make_a_step_longer_and_the_share_of_its_solve_smaller():
+    everything, tracked, *profiles = numbers("time_of_a_step").values()
+    assert everything == 3 * 992 > 2 * tracked
+    profiles = np.reshape(profiles, (-1, 2, 2))  # backends, tracker and brute force, time and share
+    assert (profiles[:, 0, 0] < profiles[:, 1, 0]).all()
+    assert (profiles[:, 0, 1] > profiles[:, 1, 1]).all()
+    # Only the distances differ: the solve itself is the same.
+    solve = profiles.prod(axis=2)
+    np.testing.assert_allclose(solve[:, 0], solve[:, 1], rtol=ROUNDING)
 
 
 def test_more_accuracy_means_more_digits_but_never_all():

@@ -27,7 +27,8 @@ SAMPLE = (
     f"{CONES} product: gap + slip - spin -> gap + slip + spin",
     f"{CONES} facets.rows: gap + c * slip_1 + s * slip_2 -> gap + c * slip_1 - s * slip_2",
     f"{CONES} rows_along: [J_n, J_1, J_2, J_w] -> [J_n, J_2, J_1, J_w]",
-    f"{CONES} contact_wrenches: [f_d1, f_d2, f_n, tau_n] -> [f_d2, f_d1, f_n, tau_n]",
+    f"{CONES} contact_wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
+    "[mu_v * f_d2, mu_v * f_d1, f_n, mu_omega * tau_n]",
     f"{CONES} contact_wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",
     f"{CONES} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
