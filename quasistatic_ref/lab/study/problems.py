@@ -25,7 +25,8 @@ from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
-FORMAT, VERSION = "quasistatic-ref/study-problems", 1
+FORMAT, VERSION = "quasistatic-ref/study-problems", 2
+"""Version 1 of the problems came from other scenes, and its rows were rounded in another order."""
 HEADER, FACTS, NUMBERS = "problems.json", "problems.jsonl", "problems.npz"
 NAMES: Final = ("H", "g", "A", "b", "delta_q", "net")
 AGAIN = "bunny_grasp"
