@@ -1,0 +1,125 @@
+"""Questions to the rows of the committed study, which the documentation quotes the answers of."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.lab.study.columns import chosen, columns_of, common, size
+from quasistatic_ref.lab.study.page import digits, milliseconds, percent
+from quasistatic_ref.lab.study.statistics import success
+from quasistatic_ref.lab.study.store import rows_read, study_read
+
+DEFAULT = Path(__file__).parents[2] / "validation" / "studies" / "default"
+FIELDS = ("label", "solver", "road", "setting", "units", "warm", "unit", "family", "problem",
+          "solved", "asked", "said_optimal", "wrong", "outcome", "digits", "seconds",
+          "iterations")  # fmt: skip
+WIDEST = {"road": "qpsolvers", "units": "natural", "warm": False}
+SETTINGS = ("default", "low", "mid", "high", "tuned")
+
+
+@cache
+def study():
+    return study_read(DEFAULT)
+
+
+@cache
+def rows():
+    return rows_read(DEFAULT)
+
+
+@cache
+def columns():
+    every = columns_of(rows(), study()["time_limit"])
+    return {name: every[name] for name in FIELDS}
+
+
+@cache
+def of_solver(solver):
+    return chosen(columns(), {"solver": solver})
+
+
+@cache
+def directly(units="natural"):
+    """What was asked directly and cold."""
+    return chosen(columns(), WIDEST | {"units": units})
+
+
+@cache
+def asked(solver, setting):
+    """A solver at a setting, on all problems."""
+    return chosen(directly(), {"solver": solver, "setting": setting})
+
+
+@cache
+def every_setting(units):
+    return common(directly(units), ["label", "setting"])
+
+
+@cache
+def shared(solver, setting, units="natural"):
+    """A solver at a setting, on the problems that all were asked on at every setting."""
+    return chosen(every_setting(units), {"solver": solver, "setting": setting})
+
+
+@cache
+def both(solver, setting, name, values, base=()):
+    """Two parts that differ in one field, on the problems that both have, in one order."""
+    part = common(chosen(of_solver(solver), {"setting": setting, **dict(base)}), [name])
+    return [ordered(chosen(part, {name: value})) for value in values]
+
+
+def ordered(part):
+    order = np.argsort(part["unit"])
+    return {name: column[order] for name, column in part.items()}
+
+
+def by_interface(solver, setting):
+    cold = (("units", "natural"), ("warm", False))
+    return both(solver, setting, "road", ("qpsolvers", "cvxpy"), cold)
+
+
+def by_start(solver, setting):
+    direct = (("units", "natural"), ("road", "qpsolvers"))
+    return both(solver, setting, "warm", (False, True), direct)
+
+
+def share(part, least=6.0):
+    return percent(success(part["digits"], least))
+
+
+def median(part):
+    return digits(float(np.median(part["digits"])))
+
+
+def time(part):
+    return milliseconds(float(np.median(part["seconds"])))
+
+
+def false_share(solver):
+    """False claims of those of success, at the solver's own setting, a whole number [%]."""
+    part = asked(solver, "default")
+    return f"{100 * part['wrong'].sum() / part['said_optimal'].sum():.0f}"
+
+
+def unsolved(part):
+    return percent(100 * float(np.mean(~part["solved"])))
+
+
+def missed(solver, *families, begins=""):
+    """Problems without 6 digits at 1e-9: how many of these families, and how many in all."""
+    part = asked(solver, "high")
+    bad = {name: column[part["digits"] < 6.0] for name, column in part.items()}
+    own = np.isin(bad["family"], families)
+    own |= np.char.startswith(bad["problem"], begins) if begins else False
+    return int(own.sum()), size(bad)
+
+
+@cache
+def spent():
+    """Seconds that each solver took, by road:solver, with starts, warm-ups and kills."""
+    found = {}
+    for row in rows():
+        label = f"{row['road']}:{row['solver']}"
+        found[label] = found.get(label, 0.0) + (row["seconds"]["spent"] or 0.0)
+    return found
