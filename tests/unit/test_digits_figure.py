@@ -8,7 +8,16 @@ from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
 from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
-from validation.digits_of_backends import ACCURACIES, BACKENDS, SUBJECT, records_read
+from tests.quoted import filled, stale
+from validation.digits_of_backends import (
+    ACCURACIES,
+    BACKENDS,
+    NATURAL,
+    RAW,
+    ROOT,
+    SUBJECT,
+    records_read,
+)
 
 LEGIBLE = 7.0  # points
 
@@ -48,6 +57,40 @@ def test_natural_units_are_worth_digits_at_every_accuracy():
             before, after = (by_setting[u, backend, accuracy] for u in (raw, natural))
             assert after.worst >= before.worst
             assert after.median >= before.median
+
+
+def quoted():
+    """The phrases of docs/exactness.md about these digits, each with what fills its braces."""
+    at = {(r.units, r.backend, r.accuracy): r for r in records_read()}
+
+    def worst(units, accuracy):
+        return [at[units, backend, accuracy].worst for backend in BACKENDS]
+
+    def ends(values):
+        return min(values), max(values)
+
+    settings = [(b, a) for b in BACKENDS for a in ACCURACIES]
+    gains = {one: at[NATURAL, *one].worst - at[RAW, *one].worst for one in settings}
+    daqp, osqp = at[RAW, "daqp", "1e-6"], at[RAW, "osqp", "default"]
+    lone = gains.pop(("osqp", "1e-3"))
+    return [
+        ("own defaults leave {:.1f} to {:.1f} digits at", lambda: ends(worst(RAW, "default"))),
+        ("An accuracy of 1e-3 leaves {:.1f} to {:.1f}:", lambda: ends(worst(RAW, "1e-3"))),
+        ("Natural units are worth {:.1f} to {:.1f} digits** at", lambda: ends(gains.values())),
+        ("(OSQP at 1e-3 gains {:.1f}), and cost none at any", lambda: [lone]),
+        ("DAQP at 1e-6 in raw units has {:.1f} digits at the median and {:.1f} at the worst step",
+         lambda: [daqp.median, daqp.worst]),
+        ("its best step has {:.1f} digits; its median has {:.1f}, its worst step {:.1f}.",
+         lambda: [osqp.best, osqp.median, osqp.worst]),
+        ("worst steps have {:.1f} digits (Clarabel), {:.1f} (OSQP, which is asked for 1e-10 at "
+         "most), {:.1f} (PIQP) and {:.1f} (DAQP).", lambda: worst(NATURAL, "1e-12")),
+    ]  # fmt: skip
+
+
+def test_the_page_on_exact_answers_quotes_the_committed_results():
+    wrong = stale((ROOT / "docs" / "exactness.md").read_text("utf-8"), filled(quoted()))
+    assert not wrong, "ought to read:\n" + "\n".join(wrong)
+    assert {r.unsolved for r in records_read()} == {0}
 
 
 def test_markers_are_the_medians_and_each_backend_has_its_own(drawn):
