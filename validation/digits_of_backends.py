@@ -45,12 +45,14 @@ RAW, NATURAL = "raw units (m, rad, kg)", "natural units"
 
 def grasp_steps() -> list[tuple[StepData, Array]]:
     """Every step of both runs, with its certified optimum."""
-    steps = []
-    for own in CASES.values():
-        run = load_scenario("bunny_grasp", own).run()
-        assert set(run["certificate"]) == {"exact"}
-        steps += [(run.step_data(k), run["delta_q"][k]) for k in range(run.steps)]
-    return steps
+    return [step for own in CASES.values() for step in steps_of(own)]
+
+
+def steps_of(own: list[str]) -> list[tuple[StepData, Array]]:
+    """Every step of one run of the grasp with these settings, with its certified optimum."""
+    run = load_scenario("bunny_grasp", own).run()
+    assert set(run["certificate"]) == {"exact"}
+    return [(run.step_data(k), run["delta_q"][k]) for k in range(run.steps)]
 
 
 @dataclass(frozen=True, eq=False)

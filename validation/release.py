@@ -86,6 +86,12 @@ RESULTS = (
         ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
     Result(
+        "options_of_backends",
+        ("validation.options_of_backends",),
+        ("validation/results/options_of_backends.csv",),
+        output="validation/results/options_of_backends.csv",
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),

@@ -88,15 +88,15 @@ GAP = 1e-2
 """How much smaller than the residuals the duality gap of interior-point methods must be.
 
 By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear load, a gap of
-1e-12 leaves an error of 1e-6 (measured on bunny_grasp: 8.7e-7; with 1e-14: 7e-8)."""
+1e-12 leaves an error of 1e-6 (Clarabel on bunny_grasp: 5e-7; with 1e-14: 6e-8)."""
 
 
 def _clarabel(accuracy: float) -> Attempts:
     feasibility = dict.fromkeys(("tol_feas", "tol_infeas_abs", "tol_infeas_rel"), accuracy)
     gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), GAP * accuracy)
     # Its static regularisation of 1e-8 is too much for steps with many dependent rows (any
-    # sticking patch): 30 in 2,000 grasp steps end "optimal_inaccurate". At 1e-10 and at 1e-12
-    # single other steps do, never the same ones.
+    # sticking patch): 4 of the 600 steps of bunny_grasp stop without it. In other scenes
+    # single steps do at 1e-10 or at 1e-12, never the same ones.
     return tuple(
         feasibility
         | gap
@@ -114,8 +114,8 @@ def _osqp(accuracy: float) -> Attempts:
     # No polishing: it prints to standard output, and improves none of the worst answers.
     common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
     common |= {"eps_prim_inf": accuracy, "eps_dual_inf": accuracy, "verbose": False}
-    # In natural units a fixed rho of about one suits nearly all steps, where the adaptive one
-    # runs away to 1e6 on one step in ten; on a step in fifty it is the other way round.
+    # In natural units a fixed rho of about one suits nearly all steps (all but 11 of the 600 of
+    # bunny_grasp), where the adaptive one, which may run away to 1e6, leaves 34 unsolved.
     fixed = common | {"adaptive_rho": False, "rho": 0.3}
     return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
 
@@ -129,7 +129,7 @@ def _piqp(accuracy: float) -> Attempts:
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
     gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from
-    # 6e-8 to 5e-11.
+    # 7e-8 to 4e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
     # The gap is a difference of sums over all rows: with thousands of rows rounding alone leaves
@@ -174,7 +174,7 @@ BACKENDS: dict[str, Backend] = {
     for b in (
         Backend("clarabel", "interior point", _clarabel, _plain_clarabel, adapter="Clarabel",
                 sparse=True, time_limit="time_limit", warm=("cvxpy",), required=True, cones=True),
-        # On bunny_grasp OSQP's residuals stop falling between 1e-11 and 1e-10 at the worst steps.
+        # At 1e-12 OSQP leaves more steps of bunny_grasp unsolved (docs/conventions.md).
         Backend("osqp", "operator splitting", _osqp, _plain_osqp, adapter="Osqp", sparse=True,
                 floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
         Backend("piqp", "proximal interior point", _piqp, _plain_proximal, adapter="Piqp",

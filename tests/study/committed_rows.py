@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.lab.study.columns import chosen, columns_of, common, size
+from quasistatic_ref.lab.study.columns import chosen, columns_of, common, groups, size
 from quasistatic_ref.lab.study.page import digits, milliseconds, percent
 from quasistatic_ref.lab.study.statistics import success
 from quasistatic_ref.lab.study.store import rows_read, study_read
@@ -24,14 +24,12 @@ def study():
 
 
 @cache
-def rows():
-    return rows_read(DEFAULT)
-
-
-@cache
 def columns():
-    every = columns_of(rows(), study()["time_limit"])
-    return {name: every[name] for name in FIELDS}
+    """The rows as the report has them, and what each took with starts, warm-ups and kills [s]."""
+    rows = rows_read(DEFAULT)
+    every = columns_of(rows, study()["time_limit"])
+    spent = np.array([row["seconds"]["spent"] or 0.0 for row in rows])
+    return {name: every[name] for name in FIELDS} | {"spent": spent}
 
 
 @cache
@@ -115,11 +113,6 @@ def missed(solver, *families, begins=""):
     return int(own.sum()), size(bad)
 
 
-@cache
 def spent():
-    """Seconds that each solver took, by road:solver, with starts, warm-ups and kills."""
-    found = {}
-    for row in rows():
-        label = f"{row['road']}:{row['solver']}"
-        found[label] = found.get(label, 0.0) + (row["seconds"]["spent"] or 0.0)
-    return found
+    """Seconds that each solver took, by road:solver."""
+    return {label: float(own["spent"].sum()) for (label,), own in groups(columns(), ["label"])}

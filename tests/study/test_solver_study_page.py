@@ -224,6 +224,18 @@ def test_every_number_of_the_page_is_that_of_the_committed_rows():
     assert unheld(page, phrases, CONSTANTS) == []
 
 
+def test_what_is_known_of_highs_is_that_of_the_committed_rows():
+    """In docs/studies.md."""
+    grasp = chosen(asked("highs", "default"), {"family": "bunny_grasp"})
+    every = of.of_solver("highs")
+    phrases = [
+        f"{grasp['solved'].sum()} of {size(grasp)} of `bunny_grasp` at its defaults.",
+        f"None of its {size(every):,} calls in the committed study met the time limit",
+    ]
+    assert stale(PAGE.with_name("studies.md").read_text("utf-8"), phrases) == []
+    assert "timeout" not in every["outcome"]
+
+
 def test_the_table_of_units_is_that_of_the_committed_rows():
     line = re.compile(r"^\| (\w+) \| (\w+) \| ([\d.]+) \| ([\d.]+) \|$", re.MULTILINE)
     lines = line.findall(PAGE.read_text("utf-8"))
