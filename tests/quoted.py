@@ -8,6 +8,11 @@ NO_QUOTE = re.compile(r"`[^`]*`|\]\([^)]*\)")
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
+def word(number):
+    """A small number as a word."""
+    return WORDS[number] if number < len(WORDS) else f"{number:,}"
+
+
 def flat(text):
     """A text in one line, single spaces."""
     return " ".join(text.split())

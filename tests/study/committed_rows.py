@@ -16,6 +16,11 @@ FIELDS = ("label", "solver", "road", "setting", "units", "warm", "unit", "family
           "iterations")  # fmt: skip
 WIDEST = {"road": "qpsolvers", "units": "natural", "warm": False}
 SETTINGS = ("default", "low", "mid", "high", "tuned")
+CVXPY = ("clarabel", "daqp", "highs", "osqp", "piqp", "proxqp", "qpalm", "scs")
+GIVEN = ("high", "tuned")
+"""Settings at which options are given, of those that were asked through CVXPY."""
+CHANGE = 0.5
+"""Digits that the page calls a change."""
 
 
 @cache
@@ -116,3 +121,46 @@ def missed(solver, *families, begins=""):
 def spent():
     """Seconds that each solver took, by road:solver."""
     return {label: float(own["spent"].sum()) for (label,), own in groups(columns(), ["label"])}
+
+
+def raw_and_natural(solver, setting):
+    return [share(shared(solver, setting, units)) for units in ("raw", "natural")]
+
+
+def median_raw_and_natural(solver):
+    return [median(shared(solver, "tuned", units)) for units in ("raw", "natural")]
+
+
+def overhead():
+    """Least and largest difference of the medians of both ways to a solver [ms]."""
+    found = [
+        1e3 * float(np.median(there["seconds"]) - np.median(here["seconds"]))
+        for here, there in (by_interface(s, setting) for s in CVXPY for setting in GIVEN)
+    ]
+    return min(found), max(found)
+
+
+def shares_by_interface(solver, setting):
+    return [share(part) for part in by_interface(solver, setting)]
+
+
+def other_shares():
+    """Whose share with 6 digits is another through CVXPY, where options are given."""
+    pairs = {(s, setting): shares_by_interface(s, setting) for s in CVXPY for setting in GIVEN}
+    return [name for name, (here, there) in pairs.items() if here != there]
+
+
+def other_digits():
+    """Of how many problems CVXPY changes the digits, where options are given."""
+    found = {}
+    for name in ((s, setting) for s in CVXPY for setting in GIVEN):
+        here, there = by_interface(*name)
+        if changed := int((abs(here["digits"] - there["digits"]) > CHANGE).sum()):
+            found[name] = changed, size(here)
+    return found
+
+
+def warm_iterations(solver):
+    """Median iterations from a cold and a warm start, by setting."""
+    parts = {setting: by_start(solver, setting) for setting in SETTINGS}
+    return {s: [float(np.median(p["iterations"])) for p in pair] for s, pair in parts.items()}
