@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 HERE = Path(__file__).parent
-POINTS = 992  # the paper, p. 4
+POINTS = 992  # the paper, III-B
 MASS = 0.2  # kg; the paper gives none
 START = 0
 

@@ -96,7 +96,8 @@ CLAIM = Claim(
     name="boundary_layer",
     sentence="A spun sphere sticks without any motion up to mu_omega m g; beyond, it lifts off by "
     "a boundary layer in proportion to h at a fixed rate, and to h^2 at a fixed torque.",
-    where="the paper, Fig. 3 and section III-A, which say h only; docs/derivations.md (R6)",
+    where="the paper, Fig. 3 ('proportional to the time step h', of sliding) and section III-A "
+    "('decreases with step size'); docs/derivations.md (R6)",
     sweep="sphere_spin, 200 torques up to five times mu_omega m g; seven time steps, 1 to 30 ms",
     reason="Stuck is zero, bit for bit: delta_q = 0 is the exact optimum. The paper's words for "
     "the lift-off are 'a fraction of a centimeter': less than 10 mm, and 1 mm at least, below "
