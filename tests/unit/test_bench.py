@@ -52,7 +52,7 @@ def test_the_roads_lead_to_the_same_step(at):
         result = native.step(q, goal)
         step, delta_q = result.step, result.solution.delta_q
         assert error(step, hand_step(at.scenario, q, goal), delta_q) <= OPTIMUM
-        x = BareDaqp(native.solver.kept.program)()[0]
+        x = BareDaqp(native.solver.program)()[0]
         alone, _ = from_natural(x, np.zeros(0), Scaled(step).units)
         assert error(step, alone, delta_q) <= ACTIVE_SET
 

@@ -212,4 +212,4 @@ def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
         else:
             with pytest.raises(BackendError):
                 simulator.step(q, goal)
-    assert replace(scenario, engine=None).simulator().solver.engine == "native"
+    assert replace(scenario, engine=None).simulator().engine == "native"

@@ -190,7 +190,7 @@ def test_the_problem_is_compiled_once(scenario):
     compiled = []
     for k in range(4):
         result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
-        compiled.append(simulator.solver.kept.problem.problem._cache.param_prog)
+        compiled.append(simulator.solver.problem.problem._cache.param_prog)
         q = result.q
     assert compiled[0] is not None
     assert all(program is compiled[0] for program in compiled)

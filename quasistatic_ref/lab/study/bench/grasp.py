@@ -21,7 +21,7 @@ from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import DEFAULT, installed, installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import CERTIFY, solve_step
+from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
 
 SETTINGS = ["solver.certify=off", "record=light"]
@@ -64,10 +64,10 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     run = _Run(at)
     native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
-    kept = native.solver.kept
-    assert isinstance(kept, NativeSolver)
-    assert isinstance(kept.program, Program)
-    alone_call = BareDaqp(kept.program)
+    solver = native.solver
+    assert isinstance(solver, NativeSolver)
+    assert isinstance(solver.program, Program)
+    alone_call = BareDaqp(solver.program)
     # Each in turn with a step of a native run, and that after another step: it then finds the
     # caches as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
@@ -172,12 +172,9 @@ DEFAULT_STEP = f"{CERTIFY[0]}, {DEFAULT} (default)"
 
 
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
-    """The parts of a step, with a solver of which nothing is kept."""
-    system, asked = simulator.system, simulator.solver
-    at = system.kinematics(q)
-    step = simulator.step_data(q, goal, 0.0, simulator.tracker.closest_points(at.R, at.t), at)
-    solution = solve_step(step, asked.backend, accuracy=asked.accuracy, certify=asked.certify)
-    system.kinematics(system.integrate(q, solution.delta_q))
+    """A step with a solver of which nothing is kept."""
+    simulator.solver = None
+    simulator.step(q, goal)
 
 
 def _brute_force(simulator: Simulator, q: Array) -> None:

@@ -134,7 +134,7 @@ class _Run:
         self.laps: list[list[float]] = []
         # The solver that the simulator makes for itself, with a clock at the backend's call.
         first = self.simulator.step(self.q, self.scenario.targets(self.scenario.h))
-        self.simulator.solver.kept = solver = NativeSolver(first.step, backend)
+        self.simulator.solver = solver = NativeSolver(first.step, backend)
         solver.adapter = _clocked(solver.adapter, self.calls)
 
     def step(self, k: int) -> tuple[Array, Array]:
