@@ -8,15 +8,13 @@ from typing import Any
 
 import coal
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.frozen import finite, freeze_array, freeze_lengths, freeze_size
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import ORTHONORMAL
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

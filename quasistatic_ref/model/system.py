@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model import screw
@@ -23,12 +23,12 @@ from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
 
-Array = NDArray[np.float64]
 _UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 

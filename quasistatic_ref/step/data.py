@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain, field_values
 from quasistatic_ref.step.arrays import (
+    Array,
     columns,
     definite,
     freeze,
@@ -31,8 +32,6 @@ from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import extra_page, step_page
 
 __all__ = ["Array", "Contacts", "Extra", "SparseContacts", "StepData"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,8 +26,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone, direction
-from quasistatic_ref.step.contacts import Array, Contacts
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout
 
 Rows: TypeAlias = "tuple[Any, ...]"
