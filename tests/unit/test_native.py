@@ -155,7 +155,7 @@ def test_a_step_in_sequence_is_one_that_passes_every_check():
     assert again == step
     assert again.contacts.name == step.contacts.name
     assert len(set(step.contacts.name)) == 15
-    for field in ("H", "counts", "mask", "offsets", "row_index", "row_contact"):
+    for field in ("H", "counts", "mask", "offsets"):
         np.testing.assert_array_equal(getattr(again, field), getattr(step, field))
 
 
