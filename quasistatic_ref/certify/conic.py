@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals
+from quasistatic_ref.certify.optimality import Residuals, residuals_of
 from quasistatic_ref.step.data import Array
 
 
@@ -75,12 +75,7 @@ def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:
         *(np.array([u @ v]) for u, v in zip(parts[2:], duals[2:], strict=True)),
     ]
     balance = program.P @ x + program.c + program.A.T @ z
-    return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),
-        primal=float(np.concatenate(primal).max(initial=0.0)),
-        dual=float(np.concatenate(dual).max(initial=0.0)),
-        complementarity=float(np.abs(np.concatenate(work)).max(initial=0.0)),
-    )
+    return residuals_of(balance, *map(np.concatenate, (primal, dual, work)))
 
 
 def _outside_ball(s: Array) -> Array:

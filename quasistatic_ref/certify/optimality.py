@@ -1,6 +1,6 @@
 """The optimality conditions (9)-(12) as residuals: an independent judge of any answer.
 
-Nothing here knows which solver, or which road to it, gave the answer.
+Nothing here knows which solver gave the answer, or by which interface it was asked.
 """
 
 from __future__ import annotations
@@ -40,6 +40,26 @@ class Residuals:
         return float(np.max(list(asdict(self).values())))
 
 
+def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:
+    """The largest violations among those of every coordinate and row.
+
+    Parameters
+    ----------
+    balance : ndarray, shape (n_v,)
+        What the forces do not balance [N s].
+    short, pull : ndarray, shape (m,)
+        How far a gap is negative [m], and how hard a row pulls [N s]; below 0 where it is well.
+    work : ndarray, shape (m,)
+        Slack times multiplier [N m s].
+    """
+    return Residuals(
+        stationarity=float(np.abs(balance).max(initial=0.0)),  # Eq. (9), mended
+        primal=float(short.max(initial=0.0)),  # Eq. (10)
+        dual=float(pull.max(initial=0.0)),  # Eq. (11)
+        complementarity=float(np.abs(work).max(initial=0.0)),  # Eq. (12)
+    )
+
+
 def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
     """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
@@ -60,13 +80,8 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
     unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
     balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
-    slack = A @ delta_q - b
-    return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),
-        primal=float(np.maximum(-slack, 0.0).max(initial=0.0)),  # Eq. (10)
-        dual=float(np.maximum(-lam, 0.0).max(initial=0.0)),  # Eq. (11)
-        complementarity=float(np.abs(slack * lam).max(initial=0.0)),  # Eq. (12)
-    )
+    slack = A @ delta_q - b  # Eq. (10): not negative
+    return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (9)-(12)
 
 
 def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
@@ -94,9 +109,4 @@ def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals
     short = np.concatenate([np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0], -slack[k:]])
     pulls = np.concatenate([np.linalg.norm(scaled, axis=1) - f[:, 0], without.ravel(), -lam[k:]])
     work = np.concatenate([np.sum(s * f, axis=1), slack[k:] * lam[k:]])
-    return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),
-        primal=float(short.max(initial=0.0)),  # Eq. (10)
-        dual=float(pulls.max(initial=0.0)),  # Eq. (11)
-        complementarity=float(np.abs(work).max(initial=0.0)),  # Eq. (12)
-    )
+    return residuals_of(balance, short, pulls, work)  # Eqs. (9)-(12)

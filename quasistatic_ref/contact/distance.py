@@ -86,13 +86,7 @@ def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
     if not found:
         empty = np.zeros((0, 3))
         return ClosestPoints(np.zeros(0), empty, empty, empty, np.zeros(0, dtype=np.int64))
-    return ClosestPoints(
-        phi=np.concatenate([f.phi for f in found]),
-        alpha=np.concatenate([f.alpha for f in found]),
-        beta=np.concatenate([f.beta for f in found]),
-        n=np.concatenate([f.n for f in found]),
-        point=np.concatenate([f.point for f in found]),
-    )
+    return ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:

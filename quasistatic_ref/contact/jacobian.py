@@ -125,19 +125,17 @@ def contact_jacobian(
     beta: Array,
     n: Array,
 ) -> Array:
-    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,)."""
+    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,).
+
+    Raises
+    ------
+    ContactError
+        If the kinematics are those of links that do not move.
+    """
     nothing = np.zeros(len(n))
     names = ("",) * len(n)
     layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)
-    return _geometry(layout, kinematics).jacobian(kinematics.columns, alpha, beta, n)
-
-
-def contacts(layout: ContactLayout, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
-    """The contacts of one step, for once."""
-    return _geometry(layout, kinematics).contacts(points, kinematics)
-
-
-def _geometry(layout: ContactLayout, kinematics: Kinematics) -> ContactGeometry:
     if kinematics.motion is None:
         raise ContactError("of links that do not move has no Jacobian", field="kinematics")
-    return ContactGeometry(layout, kinematics.motion)
+    geometry = ContactGeometry(layout, kinematics.motion)
+    return geometry.jacobian(kinematics.columns, alpha, beta, n)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.model.frozen import finite
 from quasistatic_ref.model.solid import Homogeneous, solid_urdf
 from quasistatic_ref.plain import Plain
 
@@ -78,7 +79,10 @@ class Body(Plain):
         if self.base == "planar" and np.any(np.asarray(self.rpy)[:2]):
             problem = "must be [0, 0, yaw]: a planar base stays upright"
             raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
-        positions = {name: self._position(name) for name in self.positions}
+        positions = {
+            joint: finite(value, f"{self.name}.positions.{joint}")
+            for joint, value in self.positions.items()
+        }
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
 
@@ -118,14 +122,3 @@ class Body(Plain):
             raise ModelError(problem, field=f"{self.name}.{key}", value=value)
         vector.setflags(write=False)
         return vector
-
-    def _position(self, name: str) -> float:
-        value = self.positions[name]
-        try:
-            position = float(value)
-        except (TypeError, ValueError):
-            position = np.nan
-        if not np.isfinite(position):
-            problem = "must be a finite number"
-            raise ModelError(problem, field=f"{self.name}.positions.{name}", value=value)
-        return position

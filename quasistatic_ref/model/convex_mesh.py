@@ -14,9 +14,9 @@ from scipy.spatial import ConvexHull, QhullError
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import freeze_array
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import CONVEX
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 BLOCK = 1 << 22
 """Points times planes handled at once: some tens of megabytes."""

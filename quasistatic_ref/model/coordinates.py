@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import Array
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 _TWISTS = {
     "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),

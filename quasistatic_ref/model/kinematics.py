@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.model.motion import Motion, cross_matrix
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

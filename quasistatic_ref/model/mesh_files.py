@@ -8,13 +8,12 @@ from typing import Any
 
 import coal
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.model.dae import check_dae
+from quasistatic_ref.step.arrays import Array
 
-Array = NDArray[np.float64]
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
 

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.arrays import Array
 
 CROSS = np.array(
     [

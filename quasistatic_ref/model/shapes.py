@@ -8,15 +8,13 @@ from typing import Any
 
 import coal
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.frozen import finite, freeze_array, freeze_lengths, freeze_size
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import ORTHONORMAL
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +48,8 @@ class Box(Plain):
 
 
 @dataclass(frozen=True, eq=False)
-class Cylinder(Plain):
-    """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m]."""
+class Round(Plain):
+    """A solid of revolution about its local z axis; radius and half_length in [m]."""
 
     radius: float
     half_length: float
@@ -59,6 +57,10 @@ class Cylinder(Plain):
     def __post_init__(self) -> None:
         freeze_size(self, "radius")
         freeze_size(self, "half_length")
+
+
+class Cylinder(Round):
+    """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m]."""
 
     @cached_property
     def coal(self) -> Any:
@@ -66,19 +68,11 @@ class Cylinder(Plain):
         return coal.Cylinder(self.radius, 2 * self.half_length)
 
 
-@dataclass(frozen=True, eq=False)
-class Capsule(Plain):
+class Capsule(Round):
     """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
 
     half_length is that of the segment, as in URDF and coal: the caps lie beyond it.
     """
-
-    radius: float
-    half_length: float
-
-    def __post_init__(self) -> None:
-        freeze_size(self, "radius")
-        freeze_size(self, "half_length")
 
     @cached_property
     def coal(self) -> Any:
@@ -86,19 +80,11 @@ class Capsule(Plain):
         return coal.Capsule(self.radius, 2 * self.half_length)
 
 
-@dataclass(frozen=True, eq=False)
-class Cone(Plain):
+class Cone(Round):
     """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
 
     radius [m] is that of the base.
     """
-
-    radius: float
-    half_length: float
-
-    def __post_init__(self) -> None:
-        freeze_size(self, "radius")
-        freeze_size(self, "half_length")
 
     @cached_property
     def coal(self) -> Any:

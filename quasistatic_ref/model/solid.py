@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import finite
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Sphere
+from quasistatic_ref.step.arrays import Array
 
-Array = NDArray[np.float64]
 Homogeneous = Sphere | Box | Cylinder | Capsule
 """The shapes that a URDF has a name for, meshes aside."""
 

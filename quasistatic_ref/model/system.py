@@ -12,25 +12,22 @@ from collections.abc import Sequence
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.show import shown
-from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 __all__ = ["Body", "Kinematics", "System"]
-
-Array = NDArray[np.float64]
-_UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
-"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 
 class System:
@@ -182,11 +179,7 @@ class System:
         ModelError
             Unless q_a has shape (n_q_a,).
         """
-        order, n = self._order, self.n_q_a
-        if np.shape(q_a) != (n,):
-            raise ModelError(f"must have shape ({n},)", field="q_a", value=np.shape(q_a))
-        q_next = q.copy()
-        q_next[:n] = q_a
+        order, q_next = self._order, self.with_actuated(q, q_a)
         change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
         return screw.changes(self._screws, q, q_next, change.take(order.v[: self.n_a]))
 
@@ -199,38 +192,14 @@ class System:
     def checked(self, q: ArrayLike) -> Array:
         """Copy of q, finite, of shape (n_q,), its quaternions of length one.
 
-        Quaternions off by more than rounding are normalised; the others keep their bits, so
-        that a recorded q replays as it was.
-
-        pinocchio and coal compute on with NaN and with a zero quaternion, and say nothing.
+        See :func:`~quasistatic_ref.model.configuration.configuration`.
 
         Raises
         ------
         ModelError
             If it is not a configuration; the message names the joint.
         """
-        try:
-            checked = np.array(q, dtype=np.float64) + 0.0
-        except (TypeError, ValueError):
-            raise ModelError("must be numbers", field="q", value=q) from None
-        if checked.shape != (self.n_q,):
-            raise ModelError(f"must have shape ({self.n_q},)", field="q", value=checked.shape)
-        for joint in self.joints:
-            part = checked[joint.q]
-            field = f"q[{joint.name}]"
-            if not np.isfinite(part).all():
-                raise ModelError("must be finite", field=field, value=part.tolist())
-            if joint.kind not in _UNIT_PART:
-                continue
-            unit = part[_UNIT_PART[joint.kind] :]
-            length = np.hypot.reduce(unit)
-            if abs(length - 1) > UNIT_QUATERNION:
-                what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
-                problem = f"its {what} must have length one"
-                raise ModelError(problem, field=field, value=unit.tolist())
-            if abs(length - 1) > UNIT_ROUNDING:
-                unit /= length
-        return checked
+        return configuration(self.joints, self.n_q, q)
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""

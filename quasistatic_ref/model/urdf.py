@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.shapes import PlacedShape
@@ -24,7 +23,6 @@ from quasistatic_ref.model.urdf_shapes import checked_shapes, resolved_text
 from quasistatic_ref.model.urdf_tree import link_poses
 from quasistatic_ref.tolerances import LOADED
 
-Array = NDArray[np.float64]
 BASE = "base"
 """Name of the joint of a floating or planar base."""
 BASES = {"floating": pin.JointModelFreeFlyer, "planar": pin.JointModelPlanar}

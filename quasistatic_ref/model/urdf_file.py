@@ -7,7 +7,6 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.files import bytes_read, text_of
@@ -23,9 +22,9 @@ from quasistatic_ref.model.urdf_xml import (
     only_attributes,
     xml_root,
 )
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
-Array = NDArray[np.float64]
 _MOVING = ("revolute", "continuous", "prismatic")
 MOST_LINKS = 1000
 """Most links in a file: urdfdom recurses from link to link, and ends the process where the

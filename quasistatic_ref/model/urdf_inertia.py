@@ -11,13 +11,11 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.urdf_file import FileLink, UrdfFile, inertia_defect
 from quasistatic_ref.model.urdf_tree import Pose, link_poses, rigid_groups
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.arrays import Array
 
 
 def group_inertias(file: UrdfFile) -> dict[str, Array]:

@@ -8,7 +8,6 @@ from typing import Any
 from xml.etree.ElementTree import tostring
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.mesh_files import hull_note, hull_of_loaded, mesh_path
@@ -16,8 +15,6 @@ from quasistatic_ref.model.shapes import PlacedShape, Solid
 from quasistatic_ref.model.urdf_file import FileMesh, UrdfFile
 from quasistatic_ref.model.urdf_xml import xml_root
 from quasistatic_ref.tolerances import LOADED
-
-Array = NDArray[np.float64]
 
 
 def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:

@@ -6,11 +6,10 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.step.arrays import Array
 
-Array = NDArray[np.float64]
 Pose = tuple[Array, Array]
 
 

@@ -12,14 +12,13 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
-Array = NDArray[np.float64]
 DEEPEST = 100
 """Most elements in one another; other readers of XML recurse, and end the process."""
 

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from quasistatic_ref.step.arrays import Array
 
 PART = 48
 """Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.body import Body
@@ -18,8 +17,7 @@ from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
 from quasistatic_ref.model.workspace import PART
 from quasistatic_ref.plain import Plain
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

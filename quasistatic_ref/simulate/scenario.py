@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,7 @@ from quasistatic_ref.solve.engines import ENGINES, check_solver, default_engine
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -92,8 +93,8 @@ class Scenario(Plain):
 
     __repr__, _repr_html_ = shown(scenario_page)
 
-    def simulator(self) -> Simulator:
-        """A simulator of this scenario."""
+    def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
+        """A simulator of this scenario, with an `extension` as it takes one."""
         return Simulator(
             self.system,
             self.pairs,
@@ -106,6 +107,7 @@ class Scenario(Plain):
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
+            extension=extension,
             limits=self.limits,
         )
 

@@ -17,11 +17,19 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.engines import (
+    CVXPY,
+    check_solver,
+    default_engine,
+    may_be_sparse,
+    solver_for,
+)
 from quasistatic_ref.solve.extended import extension_rows, with_rows
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -81,8 +89,8 @@ class Simulator:
         Name of a backend; it, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
-        As in :func:`~quasistatic_ref.solve.engines.solver_for`; ``"native"`` by default where that
-        reaches the backend and the cone.
+        As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
+        reaches the backend and the cone, and ``"cvxpy"`` for extensions that are more than rows.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
@@ -91,10 +99,19 @@ class Simulator:
         Beyond which no step is taken; by default those of
         :class:`~quasistatic_ref.simulate.limits.Limits`.
 
+    Attributes
+    ----------
+    backend : str
+        Name of the backend.
+    solver : Solver or None
+        What solved the last step; it takes the next one if that fits.
+
     Raises
     ------
     StepDataError
         If K_q, or M_u at the start, is not symmetric positive definite, or h not positive.
+    BackendError
+        If the backend is unknown or not installed, or the engine does not reach it.
     """
 
     __repr__, _repr_html_ = shown(simulator_page)
@@ -124,15 +141,13 @@ class Simulator:
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.solver = StepSolver(solver, engine, accuracy, certify, cone)
+        self.backend, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
+        self.engine = default_engine(solver, cone) if engine is None else engine
+        check_solver(solver, self.engine, cone)
+        self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = self.solver.takes_blocks and extension is None and system.rigid
+        blocks = may_be_sparse(self.engine, solver, certify) and extension is None and system.rigid
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
-
-    @property
-    def backend(self) -> str:
-        """Name of the backend."""
-        return self.solver.backend
 
     def __reduce__(self) -> tuple[Any, ...]:
         settings: dict[str, Any] = {
@@ -140,10 +155,10 @@ class Simulator:
             "K_q": self.K_q,
             "gravity": self.gravity,
             "feels_gravity": self.weighs[: self.system.n_a],
-            "solver": self.solver.backend,
-            "engine": self.solver.asked,
-            "accuracy": self.solver.accuracy,
-            "certify": self.solver.certify,
+            "solver": self.backend,
+            "engine": self.asked,
+            "accuracy": self.accuracy,
+            "certify": self.certify,
             "cone": self.cone,
             "extension": self.extension,
             "limits": self.limits,
@@ -179,7 +194,7 @@ class Simulator:
         lap("distances")
         step, own = self.extended(self.step_data(q, q_bar_a, force, points, kinematics), q)
         lap("rows")
-        solution = self.solver.solution(step, own)  # Eq. (13)
+        solution = self.solution(step, own)  # Eq. (13)
         self.limits.check_penetration(step)  # an infeasible step says more about itself
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
@@ -218,3 +233,13 @@ class Simulator:
         if own is not None and (rows := extension_rows(step, own)) is not None:
             return with_rows(step, rows), None
         return step, own
+
+    def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
+        """A step solved, perhaps with an extension that is more than rows."""
+        if self.solver is None or not self.solver.fits(step):
+            self.solver = solver_for(step, self.backend, self.engine)
+        by_name = extension is not None and (self.asked or CVXPY) == CVXPY
+        solver = self.backend if by_name else self.solver
+        return solve_step(
+            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
+        )

@@ -53,9 +53,8 @@ def simulator_page(simulator: Simulator) -> Page:
         f"Simulator: h = {simulator.h:g} s, {counted(simulator.system.n_v, 'coordinate')} "
         f"({simulator.system.n_a} actuated), {_touching(simulator.pairs)}"
     )
-    solver = simulator.solver
     facts = [
-        f"backend {solver.backend} ({solver.engine}), certify {solver.certify}, cone "
+        f"backend {simulator.backend} ({simulator.engine}), certify {simulator.certify}, cone "
         f"{simulator.cone}, gravity {vector(simulator.gravity)} m/s^2"
     ]
     return title, facts, PAIR, pair_rows(simulator.pairs)

@@ -24,9 +24,14 @@ from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Extension, Own, Symbols
-from quasistatic_ref.step.friction import cone_function, contact_wrenches, frictionless
+from quasistatic_ref.step.friction import cone_function, frictionless
 from quasistatic_ref.step.problem import StepProblem
-from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
+from quasistatic_ref.step.solution import (
+    Certificate,
+    SolverStatistics,
+    StepSolution,
+    step_solution,
+)
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
@@ -132,17 +137,8 @@ def extended_solution(
                 failure = failed
                 continue
             delta_q, lam = from_natural(problem.primal(), problem.dual(), units)
-            m = int(step.offsets[-1])
-            return StepSolution(
-                delta_q=delta_q,
-                lam=lam[:m],
-                lam_extra=lam[m:],
-                wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
-                backend=name,
-                certificate=Certificate("none") if certify == "off" else certificate,
-                statistics=statistics,
-                cone=step.cone,
-            )
+            claimed = Certificate("none") if certify == "off" else certificate
+            return step_solution(step, delta_q, lam, claimed, statistics)
     assert failure is not None  # a backend has at least one set of options
     raise failure
 

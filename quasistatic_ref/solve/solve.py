@@ -24,14 +24,17 @@ from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.solve.units import from_natural, natural_form
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.solution import (
+    Certificate,
+    SolverStatistics,
+    StepSolution,
+    step_solution,
+)
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
@@ -141,7 +144,7 @@ def _uncertified(
     answer = solver.answer(scaled, accuracy)
     certificate = NOTHING_CLAIMED if certify == "off" else _judged(scaled, solver, answer)
     delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
-    return _solution(scaled.step, delta_q, lam, certificate, answer.statistics)
+    return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
 
 
 def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
@@ -150,14 +153,14 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     answer, statistics = _attempt(scaled, solver, accuracy)
     warm: list[int] = []
     if answer is not None:
-        form = standard_form(scaled.natural)
+        form = natural_form(scaled.form, scaled.units)
         warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
     optimum = exact_step(step, warm)
     if answer is not None:
         statistics = _graded(scaled, answer, optimum.delta_q, optimum.net)
     residuals = _natural_residuals(scaled, optimum.delta_q, optimum.lam)
     certificate = exact_certificate(step, optimum, residuals)
-    return _solution(step, optimum.delta_q, optimum.lam, certificate, statistics)
+    return step_solution(step, optimum.delta_q, optimum.lam, certificate, statistics)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
@@ -171,7 +174,7 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
             raise StepNotSolved(solver.name, status, step, accuracy)
         certificate = _judged(scaled, solver, answer)
         delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
-        return _solution(step, delta_q, lam, certificate, statistics)
+        return step_solution(step, delta_q, lam, certificate, statistics)
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
@@ -179,7 +182,7 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
         statistics = _graded(scaled, answer, found.delta_q, found.net)
     residuals = _natural_residuals(scaled, found.delta_q, found.lam)
     certificate = enclosure_certificate(step, found, residuals)
-    return _solution(step, found.delta_q, found.lam, certificate, statistics)
+    return step_solution(step, found.delta_q, found.lam, certificate, statistics)
 
 
 def _attempt(
@@ -220,23 +223,3 @@ def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
         raise StepNotSolved(solver.name, status, scaled.step, asked, residuals)
     bound = scaled.bound(answer.delta_q, answer.lam)
     return Certificate("residual", asdict(residuals), error_bound=bound)
-
-
-def _solution(
-    step: StepData,
-    delta_q: Array,
-    lam: Array,
-    certificate: Certificate,
-    statistics: SolverStatistics,
-) -> StepSolution:
-    m = int(step.offsets[-1])
-    return StepSolution(
-        delta_q=delta_q,
-        lam=lam[:m],
-        lam_extra=lam[m:],
-        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
-        backend=statistics.backend,
-        certificate=certificate,
-        statistics=statistics,
-        cone=step.cone,
-    )

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
-from quasistatic_ref.certify.optimality import Residuals
+from quasistatic_ref.certify.optimality import Residuals, residuals_of
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
@@ -142,12 +142,7 @@ class SparseStep:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         balance = self.H @ delta_q - self.g - self.A.T @ lam
         slack = self.A @ delta_q - self.b
-        return Residuals(
-            stationarity=float(np.abs(balance).max(initial=0.0)),  # Eq. (9), mended
-            primal=float(np.maximum(-slack, 0.0).max(initial=0.0)),  # Eq. (10)
-            dual=float(np.maximum(-lam, 0.0).max(initial=0.0)),  # Eq. (11)
-            complementarity=float(np.abs(slack * lam).max(initial=0.0)),  # Eq. (12)
-        )
+        return residuals_of(balance, -slack, -lam, slack * lam)
 
     def bound(self, delta_q: Array, lam: Array) -> None:
         """No bound is known at this size."""

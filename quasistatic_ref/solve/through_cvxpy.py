@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 import warnings
 from collections import OrderedDict
-from typing import Protocol
 
 import cvxpy as cp
 import numpy as np
@@ -26,6 +25,7 @@ from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import StandardForm
 
 CANON = cp.CPP_CANON_BACKEND
@@ -79,24 +79,14 @@ class CvxpySolver(Solver):
         return cvxpy_reply(self.problem, self.name, attempt.options, False)
 
 
-class Compiled(Protocol):
-    """A CVXPY problem whose answers are read as x and lam."""
-
-    problem: cp.Problem
-
-    def primal(self) -> Array:
-        """X of the last solve, shape (n,)."""
-
-    def dual(self) -> Array | None:
-        """Its multipliers, shape (m,)."""
-
-
-def cvxpy_reply(compiled: Compiled, name: str, options: Options, warm: bool) -> Reply:
+def cvxpy_reply(
+    compiled: StepProblem | PlainProgram, name: str, options: Options, warm: bool
+) -> Reply:
     """The reply of a backend to a problem as its parameters stand.
 
     Parameters
     ----------
-    compiled : Compiled
+    compiled : StepProblem or PlainProgram
     name : str
         Of the backend.
     options : dict

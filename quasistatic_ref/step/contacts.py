@@ -11,13 +11,12 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import columns, freeze, names, numbers, read_only
+from quasistatic_ref.step.arrays import Array, columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import contacts_page
 from quasistatic_ref.tolerances import ORTHONORMAL
 
-Array = NDArray[np.float64]
 AXES = np.eye(3)
 ROWS = {4, 6}
 

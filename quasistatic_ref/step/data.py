@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain, field_values
 from quasistatic_ref.step.arrays import (
+    Array,
     columns,
     definite,
     freeze,
@@ -31,8 +32,6 @@ from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import extra_page, step_page
 
 __all__ = ["Array", "Contacts", "Extra", "SparseContacts", "StepData"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,17 +75,11 @@ class RowLayout(NamedTuple):
         Which of the cone's rows each contact has.
     offsets : ndarray of int, shape (n_c + 1,)
         Where each contact's rows start.
-    row_index : ndarray of int, shape (m,)
-        Which rows of all the cone's, contact-major, the contacts have.
-    row_contact : ndarray of int, shape (m,)
-        The contact that each row belongs to.
     """
 
     counts: NDArray[np.int64]
     mask: NDArray[np.bool_]
     offsets: NDArray[np.int64]
-    row_index: NDArray[np.int64]
-    row_contact: NDArray[np.int64]
 
 
 @lru_cache(maxsize=32)
@@ -95,8 +88,7 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     counts = cone_of(cone_name).counts(np.frombuffer(rows, np.int64))
     mask = np.arange(len(cone_of(cone_name).row_names)) < counts[:, None]
     offsets = np.concatenate([[0], np.cumsum(counts)])
-    contact = np.repeat(np.arange(len(counts)), counts)
-    return RowLayout(*map(read_only, (counts, mask, offsets, np.flatnonzero(mask), contact)))
+    return RowLayout(*map(read_only, (counts, mask, offsets)))
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -222,16 +214,6 @@ class StepData(Plain):
     def offsets(self) -> NDArray[np.int64]:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.layout.offsets
-
-    @property
-    def row_index(self) -> NDArray[np.int64]:
-        """Which rows of all the cone's, contact-major, the contacts have, shape (m,)."""
-        return self.layout.row_index
-
-    @property
-    def row_contact(self) -> NDArray[np.int64]:
-        """The contact that each row belongs to, shape (m,)."""
-        return self.layout.row_contact
 
     @cached_property
     def H(self) -> Array:

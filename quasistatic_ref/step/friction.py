@@ -26,8 +26,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone, direction
-from quasistatic_ref.step.contacts import Array, Contacts
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout
 
 Rows: TypeAlias = "tuple[Any, ...]"
@@ -185,9 +186,8 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     -------
     ndarray, shape (n_c, R)
     """
-    still = np.zeros(contacts.n_c)
-    motion = contacts.phi, still, still, still
-    return np.stack(motion if name == ELLIPSOID else cone_function(name)(*motion), axis=1)
+    of_gap = np.eye(4)[0] if name == ELLIPSOID else cone_matrix(name)[:, 0]
+    return np.asarray(np.multiply.outer(contacts.phi, of_gap))
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.arrays import read_only
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import certificate_page, solution_page
 
@@ -128,3 +129,24 @@ class StepSolution(Plain):
     def status(self) -> str:
         """``"optimal"``: anything else is raised, not returned."""
         return "optimal"
+
+
+def step_solution(
+    step: StepData,
+    delta_q: Array,
+    lam: Array,
+    certificate: Certificate,
+    statistics: SolverStatistics,
+) -> StepSolution:
+    """The solution of a step from delta_q (n_v,) and lam (m,), the user's own rows last."""
+    m = int(step.offsets[-1])
+    return StepSolution(
+        delta_q=delta_q,
+        lam=lam[:m],
+        lam_extra=lam[m:],
+        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
+        backend=statistics.backend,
+        certificate=certificate,
+        statistics=statistics,
+        cone=step.cone,
+    )

@@ -32,7 +32,7 @@ class Pattern:
     def __init__(self, step: StepData) -> None:
         blocks = in_blocks(step)
         m, n_v = int(step.offsets[-1]), step.n_v
-        column = blocks.column[step.row_contact]
+        column = np.repeat(blocks.column, step.counts, axis=0)  # of each row, (m, w)
         row = np.broadcast_to(np.arange(m)[:, None], column.shape)
         real = np.flatnonzero((column < n_v).ravel())
         # Counting the entries shows where each of them ends up among the columns.

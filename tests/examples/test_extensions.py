@@ -225,9 +225,8 @@ def test_an_extension_stands_beside_the_ellipsoid():
 
 def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     scenario = load_scenario("bunny_grasp", ["steps=8"])
-    simulator = scenario.simulator()
     h, n_a = scenario.h, scenario.system.n_a
-    simulator.extension = lambda q: velocity_limit(h, np.full(n_a, 1e-3))
+    simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
     trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
     assert set(trajectory["certificate"].tolist()) == {"exact"}
     np.testing.assert_array_less(np.abs(trajectory["delta_q"][:, :n_a]), 1e-3 * h * (1 + ROUNDING))

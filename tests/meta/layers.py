@@ -21,6 +21,7 @@ ROOMS = (
     "cli",
     "__main__",
     "lab/grasp",
+    "lab/runs",
     "lab/scenes",
     "lab/vectors",
     "lab/study",

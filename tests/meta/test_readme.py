@@ -24,6 +24,24 @@ def test_commands_are_read_from_shell_blocks_only():
     assert commands(text) == ["one --two"]
 
 
+PAGE_LINES = 650, 750
+"""What the README calls about 700."""
+
+
+def test_the_files_to_be_read_first_are_there_and_as_long_as_it_says():
+    text = (ROOT / "README.md").read_text()
+    assert "Five files of about 700 lines" in text
+    files = re.findall(r"^\d\. `(\w+/\w+\.py)`", text, re.MULTILINE)
+    assert [Path(name).stem for name in files] == [
+        "problem", "friction", "standard_form", "optimality", "simulator",
+    ]  # fmt: skip
+    package = ROOT / "quasistatic_ref"
+    lines = sum(len((package / name).read_text().splitlines()) for name in files)
+    assert PAGE_LINES[0] <= lines <= PAGE_LINES[1]
+    named = re.findall(r"`(\w+/\w+\.py)`", text[text.index("## Read it") :])
+    assert [name for name in named if not (package / name).is_file()] == []
+
+
 def test_the_tests_command_is_the_one_that_ci_runs():
     testing = [c for c in commands((ROOT / "README.md").read_text()) if "pytest" in c]
     assert len(testing) == 1

@@ -9,7 +9,7 @@ import pytest
 
 from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
-from quasistatic_ref.simulate import step_solver
+from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read, step_sha256, step_written
 from tests.helpers import point_on_floor
@@ -104,7 +104,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
-    honest, calls = step_solver.solve_step, []
+    honest, calls = simulator.solve_step, []
 
     def interrupted(*arguments, **options):
         calls.append(1)
@@ -112,7 +112,7 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
             raise KeyboardInterrupt
         return honest(*arguments, **options)
 
-    monkeypatch.setattr(step_solver, "solve_step", interrupted)
+    monkeypatch.setattr(simulator, "solve_step", interrupted)
     assert main(["run", scene, "--out", str(out)]) == 130
     assert one_sentence(capsys.readouterr().err).startswith(
         "step 2: interrupted; the first 2 steps"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import contact_jacobian, contacts, tangents
+from quasistatic_ref.contact.jacobian import ContactGeometry, contact_jacobian, tangents
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Sphere
 from tests.scenes import chain_scene
@@ -74,7 +74,7 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     ]
     kinematics, layout = system.kinematics(system.q_start), contact_layout(pairs)
     points = closest_points(pairs, kinematics)
-    found = contacts(layout, points, kinematics)
+    found = ContactGeometry(layout, system.motion).contacts(points, kinematics)
     assert layout.names == ("a", "a", "a", "b", "b", "c")
     assert layout.link_alpha.tolist() == [0, 0, 0, upper, upper, 0]
     assert layout.link_beta.tolist() == [box] * 5 + [upper]
@@ -94,6 +94,7 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
 def test_no_pairs_make_no_contacts(tmp_path):
     system = chain_scene(tmp_path)
     kinematics = system.kinematics(system.q_start)
-    found = contacts(contact_layout([]), closest_points([], kinematics), kinematics)
+    nowhere = ContactGeometry(contact_layout([]), system.motion)
+    found = nowhere.contacts(closest_points([], kinematics), kinematics)
     assert found.n_c == 0
     assert found.J.shape == (0, 4, system.n_v)

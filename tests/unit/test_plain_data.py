@@ -316,7 +316,7 @@ def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(thing
     assert (type(checked), type(checked.contacts)) == (StepData, Contacts)
     assert checked == posed
     assert things["Trajectory"].step_data(0) == posed
-    for name in ("H", "counts", "mask", "offsets", "row_index", "row_contact"):
+    for name in ("H", "counts", "mask", "offsets"):
         np.testing.assert_array_equal(getattr(checked, name), getattr(posed, name))
 
 

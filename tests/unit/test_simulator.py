@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError, ModelError, RunFailed, StepDataError
 from quasistatic_ref.model.system import Body, System
@@ -41,6 +41,7 @@ def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
     kinematics = system.kinematics(q)
     points = closest_points(scenario.pairs, kinematics)
     gravity = [0.0] * 4 + [-0.3 * GRAVITY] + [0.0] * 3  # on the ball, whose frame is the world's
+    geometry = ContactGeometry(contact_layout(scenario.pairs), system.motion)
     expected = StepData(
         h=0.01,
         K_q=np.diag([500.0, 2.5]),
@@ -48,7 +49,7 @@ def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
         tau_a=force[:2],
         tau_u=force[2:] + gravity[2:],
         delta_q_bar_a=[0.01, 0.3],
-        contacts=contacts(contact_layout(scenario.pairs), points, kinematics),
+        contacts=geometry.contacts(points, kinematics),
     )
     found = simulator.step(q, q_bar_a, force)
     for key in ("h", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
@@ -190,7 +191,7 @@ def test_the_problem_is_compiled_once(scenario):
     compiled = []
     for k in range(4):
         result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
-        compiled.append(simulator.solver.kept.problem.problem._cache.param_prog)
+        compiled.append(simulator.solver.problem.problem._cache.param_prog)
         q = result.q
     assert compiled[0] is not None
     assert all(program is compiled[0] for program in compiled)

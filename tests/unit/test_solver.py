@@ -202,13 +202,13 @@ def test_a_simulator_keeps_its_solver_while_steps_fit_and_makes_another_where_no
     some = load_scenario("two_finger_pinch", [f"solver.engine={engine}", "solver.certify=off"])
     run, q = some.simulator(), some.system.q_start
     result = run.step(q, some.targets(some.h))
-    first = run.solver.kept
+    first = run.solver
     run.step(result.q, some.targets(2 * some.h))
-    assert run.solver.kept is first
+    assert run.solver is first
     extra = Extra(("stop",), np.ones((1, result.step.n_v)), [-1.0])
-    solution = run.solver.solution(result.step.replace(extra=extra))
-    assert run.solver.kept is not first
-    assert type(run.solver.kept) is type(first)
+    solution = run.solution(result.step.replace(extra=extra))
+    assert run.solver is not first
+    assert type(run.solver) is type(first)
     assert solution.statistics.engine == engine
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes import piles
@@ -53,7 +53,7 @@ def test_blocks_are_the_columns_of_the_dense_jacobian_and_the_others_are_zero(sc
     q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
     kinematics = system.kinematics(q)
     points = closest_points(pairs, kinematics)
-    dense = contacts(layout, points, kinematics)
+    dense = ContactGeometry(layout, system.motion).contacts(points, kinematics)
     sparse = BlockGeometry(layout, system.motion).contacts(points, kinematics)
     assert sparse.n_v == system.n_v
     np.testing.assert_allclose(sparse.J, dense.J, rtol=EXACT, atol=ROUNDING)

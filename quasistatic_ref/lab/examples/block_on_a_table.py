@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.figures import draw_scene, moment, panels, styled
-from quasistatic_ref.lab.examples.runs import Numbers, ran, script
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.solve.solve import solve_step

@@ -12,7 +12,8 @@ import numpy as np
 
 from quasistatic_ref.figures import boundary_layer as drawing
 from quasistatic_ref.figures import styled
-from quasistatic_ref.lab.examples.runs import Numbers, ran, script
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.runs import ran
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

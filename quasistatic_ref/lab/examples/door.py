@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.figures import draw_scene, moment, panels, styled
-from quasistatic_ref.lab.examples.runs import Numbers, ran, script
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.figures import panels, styled
-from quasistatic_ref.lab.examples.runs import Numbers, ran, script
+from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
-from quasistatic_ref.lab.validate.paper.runs import grasp
+from quasistatic_ref.lab.runs import grasp, ran
 from quasistatic_ref.model.shapes import Box
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array

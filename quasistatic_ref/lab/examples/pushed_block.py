@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.figures import draw_scene, moment, panels, styled
-from quasistatic_ref.lab.examples.runs import Numbers, ran, script
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:

@@ -1,36 +1,19 @@
-"""What examples share: runs that are made once, and being a script."""
+"""What examples share: being a script."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.figures.style import figure_written
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Numbers = dict[str, float]
 """What an example came to: a quantity with its unit in brackets -> its value."""
-
-
-@cache
-def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
-    """A scenario that comes along, loaded and run; a second time without work.
-
-    Parameters
-    ----------
-    name : str
-    settings : str
-        Changes of it, as ``dotted.key=value``.
-    """
-    scenario = load_scenario(name, settings)
-    return scenario, scenario.run(progress=False)
 
 
 def script(main: Callable[[], Mapping[str, float]], figure: Callable[[], Figure]) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from quasistatic_ref.figures import styled
 from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.examples.runs import Numbers, script
-from quasistatic_ref.lab.validate.paper.runs import grasp
+from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.solve.solve import solve_step
 
 if TYPE_CHECKING:

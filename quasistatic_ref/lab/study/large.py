@@ -22,6 +22,8 @@ SHORT, FEW = 3, (1, 5, 25)
 """A row of SHORT bodies has five pairs: 5 contacts and more."""
 
 PILES = ((2, 2, 2), (3, 3, 3), (5, 5, 4))
+"""In three dimensions factors fill up: no exponent is promised."""
+
 WARM_UP, STEPS = 2, 5
 """Steps that are not timed, and that are."""
 
@@ -94,28 +96,6 @@ def large_step(
 def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
     """The power [-] of `sizes` as which `seconds` [s] grow: a line through the logarithms."""
     return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
-
-
-def chains(sizes: Sequence[int] = CHAINS, backend: str = "clarabel") -> list[LargeStep]:
-    """Rows of more and more bodies."""
-    return [large_step((n, 1, 1), backend=backend) for n in sizes]
-
-
-def contact_counts(counts: Sequence[int] = CONTACTS, backend: str = "clarabel") -> list[LargeStep]:
-    """A row of ROW bodies with more and more contacts."""
-    return [large_step((ROW, 1, 1), k, backend) for k in counts]
-
-
-def few_contacts(counts: Sequence[int] = FEW, backend: str = "clarabel") -> list[LargeStep]:
-    """A row of SHORT bodies with few contacts."""
-    return [large_step((SHORT, 1, 1), k, backend) for k in counts]
-
-
-def piles(
-    shapes: Sequence[tuple[int, int, int]] = PILES, backend: str = "clarabel"
-) -> list[LargeStep]:
-    """Three-dimensional piles, whose factors fill up: no exponent is promised."""
-    return [large_step(shape, backend=backend) for shape in shapes]
 
 
 def table(title: str, steps: Sequence[LargeStep]) -> str:

@@ -16,7 +16,6 @@ from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 
 UNITS = ("raw", "natural")
-ARRAYS = ("H", "g", "A", "b")
 
 
 @dataclass(frozen=True, eq=False)

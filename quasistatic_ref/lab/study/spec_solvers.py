@@ -8,7 +8,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError, suggestion
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.lab.study.solvers import Setting, Solver
+from quasistatic_ref.lab.study.solvers import ROADS, Setting, Solver
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
 BY_ROAD = {"cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy], "qpsolvers": list(BACKENDS)}
@@ -26,8 +26,7 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
     solvers = {}
     for name in tables.names():
         table = tables.table(name)
-        roads = ("cvxpy", "qpsolvers", "callable", "executable")
-        given = [road for road in roads if road in table]
+        given = [road for road in ROADS if road in table]
         if len(given) != 1:
             words = "must say one of cvxpy, qpsolvers, callable and executable"
             raise tables.fail(name, words, given or None)

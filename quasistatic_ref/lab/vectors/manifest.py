@@ -7,9 +7,6 @@ import json
 from pathlib import Path
 from typing import Final
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, json_read
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import VERSION, lines
 
@@ -44,29 +41,3 @@ def manifest_text(files: dict[str, bytes]) -> str:
         "files": listed,
     }
     return lines(record, listed=("files",))
-
-
-def manifest_complaints(folder: str | Path) -> list[str]:
-    """What of a folder is not as its manifest says, one sentence each.
-
-    Raises
-    ------
-    InputError
-        If there is no manifest, or it is none.
-    """
-    folder = Path(folder)
-    path = folder / MANIFEST
-    try:
-        top = Fields(json_read(path))
-        top.text("format", choices=(FORMAT,))
-        entries = [Fields(entry, f"files[{i}]") for i, entry in enumerate(top.sequence("files"))]
-        said = {entry.text("path"): entry.text("sha256") for entry in entries}
-    except InputError as error:
-        raise error.in_file(path) from None
-    complaints = []
-    for name, sha256 in said.items():
-        if not (folder / name).is_file():
-            complaints.append(f"{name} is missing")
-        elif hashlib.sha256(bytes_read(folder / name)).hexdigest() != sha256:
-            complaints.append(f"{name} is not the file that the manifest names")
-    return complaints

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import daqp
@@ -11,20 +13,14 @@ from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.tolerances import ACCURACY
 
 
-class BareDaqp:
-    """One call a time, with nothing around it.
+def bare_daqp(program: Program) -> Callable[[], Any]:
+    """``daqp.solve`` with nothing around it, of the program as it stands at the time of the call.
 
     Parameters
     ----------
     program : Program
-        Solved as it stands at the time of the call.
     """
-
-    def __init__(self, program: Program) -> None:
-        m = len(program.b)
-        unbounded, sense = np.full(m, np.inf), np.zeros(m, dtype=np.int32)
-        self._given = (program.H, program.f, program.A, unbounded, program.b, sense)
-
-    def __call__(self) -> Any:
-        """What ``daqp.solve`` returns."""
-        return daqp.solve(*self._given, primal_tol=ACCURACY, dual_tol=ACCURACY)
+    m = len(program.b)
+    unbounded, sense = np.full(m, np.inf), np.zeros(m, dtype=np.int32)
+    given = (program.H, program.f, program.A, unbounded, program.b, sense)
+    return partial(daqp.solve, *given, primal_tol=ACCURACY, dual_tol=ACCURACY)

@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.lab.study.bench.grasp import Places
+from quasistatic_ref.lab.study.bench.grasp import Places, brute_force
 from quasistatic_ref.lab.study.bench.timing import in_turn, microseconds, seconds
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.resources import models_folder
@@ -65,7 +64,7 @@ def clouds(at: Places, sizes: Sequence[int]) -> list[dict[str, Any]]:
     rows = []
     for n, scenario in scenarios.items():
         few = at.q[:: max(1, len(at.q) // (20 if n <= BRUTE else 2))]
-        brute = [{"": partial(_brute_force, scenario, q)} for q in few]
+        brute = [{"": partial(brute_force, scenario, q)} for q in few]
         rows.append(
             {
                 "points": n,
@@ -77,7 +76,3 @@ def clouds(at: Places, sizes: Sequence[int]) -> list[dict[str, Any]]:
             }
         )
     return rows
-
-
-def _brute_force(scenario: Scenario, q: Array) -> None:
-    closest_points(scenario.pairs, scenario.system.kinematics(q))

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.study.bench.bare import BareDaqp
+from quasistatic_ref.lab.study.bench.bare import bare_daqp
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
@@ -21,7 +21,7 @@ from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import DEFAULT, installed, installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import CERTIFY, solve_step
+from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
 
 SETTINGS = ["solver.certify=off", "record=light"]
@@ -64,10 +64,10 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     run = _Run(at)
     native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
-    kept = native.solver.kept
-    assert isinstance(kept, NativeSolver)
-    assert isinstance(kept.program, Program)
-    alone_call = BareDaqp(kept.program)
+    solver = native.solver
+    assert isinstance(solver, NativeSolver)
+    assert isinstance(solver.program, Program)
+    alone_call = bare_daqp(solver.program)
     # Each in turn with a step of a native run, and that after another step: it then finds the
     # caches as a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
@@ -75,7 +75,7 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
         "step, through CVXPY": lambda q, goal: partial(compiled.step, q, goal),
         "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, compiled, q, goal),
         "hand-written qpsolvers loop": lambda q, goal: partial(hand_step, at.scenario, q, goal),
-        "all distances, brute force": lambda q, goal: partial(_brute_force, native, q),
+        "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     told: dict[str, float] = {}
     ratios: dict[str, float] = {}
@@ -172,16 +172,14 @@ DEFAULT_STEP = f"{CERTIFY[0]}, {DEFAULT} (default)"
 
 
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
-    """The parts of a step, with a solver of which nothing is kept."""
-    system, asked = simulator.system, simulator.solver
-    at = system.kinematics(q)
-    step = simulator.step_data(q, goal, 0.0, simulator.tracker.closest_points(at.R, at.t), at)
-    solution = solve_step(step, asked.backend, accuracy=asked.accuracy, certify=asked.certify)
-    system.kinematics(system.integrate(q, solution.delta_q))
+    """A step with a solver of which nothing is kept."""
+    simulator.solver = None
+    simulator.step(q, goal)
 
 
-def _brute_force(simulator: Simulator, q: Array) -> None:
-    closest_points(simulator.pairs, simulator.system.kinematics(q))
+def brute_force(scenario: Scenario, q: Array) -> None:
+    """All signed distances at q, shape (n_q,), and the selection among them."""
+    closest_points(scenario.pairs, scenario.system.kinematics(q))
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:

@@ -18,13 +18,14 @@ from quasistatic_ref.lab.study.bench.grasp import certification, parts, places, 
 from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
 from quasistatic_ref.lab.study.large import (
     CHAINS,
+    CONTACTS,
     FEW,
+    PILES,
+    ROW,
+    SHORT,
     LargeStep,
-    chains,
-    contact_counts,
     exponent,
-    few_contacts,
-    piles,
+    large_step,
 )
 from quasistatic_ref.solve.backends import installed
 
@@ -63,10 +64,10 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     tell("clouds")
     found["clouds"] = clouds(at, (2_000,) if quick else (1_000, 10_000, 100_000, 1_000_000))
     tell("sizes")
-    rows = chains((2, 4) if quick else (1, 5, *CHAINS))
-    counts = [] if quick else contact_counts()
-    few = few_contacts(FEW[:2] if quick else FEW)
-    heaps = piles(((2, 1, 2),)) if quick else piles()
+    rows = [large_step((n, 1, 1)) for n in ((2, 4) if quick else (1, 5, *CHAINS))]
+    counts = [] if quick else [large_step((ROW, 1, 1), k) for k in CONTACTS]
+    few = [large_step((SHORT, 1, 1), k) for k in (FEW[:2] if quick else FEW)]
+    heaps = [large_step(shape) for shape in (((2, 1, 2),) if quick else PILES)]
     sizes = rows, [*few, *counts], heaps
     found["chains"], found["contacts"], found["heaps"] = map(_records, sizes)
     found["exponents"] = {

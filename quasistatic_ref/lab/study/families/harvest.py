@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.study.families.made import Made, mass_ratio
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.step.data import StepData
 
 POSES = 40
 """Configurations of a run at which a scenario is asked again with another h or k."""
-
-
-@cache
-def scenario_run(name: str) -> tuple[Scenario, Trajectory]:
-    """A scenario and its run, each step exact: the same bits whatever the machine's solvers."""
-    scenario = load_scenario(name)
-    return scenario, scenario.run(progress=False)
 
 
 def harvested(name: str, count: int) -> Iterator[Made]:
@@ -33,7 +25,7 @@ def harvested(name: str, count: int) -> Iterator[Made]:
     count : int
         At most so many.
     """
-    scenario, run = scenario_run(name)
+    scenario, run = ran(name)  # exact: the same bits whatever the solvers
     steps = np.unique(np.linspace(0, run.steps - 1, min(count, run.steps)).round().astype(int))
     for s in steps:
         step = run.step_data(int(s))
@@ -56,7 +48,7 @@ def asked_again(
     first : int
         Which of the configurations comes first, so that families do not all ask at the same ones.
     """
-    _, run = scenario_run(name)
+    _, run = ran(name)
     other = load_scenario(name, settings)
     simulator, words = other.simulator(), ",".join(settings)
     for i in range(count):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
-from quasistatic_ref.contact.jacobian import contacts
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, on_link, system_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
@@ -46,7 +46,8 @@ def geometry(system: System, pair: ContactPair, q: Array) -> tuple[ClosestPoints
     """Closest points of a pair at q, and the contacts made of them."""
     kinematics = system.kinematics(q)
     points = closest_points((pair,), kinematics)
-    return points, contacts(contact_layout((pair,)), points, kinematics)
+    between = ContactGeometry(contact_layout((pair,)), system.motion)
+    return points, between.contacts(points, kinematics)
 
 
 def evidence() -> Evidence:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
+from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.validate.paper.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion
 
 HELD, SWUNG, LIFTED = 1.0, 30.0, 0.030

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.validate.paper.runs import grasp
 from quasistatic_ref.tolerances import BEARS, CLOSED_FORM
 
 STICKS = 1e-18

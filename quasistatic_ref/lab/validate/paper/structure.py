@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.paper.runs import grasp
 from quasistatic_ref.model.shapes import PointCloud
 
 

@@ -6,13 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
 from quasistatic_ref.lab.vectors.expected import Json
-
-Array = NDArray[np.float64]
 
 OPTIONAL: Final = {
     "qp": ("A_lam", "slack", "certificate"),
@@ -115,11 +110,6 @@ def _place(field: str) -> tuple[bool, int]:
     """Contacts come before what is made of them."""
     name = field.rpartition(".")[2]
     return "." not in field, ORDER.index(name) if name in ORDER else len(ORDER)
-
-
-def numbers_of(value: Json) -> Array:
-    """All numbers of a field, in order, shape (N,)."""
-    return np.array([leaf for _, leaf in leaves(value)], dtype=np.float64)
 
 
 def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:

@@ -54,7 +54,7 @@ def own_step(case_input: Json) -> Json:
         for j in range(at.n_c)
     ]
     try:
-        solution = simulator.solver.solution(step)
+        solution = simulator.solution(step)
     except StepInfeasible as failure:
         return {**output, "farkas": failure.farkas.y.tolist()}
     after = system.integrate(q, solution.delta_q)

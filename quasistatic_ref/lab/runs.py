@@ -1,0 +1,28 @@
+"""Runs of the scenarios that come along, each made once for all that look at it."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+
+
+@cache
+def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
+    """A scenario that comes along, loaded and run; a second time without work.
+
+    Parameters
+    ----------
+    name : str
+    settings : str
+        Changes of it, as ``dotted.key=value``.
+    """
+    scenario = load_scenario(name, settings)
+    return scenario, scenario.run(progress=False)
+
+
+def grasp(case: str) -> tuple[Scenario, Trajectory]:
+    """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``."""
+    return ran("bunny_grasp", *CASES[case])

@@ -1,0 +1,52 @@
+"""A configuration q from outside, checked before anything is computed from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
+
+UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
+"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
+
+
+def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
+    """Copy of q, finite, of shape (n_q,), its quaternions of length one.
+
+    Quaternions off by more than rounding are normalised; the others keep their bits, so that a
+    recorded q replays as it was. (pinocchio and coal compute on with NaN and with a zero
+    quaternion, and say nothing.)
+
+    Raises
+    ------
+    ModelError
+        If it is not a configuration; the message names the joint.
+    """
+    try:
+        checked = np.array(q, dtype=np.float64) + 0.0
+    except (TypeError, ValueError):
+        raise ModelError("must be numbers", field="q", value=q) from None
+    if checked.shape != (n_q,):
+        raise ModelError(f"must have shape ({n_q},)", field="q", value=checked.shape)
+    for joint in joints:
+        part = checked[joint.q]
+        field = f"q[{joint.name}]"
+        if not np.isfinite(part).all():
+            raise ModelError("must be finite", field=field, value=part.tolist())
+        if joint.kind not in UNIT_PART:
+            continue
+        unit = part[UNIT_PART[joint.kind] :]
+        length = np.hypot.reduce(unit)
+        if abs(length - 1) > UNIT_QUATERNION:
+            what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
+            problem = f"its {what} must have length one"
+            raise ModelError(problem, field=field, value=unit.tolist())
+        if abs(length - 1) > UNIT_ROUNDING:
+            unit /= length
+    return checked
