@@ -1,6 +1,7 @@
 """Runs that warn: too few contacts end to end, the command line, the scenarios that come along."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import IN_METRES, SUNK
 from tests.unit.urdf_texts import collision, inertial, joint, link, robot, written
 
+GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "write_a_scenario.md"
 PAD = '<box size="0.06 0.01 0.06"/>'
 GRIPPER = robot(
     link("post"),
@@ -134,6 +136,7 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
         f"raise k of contacts.grip: point {point} of grip(gripper/{side}#0, cube) was not among "
         f"its 3 closest at step {step - 1} and is {1e3 * depth:.3g} mm deep at step {step}"
     )
+    assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
 
 
 def test_with_all_points_of_the_faces_the_same_scene_warns_of_no_contact(hostile):
