@@ -137,6 +137,24 @@ SLOW: Final = 0.1
 """Largest share of the friction that contacts can bear which the spurious drag may take without a
 word: forces on moving bodies are then wrong by a tenth of friction."""
 
+SUNK: Final = 0.01
+"""Depth at a step, relative to the smaller shape of a pair [-], which the step before did not see
+coming and which is worth a word: pushed out at once, it throws bodies about. The scenarios in
+models/ stay below 1e-5; points that a pair's k leaves out sink by the size of its features."""
+
+LEAP: Final = 0.25
+"""Motion per step, relative to what is moved [-], or turn [rad], that is worth a word: to first
+order it is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of sphere_spin reaches 0.15."""
+
+BEYOND: Final = 1e-9
+"""How far a target may exceed a limit of its URDF [m, rad] without a word: rounding of its
+interpolation between waypoints is 1e-16."""
+
+IN_METRES: Final = 20.0
+"""Longest mesh or cloud, and farthest target of a length [m], that is taken for one in metres.
+
+What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
+
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
 

@@ -31,6 +31,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_set(parser)
     shared.add_json(parser)
     parser.add_argument(
+        "--strict", action="store_true", help="end with status 1 if the run warns of anything"
+    )
+    parser.add_argument(
         "--view",
         action="store_true",
         help="write an HTML file that plays the run in 3-D, without network (extra 'view')",
@@ -38,7 +41,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run it; exit status 3 where a step has no solution, its steps so far being kept."""
+    """Run it; exit status 3 where a step has no solution, its steps so far being kept.
+
+    With ``--strict`` a run that warns of something ends with status 1.
+    """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     writable_folder(options.out)  # known before the work, not after it
     if options.view:
@@ -73,12 +79,14 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
+        "warnings": list(trajectory.warnings),
     }
+    status = 1 if options.strict and trajectory.warnings else 0
     if view is not None:
         summary["view"] = str(view)
     if options.json:
         shared.print_json(summary)
-        return 0
+        return status
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     worst = _worst(summary["worst_residual"])
     asked = f"{summary['backend']} ({summary['engine']})"
@@ -89,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     print(f"wrote {path}{'' if view is None else f' and {view}'}")
-    return 0
+    return status
 
 
 def _worst(x: object) -> str:

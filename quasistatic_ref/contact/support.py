@@ -12,6 +12,8 @@ from quasistatic_ref.model.shapes import (
     Cone,
     Cylinder,
     Ellipsoid,
+    HalfSpace,
+    PointCloud,
     Shape,
     Sphere,
 )
@@ -95,3 +97,17 @@ def support_value(shape: Shape, directions: Array) -> Array:
 def _rim(radius: float, x: float, y: float) -> tuple[float, float]:
     length = np.hypot(x, y)
     return (radius * x / length, radius * y / length) if length else (0.0, 0.0)
+
+
+def extent(shape: Shape) -> float:
+    """Longest edge of the box about a shape along its own axes [m]; of a half-space, infinity."""
+    match shape:
+        case HalfSpace():
+            return np.inf
+        case PointCloud():
+            return float(np.ptp(shape.points, axis=0).max())
+        case Sphere():
+            return 2 * shape.radius
+        case _:
+            reach = support_value(shape, np.concatenate([np.eye(3), -np.eye(3)]))
+            return float((reach[:3] + reach[3:]).max())

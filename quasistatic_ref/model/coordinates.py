@@ -60,6 +60,9 @@ class Joint(Plain):
     v : slice
         Its entries of delta_q: 6 (body-frame twist, linear then angular), 3 (x and y along the
         body's own axes, then the angle) or 1.
+    limits : tuple of float, optional
+        Least and greatest position that its URDF allows [m, rad]: the model ignores them. None
+        where it names none, or where there are none to name.
     """
 
     name: str
@@ -67,6 +70,7 @@ class Joint(Plain):
     actuated: bool
     q: slice
     v: slice
+    limits: tuple[float, float] | None = None
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -92,13 +96,24 @@ class MimicJoint:
 
 @dataclass(frozen=True)
 class ModelJoint:
-    """A joint as pinocchio numbers it: kind, and (first entry, number of entries) of q and v."""
+    """A joint as pinocchio numbers it.
+
+    Parameters
+    ----------
+    name, kind, actuated
+        As in :class:`Joint`.
+    q, v : tuple of int
+        First entry, and number of entries.
+    limits : tuple of float, optional
+        As in :class:`Joint` [m, rad].
+    """
 
     name: str
     kind: str
     actuated: bool
     q: tuple[int, int]
     v: tuple[int, int]
+    limits: tuple[float, float] | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +189,7 @@ def paper_order(joints: Sequence[ModelJoint]) -> Order:
     for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v[0])):
         q = slice(len(entries_q), len(entries_q) + joint.q[1])
         v = slice(len(entries_v), len(entries_v) + joint.v[1])
-        ordered.append(Joint(joint.name, joint.kind, joint.actuated, q, v))
+        ordered.append(Joint(joint.name, joint.kind, joint.actuated, q, v, joint.limits))
         entries_q += range(joint.q[0], sum(joint.q))
         entries_v += range(joint.v[0], sum(joint.v))
     return Order(

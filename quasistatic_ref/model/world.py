@@ -232,8 +232,16 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]
             start = np.array([position])
         actuated = body.actuated == "all" or name in body.actuated
         entries = (joint.idx_q, joint.nq), (joint.idx_v, joint.nv)
-        found.append((ModelJoint(f"{body.name}/{name}", kind, actuated, *entries), start))
+        limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
+        found.append((ModelJoint(f"{body.name}/{name}", kind, actuated, *entries, limits), start))
     return found
+
+
+def _limits(model: Any, joint: Any) -> tuple[float, float] | None:
+    """Position limits of a scalar joint; URDF's default is 0 to 0, with which nothing is said."""
+    lower = float(model.lowerPositionLimit[joint.idx_q])
+    upper = float(model.upperPositionLimit[joint.idx_q])
+    return None if lower == upper == 0 else (lower, upper)
 
 
 def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:

@@ -97,12 +97,23 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     return v / (float(rough.min()) * g * step.h)
 
 
-def boundary_layer(step: StepData, solution: StepSolution) -> float:
-    """Largest gap [m] that a contact with load has after the step, to first order; 0 without."""
+def gap_after(step: StepData, solution: StepSolution) -> Array:
+    """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,)."""
+    motion = step.contacts.motion(solution.delta_q)[:, :3]
+    return np.asarray(step.contacts.phi + np.sum(step.contacts.n * motion, axis=1))
+
+
+def boundary_layer(gap: Array, solution: StepSolution) -> float:
+    """Largest gap [m] that a contact with load has after the step; 0 without load.
+
+    Parameters
+    ----------
+    gap : ndarray, shape (n_c,)
+        Of :func:`gap_after` [m].
+    solution : StepSolution
+    """
     force = solution.wrench[:, 2]
     loaded = force > BEARS * force.max(initial=0.0)
-    motion = step.contacts.motion(solution.delta_q)[:, :3]
-    gap = step.contacts.phi + np.sum(step.contacts.n * motion, axis=1)
     return max(0.0, float(gap[loaded].max(initial=0.0)))
 
 

@@ -8,8 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.simulate.artifacts import boundary_layer, drag_share, quasi_dynamic_number
-from quasistatic_ref.simulate.trajectory import CONSTANT, FORMAT, RECORDS, VERSION, Trajectory
+from quasistatic_ref.simulate.artifacts import (
+    boundary_layer,
+    drag_share,
+    gap_after,
+    quasi_dynamic_number,
+    warning,
+)
+from quasistatic_ref.simulate.record import CONSTANT, RECORDS
+from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
+from quasistatic_ref.simulate.watch import watched
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
@@ -47,6 +55,7 @@ class Recorder:
         self.Pi: float | None = None
         self.drag: float | None = None
         self.layer = 0.0
+        self.gap: list[Array] = []
         self.rows: list[dict[str, Any]] = []
         self.names: list[tuple[str, ...]] = []
         self.seconds: list[dict[str, float]] = []
@@ -71,7 +80,8 @@ class Recorder:
             self.Pi, quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
         )
         self.drag = _larger(self.drag, drag_share(self.system, step, solution, self.g))
-        self.layer = max(self.layer, boundary_layer(step, solution))
+        self.gap.append(gap_after(step, solution))
+        self.layer = max(self.layer, boundary_layer(self.gap[-1], solution))
         row: dict[str, Any] = {
             "t": self.t,
             "delta_q": solution.delta_q,
@@ -107,7 +117,7 @@ class Recorder:
 
     def trajectory(self, failed: str | None = None) -> Trajectory:
         """Everything recorded so far."""
-        header = {
+        header: dict[str, Any] = {
             "format": FORMAT,
             "version": VERSION,
             "h": self.h,
@@ -131,6 +141,10 @@ class Recorder:
         parts = self.seconds[0] if self.seconds else {}
         seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
         arrays = {"q": np.array(self.q), **arrays, **constant}
+        drags = warning(header)
+        header["warnings"] = [] if drags is None else [drags]
+        if self.rows:
+            header["warnings"] += watched(self.scene, arrays, np.array(self.gap))
         return Trajectory(header, arrays, seconds, self.scene)
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from tqdm import tqdm
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.simulate.artifacts import warning
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.recorder import Recorder
@@ -48,8 +47,9 @@ def rollout(
     record : str
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
-        Whether to show a progress bar on standard error, where that is a terminal, and to warn
-        there, in a sentence, of a run whose drag is not small (docs/artifacts.md).
+        Whether to show a progress bar on standard error, where that is a terminal, and to print
+        there, at the end of a complete run, what it warns of
+        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
 
     Returns
     -------
@@ -85,6 +85,7 @@ def rollout(
             recorder.add(goal, result)
             q = result.q
     trajectory = recorder.trajectory()
-    if progress and (fast := warning(trajectory.header)):
-        print(f"quasistatic-ref: {fast}", file=sys.stderr)
+    if progress:
+        for sentence in trajectory.warnings:
+            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     return trajectory

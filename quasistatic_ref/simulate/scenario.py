@@ -22,11 +22,12 @@ from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twi
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
 from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.simulate.trajectory import RECORDS, Trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.words import scenario_page
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import ENGINES, check_solver, default_engine

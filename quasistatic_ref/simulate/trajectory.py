@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ from quasistatic_ref.files import json_text, text_of, unique_fields, written_who
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.npz import npz_arrays
+from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.simulate.table import data_frame
 from quasistatic_ref.simulate.words import NOT_IN_TEXT, trajectory_page
 from quasistatic_ref.step.cones import PYRAMID
@@ -30,15 +31,6 @@ if TYPE_CHECKING:
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
-RECORDS = ("full", "light")
-CONSTANT = ("mu_v", "mu_omega", "rows")
-"""Arrays without a step axis."""
-PER_STEP = (
-    "t", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "d1", "d2", "point", "lam", "wrench",
-    "certificate", "worst_residual", "digits",
-)  # fmt: skip
-PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-"""What a full record adds, step by step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +43,8 @@ class Trajectory(Plain):
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
         coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
-        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`; and
-        ``failed``: the reason, or None for a complete run.
+        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`;
+        ``warnings``, see :attr:`warnings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -116,6 +108,14 @@ class Trajectory(Plain):
         """Why the run ended early, or None."""
         reason = self.header["failed"]
         return None if reason is None else str(reason)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What needs a remedy, a sentence each; see :mod:`~quasistatic_ref.simulate.watch`.
+
+        Files from before there were any have none.
+        """
+        return tuple(self.header.get("warnings", ()))
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.
@@ -232,7 +232,7 @@ def trajectory_read(path: str | Path) -> Trajectory:
         version = top.integer("version")
         if version != VERSION:
             raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
-        _check_arrays(top, arrays)
+        check_arrays(top, arrays)
     except InputError as error:
         raise error.in_file(path) from None
     return Trajectory(header, arrays)
@@ -246,38 +246,6 @@ def _header(array: NDArray[Any] | None, path: str | Path) -> Any:
         return json.loads(text_of(array.tobytes(), path), object_pairs_hook=unique_fields)
     except (ValueError, RecursionError):
         raise InputError(f"{problem}: its header is not JSON") from None
-
-
-def _check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Refuse a header and arrays that do not belong together."""
-    _check_present(arrays, ("t", "q", "delta_q", *CONSTANT))
-    steps = top.integer("steps", least=0)
-    full = top.text("record", choices=RECORDS) == "full"
-    top.number("h", above=0.0)
-    if not top.is_null("failed"):
-        top.text("failed")
-    needed: tuple[str, ...] = ("t", "delta_q")
-    if steps:
-        needed = (*PER_STEP, *PROGRAM) if full else PER_STEP
-        _check_present(arrays, needed)
-    for name, array in arrays.items():
-        if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
-            raise InputError("must hold numbers", field=name, value=str(array.dtype))
-    for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
-        if arrays[name].ndim == 0 or len(arrays[name]) != length:
-            problem = f"must have {length} entries, as the header says"
-            raise InputError(problem, field=name, value=arrays[name].shape)
-    contacts = top.sequence("contacts")
-    if full and len(contacts) != steps:
-        raise top.fail("contacts", f"must have {steps} entries", len(contacts))
-    if not all(isinstance(names, list) for names in contacts):
-        raise top.fail("contacts", "must be lists of names", contacts)
-
-
-def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:
-    missing = sorted(set(names) - set(arrays))
-    if missing:
-        raise InputError(f"holds no array named {missing[0]!r}")
 
 
 def certified(trajectory: Trajectory) -> str:

@@ -136,6 +136,9 @@ CAUSES = {
         f"{NOT_ONE}: its header is not JSON",
     ),
     "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: is not a choi"),
+    "warnings that are none": (
+        lambda run: rewritten(run, header={"warnings": [3]}), "warnings: must be sentences",
+    ),
     "a later version": (lambda run: rewritten(run, header={"version": 2}), "reads 1 (got 2)"),
     "no version": (lambda run: rewritten(run, header={"version": ...}), "version: is missing"),
     "an unknown record": (
