@@ -124,9 +124,10 @@ def _leaps(system: System, pairs: Iterable[ContactPair], delta_q: Array) -> list
     """The first step that moves a body of a pair by much of its size, or turns it by much."""
     moves = system.motion.of_coordinates(system.motion.moves)[:, 0] != 0  # (L, n_v)
     sides = [side for pair in pairs for side in (pair.alpha, pair.beta)]
+    links = np.array([side.link for side in sides], dtype=np.int64)
     found: list[tuple[int, float, str]] = []
     for joint in system.joints:
-        moved = [side for side in sides if moves[side.link, joint.v].any()]
+        moved = [sides[i] for i in np.flatnonzero(moves[links, joint.v].any(axis=1))]
         motion, lengths = delta_q[:, joint.v], LENGTHS.get(joint.kind, 0)
         size = max(_size(moved), default=np.inf)
         length = np.linalg.norm(motion[:, :lengths], axis=1)
