@@ -169,6 +169,13 @@ class Fields:
             raise self.fail(field, "must be a list", value)
         return value
 
+    def words(self, field: str, default: Any = REQUIRED) -> list[str]:
+        """Return a list of strings."""
+        value = self.sequence(field, default)
+        if value is not default and not all(isinstance(word, str) for word in value):
+            raise self.fail(field, "must be a list of strings", value)
+        return value
+
     def table(self, field: str, default: Any = REQUIRED) -> Fields:
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)

@@ -5,15 +5,19 @@ import json
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.grade import ungraded
 from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, table
 
 STUDY = {"format": "quasistatic-ref/study-store", "version": 1, "kind": "solvers"}
 
 
+SECONDS = {"solver": None, "call": 1.0, "spent": 1.0}
+
+
 def row(problem, **changes):
     named = {"problem": problem, "family": "f", "solver": "s", "road": "callable"}
     named |= {"setting": "default", "warm": False, "units": "raw", "repetition": 0}
-    return named | {"outcome": "solved", "seconds": {"call": 1.0}} | changes
+    return named | ungraded("failed", "sorry", 1.0) | {"seconds": SECONDS} | changes
 
 
 def test_rows_come_back_sorted_whatever_their_order_in_the_file(tmp_path):

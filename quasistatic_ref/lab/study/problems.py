@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -14,12 +15,14 @@ import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, json_read, json_text, text_written, written_whole
+from quasistatic_ref.files import json_read, json_text, text_written, written_whole
 from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
 from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
+from quasistatic_ref.lab.study.schema import FACT
 from quasistatic_ref.lab.study.spec import TestSet
+from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
 from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.solve.units import natural_form
@@ -97,7 +100,7 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
     folder = Path(folder)
     asked = _asked(test_set)
     if (folder / HEADER).exists():
-        there = json_read(folder / HEADER)
+        there = _head(folder)
         if {name: there.get(name) for name in asked} != json.loads(json_text(asked)):
             raise InputError(
                 "holds another test set; choose another folder with --out, or remove this one",
@@ -121,20 +124,21 @@ def problems_read(folder: str | Path) -> list[Problem]:
         If it holds no test set, or one whose numbers were changed.
     """
     folder = Path(folder)
-    head = json_read(folder / HEADER)
-    lines = bytes_read(folder / FACTS).decode().splitlines()
+    head, lines = _head(folder), lines_read(folder / FACTS, FACT)
     arrays = npz_arrays(folder / NUMBERS)
-    if head.get("format") != FORMAT or head.get("sha256") != _digest(arrays):
+    sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in NAMES}
+    if (
+        head.get("format") != FORMAT
+        or {name: array.shape for name, array in arrays.items()} != sizes
+        or head.get("sha256") != _digest(arrays)
+    ):
         raise InputError("is no test set, or was changed; remove the folder", file=folder)
     at = dict.fromkeys(NAMES, 0)
     problems = []
-    for line in lines:
-        said = json.loads(line)
-        n, m = said["n"], said["m"]
-        shapes = {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+    for said in lines:
         numbers = {}
-        for name, shape in shapes.items():
-            size = int(np.prod(shape))
+        for name, shape in _shapes(said).items():
+            size = math.prod(shape)
             numbers[name] = arrays[name][at[name] : at[name] + size].reshape(shape)
             at[name] += size
         facts = Facts(**{key: said[key] for key in Facts.__dataclass_fields__})
@@ -143,6 +147,18 @@ def problems_read(folder: str | Path) -> list[Problem]:
             Problem(facts, form, Truth(numbers["delta_q"], numbers["net"], said["bound"]))
         )
     return problems
+
+
+def _shapes(said: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
+    n, m = said["n"], said["m"]
+    return {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+
+
+def _head(folder: Path) -> dict[str, Any]:
+    head = json_read(folder / HEADER)
+    if not isinstance(head, dict):
+        raise InputError("must be a table", file=folder / HEADER, value=head)
+    return head
 
 
 def set_record(problems: Sequence[Problem]) -> dict[str, Any]:
