@@ -1,6 +1,8 @@
 """The command line, in this process: exit statuses, plain sentences on failure, JSON."""
 
+import errno
 import json
+import os
 import subprocess
 import sys
 
@@ -386,3 +388,13 @@ def test_figures_are_made_by_name(out, capsys):
     assert all(path.stat().st_size > 1000 for path in paths)
     assert main(["figures", "cone_surface", "--out", str(out)]) == 2
     assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)
+
+
+def test_a_file_that_cannot_be_used_is_named_and_not_taken_for_standard_output(monkeypatch, capsys):
+    def full(options):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
+
+    monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
+    assert main(["backends"]) == 2
+    told = capsys.readouterr().err
+    assert told == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"

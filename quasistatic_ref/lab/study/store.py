@@ -10,10 +10,9 @@ from __future__ import annotations
 import fcntl
 import json
 import lzma
-import os
 from collections.abc import Iterable
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
@@ -62,7 +61,10 @@ class Store:
         self.folder = Path(folder)
         self._claim(study)
         path = self.folder / ROWS
-        self._file: IO[bytes] = path.open("ab")
+        try:
+            self._file = path.open("ab", buffering=0)
+        except OSError as error:
+            raise self._unwritable(error) from None
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
@@ -70,8 +72,15 @@ class Store:
             raise InputError("is being written by another run; wait for its end", file=path) from (
                 None
             )
-        self.rows, whole = _parsed(path)
-        os.truncate(path, whole)
+        try:
+            self.rows, whole = _parsed(path)
+            self._file.truncate(whole)
+        except OSError as error:
+            self.close()
+            raise self._unwritable(error) from None
+        except InputError:
+            self.close()
+            raise
 
     def _claim(self, study: dict[str, Any]) -> None:
         path = self.folder / STUDY
@@ -94,10 +103,25 @@ class Store:
         return {key_of(row) for row in self.rows}
 
     def add(self, row: Row) -> None:
-        """Add one measurement; it is in the file when this returns."""
-        self._file.write((json_text(row) + "\n").encode())
-        self._file.flush()
+        """Add one measurement; it is in the file when this returns.
+
+        Raises
+        ------
+        InputError
+            If it cannot be written, as on a full disk; the rows before it are kept.
+        """
+        left = (json_text(row) + "\n").encode()
+        try:
+            while left:
+                left = left[self._file.write(left) :]
+        except OSError as error:
+            raise self._unwritable(error) from None
         self.rows.append(row)
+
+    def _unwritable(self, error: OSError) -> InputError:
+        remedy = "its whole rows are kept; make room, and run the study again to go on"
+        reason = f"cannot be written: {error.strerror or error}; {remedy}"
+        return InputError(reason, file=self.folder / ROWS)
 
     def close(self) -> None:
         """Close the file, and let others write."""
