@@ -30,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_solver(parser)
     shared.add_set(parser)
     shared.add_json(parser)
+    shared.add_quiet(parser)
     parser.add_argument(
         "--view",
         action="store_true",
@@ -47,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
         viewer_script()  # so that a missing extra is known before the work, too
     stem = scenario.path.stem
     try:
-        trajectory = scenario.run()
+        trajectory = scenario.run(progress=not options.quiet)
     except RunFailed as failure:
         return shared.failed_run_saved(failure, options.out, stem)
     path = trajectory.save(options.out / f"{stem}.npz")

@@ -8,6 +8,7 @@ ROOMS = (
     "plain",
     "errors",
     "tolerances",
+    "progress",
     "fields",
     "files",
     "resources",

@@ -5,18 +5,23 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from tqdm import tqdm
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_read, json_text, text_written, written_whole
-from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
+from quasistatic_ref.lab.study.families.harvest import (
+    Count,
+    asked_again,
+    harvested,
+    no_count,
+    scenario_of,
+    scenario_run,
+)
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
 from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
@@ -24,6 +29,7 @@ from quasistatic_ref.lab.study.schema import FACT
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
+from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -38,10 +44,27 @@ TIME_STEPS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 MOST_CONTACTS, MOST_RATIO, MOST_BODIES = 1000, 1e9, 40
 
 
-def made(test_set: TestSet) -> Iterator[Made]:
-    """Every step of a test set, family by family."""
+def scenarios_run(test_set: TestSet) -> list[str]:
+    """The scenarios whose runs a test set is taken from."""
+    count, names = test_set.families, test_set.scenarios
+    share = _shares(count["scenarios"], len(names))
+    again = [AGAIN] if count["time_step"] > 1 or count["closest_points"] else []
+    return list(dict.fromkeys([n for n, c in zip(names, share, strict=True) if c] + again))
+
+
+def made(test_set: TestSet, count_steps: Count = no_count) -> Iterator[Made]:
+    """Every step of a test set, family by family.
+
+    Parameters
+    ----------
+    test_set : TestSet
+    count_steps : callable
+        Is called with the number of steps of scenarios that were just simulated.
+    """
     count, seed = test_set.families, test_set.seed
     names = test_set.scenarios
+    for name in scenarios_run(test_set):
+        scenario_run(name, count_steps)
     share = _shares(count["scenarios"], len(names))
     yield from chain.from_iterable(harvested(n, c) for n, c in zip(names, share, strict=True) if c)
     if n := count["contacts"]:
@@ -107,12 +130,17 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
                 file=folder,
             )
         return problems_read(folder)
+    # The bar counts steps: those of the runs that problems are taken from, and the problems.
     total = sum(test_set.families.values())
-    bar = tqdm(made(test_set), total=total, unit="problem", file=sys.stderr, leave=False,
-               disable=None if progress else True, desc="exact answers")  # fmt: skip
-    problems = list({p.id: p for p in map(problem_of, bar)}.values())
-    _written(problems, asked, folder)
-    return problems
+    problems: dict[str, Problem] = {}
+    with progress_bar(total=total, unit="step", words="exact answers", shown=progress) as bar:
+        bar.total += sum(scenario_of(name).steps for name in scenarios_run(test_set))
+        for one in made(test_set, bar.update):
+            problem = problem_of(one)
+            problems[problem.id] = problem
+            bar.update()
+    _written(list(problems.values()), asked, folder)
+    return list(problems.values())
 
 
 def problems_read(folder: str | Path) -> list[Problem]:

@@ -2,26 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.families.made import Made, mass_ratio
+from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Array, StepData
 
 POSES = 40
 """Configurations of a run at which a scenario is asked again with another h or k."""
 
 
+Count = Callable[[int], object]
+_RUNS: dict[str, Trajectory] = {}
+
+
+def no_count(steps: int) -> None:
+    """Count nothing."""
+
+
 @cache
-def scenario_run(name: str) -> tuple[Scenario, Trajectory]:
-    """A scenario and its run, each step exact: the same bits whatever the machine's solvers."""
-    scenario = load_scenario(name)
-    return scenario, scenario.run(progress=False)
+def scenario_of(name: str) -> Scenario:
+    """A scenario by name, loaded once."""
+    return load_scenario(name)
+
+
+def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajectory]:
+    """A scenario and its run, each step exact: the same bits whatever the machine's solvers.
+
+    Parameters
+    ----------
+    name : str
+    count : callable
+        Is called with the number of steps that were just simulated.
+    """
+    scenario = scenario_of(name)
+    if name in _RUNS:
+        count(scenario.steps)
+        return scenario, _RUNS[name]
+
+    def target(t: float) -> Array:
+        count(1)
+        return scenario.targets(t)
+
+    try:
+        _RUNS[name] = rollout(scenario.simulator(), scenario.system.q_start, target, scenario.steps,
+                              force=scenario.force, record=scenario.record,
+                              progress=False)  # fmt: skip
+    except RunFailed as failure:
+        if isinstance(failure.__cause__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
+        raise
+    return scenario, _RUNS[name]
 
 
 def harvested(name: str, count: int) -> Iterator[Made]:
