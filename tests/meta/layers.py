@@ -12,6 +12,7 @@ ROOMS = (
     "fields",
     "files",
     "resources",
+    "npz",
     "step",
     "certify",
     "solve",

@@ -29,8 +29,8 @@ from quasistatic_ref.lab.study.schema import FACT
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
+from quasistatic_ref.npz import npz_arrays
 from quasistatic_ref.progress import progress_bar
-from quasistatic_ref.simulate.npz import npz_arrays
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 

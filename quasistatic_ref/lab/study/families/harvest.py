@@ -41,6 +41,13 @@ def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajecto
     name : str
     count : callable
         Is called with the number of steps that were just simulated.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Between two steps, after Ctrl-C.
+    RunFailed
+        If a step fails.
     """
     scenario = scenario_of(name)
     if name in _RUNS:
