@@ -6,6 +6,7 @@ not asked for: a misspelt name is an error, never a default.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Final, TypeVar
 
 import numpy as np
@@ -168,9 +169,23 @@ class Fields:
             raise self.fail(field, "must be a list", value)
         return value
 
+    def words(self, field: str, default: Any = REQUIRED) -> list[str]:
+        """Return a list of strings."""
+        value = self.sequence(field, default)
+        if value is not default and not all(isinstance(word, str) for word in value):
+            raise self.fail(field, "must be a list of strings", value)
+        return value
+
     def table(self, field: str, default: Any = REQUIRED) -> Fields:
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)
+
+    def only(self, known: Iterable[str]) -> None:
+        """Refuse every field but these: before any of them is found missing."""
+        self._known.update(known)
+        for field, value in self._left.items():
+            if field not in self._known:
+                raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)
 
     def close(self) -> None:
         """Refuse every field that was never asked for."""

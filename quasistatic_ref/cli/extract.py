@@ -30,5 +30,5 @@ def run(options: argparse.Namespace) -> int:
     if options.output is None:
         sys.stdout.write(step_text(step))
     else:
-        step_written(options.output, step)
+        print(f"wrote {step_written(options.output, step)}")
     return 0

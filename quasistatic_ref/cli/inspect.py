@@ -118,29 +118,27 @@ def _print(record: dict[str, Any]) -> None:
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
     print()
-    rows = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]", "collision shapes")]
+    rows, notes = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]")], []
     for link in record["links"]:
         inertia = np.array(link["inertia"])[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
         moments = " ".join(f"{moment:.3g}" for moment in inertia) if link["mass"] else ""
-        shapes = "; ".join(shape["size"] for shape in link["shapes"]) or "none"
-        rows.append((link["name"], f"{link['mass']:g}", moments, shapes))
-    shared.print_rows(rows)
+        rows.append((link["name"], f"{link['mass']:g}", moments))
+        notes.append("; ".join(shape["size"] for shape in link["shapes"]) or "no collision shape")
+    shared.print_rows(rows, notes)
     if "pairs" in record:
         print()
-        rows = [("pair", "shapes", "mu_v", "mu_omega [m]", "contacts", "rows each")]
+        rows, notes = [("pair", "mu_v", "mu_omega [m]", "contacts", "rows each")], []
         for p in record["pairs"]:
-            shapes, numbers = (
-                f"{p['alpha']} - {p['beta']}",
-                (f"{p['mu_v']:g}", f"{p['mu_omega']:g}"),
-            )
-            rows.append((p["name"], shapes, *numbers, str(p["contacts"]), str(p["rows"])))
-        shared.print_rows(rows)
+            numbers = (f"{p['mu_v']:g}", f"{p['mu_omega']:g}")
+            rows.append((p["name"], *numbers, str(p["contacts"]), str(p["rows"])))
+            notes.append(f"{p['alpha']} - {p['beta']}")
+        shared.print_rows(rows, notes)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
         print(f"solved by {record['backend']}, engine {record['engine']}")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
-        print(f"- {sentence}")
+        shared.print_wrapped(sentence, "  ", "- ")
     if "fields" in record:
         print("\nthe fields of its file; --set NAME=VALUE changes one:")
         for line in field_lines(record["fields"]):
@@ -148,4 +146,4 @@ def _print(record: dict[str, Any]) -> None:
     if record["notes"]:
         print("\nit takes otherwise than written:")
     for sentence in record["notes"]:
-        print(f"- {sentence}")
+        shared.print_wrapped(sentence, "  ", "- ")

@@ -15,7 +15,7 @@ from importlib import import_module
 from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
-from quasistatic_ref.errors import InputError, QuasistaticError, nearest_name, suggestion
+from quasistatic_ref.errors import InputError, QuasistaticError, clipped, nearest_name, suggestion
 
 CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
 COMMANDS = {
@@ -98,9 +98,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except MemoryError:
         return _failed("this needs more memory than there is", 2)
-    except OSError as error:  # files are wrapped where they are used: this is standard output
+    except OSError as error:  # files are wrapped where they are used: without a name, it is ours
+        reason = error.strerror or str(error)
+        if error.filename is not None:
+            return _failed(f"{clipped(str(error.filename))}: cannot be used: {reason}", 2)
         _discard_output()
-        return _failed(f"standard output: cannot be written: {error.strerror or error}", 2)
+        return _failed(f"standard output: cannot be written: {reason}", 2)
 
 
 def _module(command: str) -> Any:

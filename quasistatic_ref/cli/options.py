@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
+from collections.abc import Sequence
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +45,17 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
 
 
+def add_quiet(parser: argparse.ArgumentParser) -> None:
+    """``--quiet``."""
+    parser.add_argument("--quiet", action="store_true", help="show no progress")
+
+
+def progress_line(options: argparse.Namespace, line: str) -> None:
+    """Print one line of progress on standard error, unless ``--quiet`` was given."""
+    if not options.quiet:
+        print(line, file=sys.stderr)
+
+
 def add_set(parser: argparse.ArgumentParser) -> None:
     """``--set key=value``."""
     parser.add_argument(
@@ -77,13 +91,35 @@ def print_json(value: Any) -> None:
     print(json_text(value))
 
 
-def print_rows(rows: list[tuple[str, ...]]) -> None:
-    """Print a table, the first column to the left, the others to the right."""
+WIDTH = 120
+"""Columns of a terminal within which sentences are broken."""
+
+
+def print_rows(rows: list[tuple[str, ...]], notes: Sequence[str] = ()) -> None:
+    """Print a table, the first column to the left, the others to the right.
+
+    Parameters
+    ----------
+    rows : list of tuple of str
+        The first holds the names of the columns.
+    notes : sequence of str, optional
+        Words below each row after the first, such as are too long for a column.
+    """
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    for row in rows:
+    for row, note in zip_longest(rows, ["", *notes], fillvalue=""):
         first, *rest = (cell.ljust(w) if i == 0 else cell.rjust(w)
                         for i, (cell, w) in enumerate(zip(row, widths, strict=True)))  # fmt: skip
         print("  ".join([first, *rest]).rstrip())
+        print_wrapped(note, "    ")
+
+
+def print_wrapped(words: str, indent: str = "", first: str | None = None) -> None:
+    """Print words in lines of at most `WIDTH` columns; nothing for no words."""
+    begin = indent if first is None else first
+    lines = textwrap.wrap(words, WIDTH, initial_indent=begin, subsequent_indent=indent,
+                          break_long_words=False, break_on_hyphens=False)  # fmt: skip
+    for line in lines:
+        print(line)
 
 
 def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -30,6 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_solver(parser)
     shared.add_set(parser)
     shared.add_json(parser)
+    shared.add_quiet(parser)
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"
     )
@@ -53,9 +55,12 @@ def run(options: argparse.Namespace) -> int:
         viewer_script()  # so that a missing extra is known before the work, too
     stem = scenario.path.stem
     try:
-        trajectory = scenario.run()
+        trajectory = scenario.run(progress=not options.quiet)
     except RunFailed as failure:
         return shared.failed_run_saved(failure, options.out, stem)
+    if options.quiet:  # of progress; a warning is said all the same
+        for sentence in trajectory.warnings:
+            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     path = trajectory.save(options.out / f"{stem}.npz")
     view = view_written(scenario, trajectory, path.with_suffix(".html")) if options.view else None
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}

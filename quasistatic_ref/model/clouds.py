@@ -1,4 +1,4 @@
-"""Point clouds from files: xyz, csv, ply (ascii and binary little endian) and obj.
+"""Point clouds from files: xyz, csv, ply and pcd (ascii and binary), obj, npy and npz.
 
 Positions only; colours, normals and faces are not part of the model. Coordinates are taken as
 written, in metres. A line or a vertex that cannot be read is an error, never left out.
@@ -8,15 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import InputError, ModelError, suggestion
 from quasistatic_ref.files import bytes_read, text_of
+from quasistatic_ref.model.pcd import pcd_points
 from quasistatic_ref.model.ply import ply_points
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.npz import npy_array, npz_arrays
 from quasistatic_ref.tolerances import LARGE
 
 
@@ -28,7 +31,8 @@ def point_cloud(path: str | Path) -> PointCloud:
     path : str or Path
         ``.xyz``: three numbers a line, separated by spaces, ``#`` starts a comment.
         ``.csv``: three columns, or a header that names columns x, y and z among others.
-        ``.ply``: the element ``vertex``. ``.obj``: the lines ``v``.
+        ``.ply``: the element ``vertex``. ``.obj``: the lines ``v``. ``.pcd``: the fields x, y and
+        z. ``.npy``: an array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
 
     Returns
     -------
@@ -53,6 +57,10 @@ def point_cloud(path: str | Path) -> PointCloud:
         return PointCloud(points)
     except ModelError as error:
         raise error.in_file(path) from None
+    except InputError as error:  # of NumPy's files
+        raise ModelError(
+            error.problem, field=error.field, value=error.value, file=error.file or path
+        ) from None
 
 
 def _check_size(points: NDArray[np.float64]) -> None:
@@ -114,6 +122,35 @@ def _ply(content: bytes, path: Path) -> NDArray[np.float64]:
     return ply_points(content)
 
 
+def _pcd(content: bytes, path: Path) -> NDArray[np.float64]:
+    return pcd_points(content)
+
+
+def _npy(content: bytes, path: Path) -> NDArray[np.float64]:
+    return _numbers(npy_array(path), "its array")
+
+
+def _npz(content: bytes, path: Path) -> NDArray[np.float64]:
+    arrays = npz_arrays(path, "a file of NumPy's arrays")
+    name = "points" if "points" in arrays else next(iter(arrays), "")
+    if name != "points" and len(arrays) != 1:
+        problem = "must hold one array, or one that is named points"
+        raise ModelError(problem, field="its arrays", value=list(arrays))
+    return _numbers(arrays[name], name)
+
+
+def _numbers(array: NDArray[Any], name: str) -> NDArray[np.float64]:
+    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
+        given = f"{array.dtype} of shape {array.shape}"
+        raise ModelError("must hold numbers of shape (N, 3)", field=name, value=given)
+    points = array.astype(np.float64)
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if bad.size:
+        value = points[bad[0]].tolist()
+        raise ModelError("must be finite numbers", field=f"point {bad[0]}", value=value)
+    return points
+
+
 def _point(words: Sequence[str], number: int) -> list[float]:
     if len(words) != 3:
         problem = "must be three numbers, x y z"
@@ -126,4 +163,7 @@ def _point(words: Sequence[str], number: int) -> list[float]:
 
 
 _Reader = Callable[[bytes, Path], list[list[float]] | NDArray[np.float64]]
-_READERS: dict[str, _Reader] = {".xyz": _xyz, ".csv": _csv, ".ply": _ply, ".obj": _obj}
+_READERS: dict[str, _Reader] = {
+    ".xyz": _xyz, ".csv": _csv, ".ply": _ply, ".obj": _obj, ".pcd": _pcd, ".npy": _npy,
+    ".npz": _npz,
+}  # fmt: skip

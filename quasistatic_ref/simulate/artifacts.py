@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -33,19 +35,31 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
     -------
     float or None
         Of the body that has the largest share; None where nothing floats, or neither rubs nor
-        weighs.
+        weighs, or where float64 has no number for it.
     """
-    force = step.M_u @ solution.delta_q[step.n_a :] / step.h**2
+    momentum = step.M_u @ solution.delta_q[step.n_a :]
     friction = _friction(step, solution)
     shares = []
     for base in _free_bases(system):
         x = base.v.start
-        drag = float(np.linalg.norm(force[x - step.n_a : x - step.n_a + 3]))
+        drag = _quotient(np.linalg.norm(momentum[x - step.n_a : x - step.n_a + 3]), step.h**2)
+        if drag is None:
+            continue
         weight = system.mass(base.name.removesuffix("/base")) * g
         bears = float(friction[x]) if friction[x] > BEARS * drag else weight
-        if bears > 0:
-            shares.append(drag / bears)
-    return max(shares, default=None)
+        shares.append(_quotient(drag, bears))
+    return max((share for share in shares if share is not None), default=None)
+
+
+def _quotient(over: Any, under: Any) -> float | None:
+    """Quotient of two numbers from 0 on; None where that is no float64: beyond its range, or 0/0.
+
+    A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
+    by it overflows.
+    """
+    over, under = float(over), float(under)
+    within = over < (sys.float_info.max * under if under < 1 else math.inf)
+    return over / under if under > 0 and within else None
 
 
 def _free_bases(system: System) -> list[Joint]:
@@ -87,14 +101,16 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     Returns
     -------
     float or None
-        None where nothing floats, nothing rubs or nothing weighs.
+        None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
+        for it, as with a mu_v of 1e-323.
     """
     bases = [base.v.start for base in _free_bases(system)]
     rough = step.contacts.mu_v[step.contacts.mu_v > 0]
     if not (bases and rough.size and g > 0):
         return None
-    v = max(float(np.linalg.norm(delta_q[start : start + 3])) for start in bases) / step.h
-    return v / (float(rough.min()) * g * step.h)
+    moved = max(float(np.linalg.norm(delta_q[start : start + 3])) for start in bases)
+    v = _quotient(moved, step.h)
+    return None if v is None else _quotient(v, float(rough.min()) * g * step.h)
 
 
 def gap_after(step: StepData, solution: StepSolution) -> Array:

@@ -16,6 +16,7 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.paths import path_in, shared_folders
+from quasistatic_ref.simulate.tables import BODY, WRENCH, check_names
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
 
@@ -84,6 +85,7 @@ class BodyEntry(Plain):
 
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
+    check_names(table, BODY)
     urdf = path_in(folder, table, "urdf")
     if urdf is None:
         raise table.fail("urdf", "is missing")
@@ -120,7 +122,6 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         gravity_compensated=table.boolean("gravity_compensated", True),
         wrenches=_wrenches(name, table),
     )
-    table.close()
     if entry.wrenches is not None and base == "fixed":
         raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
     return entry
@@ -146,10 +147,10 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         K_q[np.ix_(index, index)] = _positive_definite(block, table.name("K_q"))
         return
     given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
+    given.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(given, entry.short(joint), joint)
         K_q[joint.v, joint.v] = _positive_definite(block, given.name(entry.short(joint)))
-    given.close()
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -159,13 +160,14 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     values: dict[str, list[Any]] = {}
     for i, record in enumerate(entry.targets):
         waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
+        for name in waypoint.names():
+            if name != "t" and name not in joints:
+                hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
+                raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
         t = waypoint.number("t")
         if not waypoint.names():
             raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
-            if name not in joints:
-                hint = suggestion(name, joints)
-                raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
             if joints[name].kind == "floating":
                 xyz, rpy = _pose(waypoint.table(name))
                 value: Any = np.concatenate([xyz, quaternion(rpy)])
@@ -226,13 +228,13 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
     times, values = [], []
     for i, record in enumerate(table.sequence("wrenches", [])):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
+        check_names(one, WRENCH)
         times.append(one.number("t"))
         if not {"force", "torque"} & set(one.names()):
             raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
         values.append(
             np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
         )
-        one.close()
     if not times:
         return None
     if not (np.diff(times) > 0).all():

@@ -15,6 +15,7 @@ from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.bodies import BodyEntry
+from quasistatic_ref.simulate.tables import CONTACT, check_names
 from quasistatic_ref.simulate.world_shapes import WORLD, world_shape
 
 Shapes = dict[str, list[PlacedShape]]
@@ -53,6 +54,7 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
     pairs = []
     for name in tables.names():
         table = tables.table(name)
+        check_names(table, CONTACT)
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
         rows = table.integer("rows", 6)
         if rows not in (4, 6):
@@ -63,7 +65,6 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
         k = table.integer("k", 1, least=1)
         hull = table.boolean("hull", False)
-        table.close()
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"

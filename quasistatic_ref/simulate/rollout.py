@@ -6,9 +6,8 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from tqdm import tqdm
-
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
+from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.recorder import Recorder
@@ -67,9 +66,7 @@ def rollout(
     q = recorder.q[0]
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     pushed = force_function(simulator.system, force)
-    bar: Iterable[int] = tqdm(
-        range(steps), unit="step", disable=None if progress else True, leave=False
-    )
+    bar: Iterable[int] = progress_bar(range(steps), unit="step", shown=progress)
     with Interrupt() as interrupt:
         for k in bar:
             t = recorder.t

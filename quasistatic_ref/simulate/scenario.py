@@ -26,6 +26,7 @@ from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
 from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
+from quasistatic_ref.simulate.tables import LIMITS, SOLVER, TOP, check_made, check_names
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.words import scenario_page
@@ -161,7 +162,7 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
             raise ScenarioError(f"is not TOML: {error}") from None
         except (RecursionError, ValueError):
             raise ScenarioError("is nested too deeply, or holds an unusable number") from None
-        apply_settings(tables, settings, fields)
+        check_made(apply_settings(tables, settings, fields), tables)
         check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
     except InputError as error:
@@ -169,10 +170,13 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
 
 
 def _scenario(path: Path, top: Fields) -> Scenario:
+    if not {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+        check_names(top, TOP)
     top.text("format", choices=(FORMAT,))
     version = top.integer("version")
     if version != VERSION:
         raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    check_names(top, TOP)
     h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
     named = top.text("cone", PYRAMID)
@@ -182,10 +186,10 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise top.fail("cone", error.problem, named) from None
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
+    check_names(solver, SOLVER)
     certify = solver.text("certify", CERTIFY[0], CERTIFY)
     backend, engine = _asked(solver, certify, named)
     accuracy = solver.number("accuracy", ACCURACY, above=0.0)
-    solver.close()
     limits = _limits(top.table("limits", {}))
 
     tables = top.table("bodies")
@@ -196,7 +200,6 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, top.table("shapes", {}), path.parent)
     pairs = contact_pairs(top.table("contacts", {}), shapes)
-    top.close()
     check_motion(system, pairs)
     check_twice(pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
@@ -248,9 +251,8 @@ def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
 
 
 def _limits(table: Fields) -> Limits:
-    limits = Limits(
+    check_names(table, LIMITS)
+    return Limits(
         penetration=table.number("penetration", Limits.penetration, above=0.0),
         reach=table.number("reach", Limits.reach, above=0.0),
     )
-    table.close()
-    return limits

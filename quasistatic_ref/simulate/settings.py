@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
@@ -35,7 +35,9 @@ def toml_tables(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def apply_settings(tables: dict[str, Any], settings: Settings, named: Mapping[str, Any]) -> None:
+def apply_settings(
+    tables: dict[str, Any], settings: Settings, named: Mapping[str, Any]
+) -> set[tuple[str, str]]:
     """Make changes in place.
 
     Parameters
@@ -46,25 +48,39 @@ def apply_settings(tables: dict[str, Any], settings: Settings, named: Mapping[st
     named : mapping of str to object
         Values by the names of fields at the top, made last.
 
+    Returns
+    -------
+    set of (str, str)
+        ``("contacts", "grp")`` for each table of ``[contacts]`` that a dotted key has made, and so
+        for the other tables at the top.
+
     Raises
     ------
     ScenarioError
-        If a key is none, or leads to no table.
+        If a key is none, or leads to no table; or a value is nested without end.
     """
-    if isinstance(settings, str):
+    there = _second_level(tables)
+    if isinstance(settings, str) or not isinstance(settings, Mapping | Iterable):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):
         for key, value in settings.items():
-            _put(tables, str(key), _own(value), "settings", key)
+            _put(tables, str(key), _own(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
             if not equals:
                 raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
             _put(tables, key, _parsed(text), "--set", setting)
+    made = _second_level(tables) - there
     for key, value in named.items():
-        tables[key] = _own(value)
+        tables[key] = _own(key, value)
+    return made & _second_level(tables)
+
+
+def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
+    pairs = ((key, inner) for key, inner in tables.items() if isinstance(inner, dict))
+    return {(key, name) for key, inner in pairs for name in inner if isinstance(inner[name], dict)}
 
 
 def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object) -> None:
@@ -92,11 +108,17 @@ def _parsed(text: str) -> Any:
     return OwnWord(value) if isinstance(value, str) else value
 
 
-def _own(value: Any) -> Any:
+def _own(field: object, value: Any) -> Any:
     """A value of Python's as a parser would have returned it, its paths being the user's own."""
-    value = plain(value)
+    try:
+        return _as_parsed(plain(value))
+    except RecursionError:
+        raise ScenarioError("is nested too deeply, or holds itself", field=str(field)) from None
+
+
+def _as_parsed(value: Any) -> Any:
     if isinstance(value, str | PurePath):
         return OwnWord(value)
     if isinstance(value, Mapping):
-        return {str(key): _own(inner) for key, inner in value.items()}
-    return [_own(inner) for inner in value] if isinstance(value, list) else value
+        return {str(key): _as_parsed(inner) for key, inner in value.items()}
+    return [_as_parsed(inner) for inner in value] if isinstance(value, list) else value

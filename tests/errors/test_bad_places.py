@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import clipped
 from quasistatic_ref.step.files import step_written
 from tests.errors.scene import BALL, SCENE, changed, scene_written
 from tests.helpers import planted_step
@@ -173,7 +174,7 @@ def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     scene, (folder, words) = scene_written(tmp_path), FOLDERS[cause]
     path = folder(tmp_path)
     sentence = refused(command, *([scene] if command == "run" else []), "--out", path)
-    shown = str(path).replace("\0", "\\x00")
+    shown = clipped(str(path)).replace("\0", "\\x00")
     assert sentence.startswith(f"{shown}: cannot be written: ")
     assert words in sentence
     assert sentence.endswith("; choose another folder")

@@ -21,6 +21,34 @@ CAUSES = {
     "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
     "an unknown field": (("setps", 3), "setps", "is unknown; did you mean 'steps'"),
     "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
+    "h by another name": (
+        ("h", ...), ("dt", 0.01), "dt", "is unknown; did you mean 'h'? known: bodies",
+    ),
+    "friction at the top": (
+        ("mu_v", 0.5), "mu_v", "is unknown; did you mean 'mu_v' of [contacts.NAME]? known: bodies",
+    ),
+    "a step in a contact": (
+        ("contacts/push/steps", 3), "contacts.push.steps", "mean 'steps' of the top of the file?",
+    ),
+    "misspelt friction": (
+        ("contacts/push/mu_v", ...), ("contacts/push/mu", 0.5),
+        "contacts.push.mu", "is unknown; did you mean 'mu_v'? known: alpha",
+    ),
+    "a misspelt side": (
+        ("contacts/push/alpha", ...), ("contacts/push/alhpa", "rail/plate"),
+        "contacts.push.alhpa", "is unknown; did you mean 'alpha'?",
+    ),
+    "a misspelt URDF": (
+        (BALL + "urdf", ...), (BALL + "udrf", "ball.urdf"), "bodies.ball.udrf", "mean 'urdf'?",
+    ),
+    "stiffness of a misspelt joint": (
+        (RAIL + "K_q", {"slid": 5}), "bodies.rail.K_q.slid", "did you mean 'slide'? known: slide",
+    ),
+    "a waypoint without its time": (
+        (RAIL + "targets/0", {"time": 0.0, "slide": 0.0}),
+        "bodies.rail.targets[0].time", "did you mean 't'? known: slide, t",
+    ),
+    "a misspelt format": (("format", ...), ("fromat", 1), "fromat", "did you mean 'format'"),
     "an unknown record": (("record", "ful"), "record", "did you mean 'full'"),
     "an unknown backend": (("solver/backend", "clarable"), "solver.backend", "mean 'clarabel'"),
     "an unknown certificate": (("solver/certify", "fully"), "solver.certify", "mean 'full'"),

@@ -92,3 +92,12 @@ def test_nothing_is_drawn_of_calls_that_were_not_made(store, rows, tmp_path):
     report = study_report(tmp_path)
     assert report.pictures == ()
     assert "nothing to draw of `profiles`" in markdown_page(report)
+
+
+def test_a_report_and_a_packed_store_stand_by_default_next_to_what_they_are_of(tmp_path, capsys):
+    folder = tmp_path / "sweep"
+    made_store.sweep_written(folder)
+    assert main(["study", "report", str(folder)]) == 0
+    assert f"wrote {folder / 'report' / 'report.html'}\n" in capsys.readouterr().out
+    assert main(["study", "pack", str(folder)]) == 0
+    assert f"wrote {folder / 'packed' / 'rows.jsonl.xz'}\n" in capsys.readouterr().out

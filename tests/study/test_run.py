@@ -2,7 +2,9 @@
 
 import json
 import os
+import pty
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -53,6 +55,52 @@ def test_an_active_set_solver_in_natural_units_has_nearly_all_digits(whole):
     found = [r["digits"]["delta_q"] for r in rows if r["setting"] == "high"]
     assert len(found) == 7
     assert min(found) > 9
+
+
+def on_a_terminal(words, until, seconds=120.0):
+    """What a command prints on a terminal that does not know its width, and its exit status.
+
+    Ctrl-C is pressed where something that matches `until` has been printed.
+    """
+    process, terminal = pty.fork()
+    if process == 0:
+        os.execv(words[0], words)
+    printed, end, pressed = "", time.monotonic() + seconds, False
+    while time.monotonic() < end:
+        try:
+            new = os.read(terminal, 4096).decode(errors="replace")
+        except OSError:  # the other end is closed
+            break
+        printed += new
+        if until is not None and re.search(until, printed) and not pressed:
+            os.write(terminal, b"\x03")
+            pressed = True
+    return printed, os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+
+HARVESTED = """
+time_limit = 20.0
+[problems]
+scenarios = ["block_push"]
+families = { scenarios = 3 }
+[[runs]]
+solvers = ["qpsolvers:daqp"]
+"""
+
+
+def test_the_making_of_problems_is_shown_with_an_estimate_and_may_be_interrupted(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + HARVESTED)
+    estimate = r"exact answers: .*\d+/\d+ \[\d\d:\d\d<\d\d:\d\d"
+    printed, status = on_a_terminal(command(path, tmp_path / "store"), estimate)
+    assert re.search(estimate, printed)
+    assert status == 130
+    assert "interrupted; what was measured is in" in printed
+    quiet, status = on_a_terminal([*command(path, tmp_path / "store"), "--quiet"], None)
+    assert "exact answers" not in quiet
+    assert "asked" not in quiet
+    assert status == 0
+    assert len(rows_read(tmp_path / "store")) == 3
 
 
 def command(path, store):

@@ -1,19 +1,24 @@
 """Rows are only ever added; what a sudden end leaves is read, or refused in one sentence."""
 
 import json
+import resource
 
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.grade import ungraded
 from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, table
 
 STUDY = {"format": "quasistatic-ref/study-store", "version": 1, "kind": "solvers"}
 
 
+SECONDS = {"solver": None, "call": 1.0, "spent": 1.0}
+
+
 def row(problem, **changes):
     named = {"problem": problem, "family": "f", "solver": "s", "road": "callable"}
     named |= {"setting": "default", "warm": False, "units": "raw", "repetition": 0}
-    return named | {"outcome": "solved", "seconds": {"call": 1.0}} | changes
+    return named | ungraded("failed", "sorry", 1.0) | {"seconds": SECONDS} | changes
 
 
 def test_rows_come_back_sorted_whatever_their_order_in_the_file(tmp_path):
@@ -68,6 +73,31 @@ def test_two_runs_cannot_write_one_store(tmp_path):
         Store(tmp_path, STUDY)
     with Store(tmp_path, STUDY):
         pass  # after the end of the first, it is free again
+
+
+def test_a_full_disk_is_reported_by_the_name_of_the_file_and_loses_no_row(tmp_path):
+    """A limit on the size of files ends a write in the middle of a line, as a full disk does."""
+    with Store(tmp_path, STUDY) as store:
+        store.add(row("a"))
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(
+            resource.RLIMIT_FSIZE, ((tmp_path / ROWS).stat().st_size + 10, limits[1])
+        )
+        try:
+            with pytest.raises(InputError, match=r"rows\.jsonl: cannot be written: File too large"):
+                store.add(row("b"))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    with Store(tmp_path, STUDY) as store:
+        assert [r["problem"] for r in store.rows] == ["a"]
+        store.add(row("b"))
+    assert [r["problem"] for r in rows_read(tmp_path)] == ["a", "b"]
+
+
+def test_a_store_whose_rows_are_a_folder_is_refused_by_name(tmp_path):
+    (tmp_path / ROWS).mkdir()
+    with pytest.raises(InputError, match=r"rows\.jsonl: cannot be written: Is a directory"):
+        Store(tmp_path, STUDY)
 
 
 def test_a_table_leaves_out_times_and_nothing_else():

@@ -55,6 +55,34 @@ def test_pi_takes_the_least_friction_that_is_not_zero_and_needs_some(system):
     assert quasi_dynamic_number(system, smooth, delta_q, G) is None
 
 
+LEAST = 5e-324
+"""The least float64 above 0."""
+
+
+@pytest.mark.parametrize("mu_v", [LEAST, 1e-323, 1e-310, 1e-306])
+def test_pi_that_float64_cannot_hold_is_none(system, mu_v):
+    step = point_on_floor(mu_v=mu_v, h=H)
+    delta_q = np.full(system.n_v, 1e6)
+    # v = sqrt(3) 1e8 m/s over mu_v g h <= 1e-307 m/s is more than 1.8e308, the largest float64.
+    assert quasi_dynamic_number(system, step, delta_q, G) is None
+
+
+@pytest.mark.parametrize("setting", ["contacts.floor.mu_v=1e-323", "gravity=[0, 0, -1e-320]"])
+def test_a_run_with_numbers_next_to_zero_is_kept(tmp_path, setting):
+    settings = ["--set", "steps=2", "--set", setting]
+    assert main(["run", "block_push", *settings, "--out", str(tmp_path)]) == 0
+    trajectory = trajectory_read(tmp_path / "block_push.npz")
+    assert trajectory.steps == 2
+    assert trajectory.header["quasi_dynamic_number"] in (None, 0.0)
+
+
+@pytest.mark.parametrize("g", [LEAST, 1e-310])
+def test_a_body_that_weighs_next_to_nothing_has_no_share_of_drag(g):
+    step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
+    # Its drag is 0.3 * 9.81 N, its weight at most 3e-311 N.
+    assert drag_share(free_body(0.3), step, solve_step(step), g) is None
+
+
 def free_body(m, at=0):
     """A system of one free body of mass m whose twist starts at a column of delta_q."""
     base = Joint("body/base", "floating", False, slice(at, at + 7), slice(at, at + 6))

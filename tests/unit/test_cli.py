@@ -1,6 +1,9 @@
 """The command line, in this process: exit statuses, plain sentences on failure, JSON."""
 
+import errno
+import io
 import json
+import os
 import subprocess
 import sys
 
@@ -9,6 +12,8 @@ import pytest
 
 from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
+from quasistatic_ref.cli.options import WIDTH
+from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read, step_sha256, step_written
@@ -386,3 +391,47 @@ def test_figures_are_made_by_name(out, capsys):
     assert all(path.stat().st_size > 1000 for path in paths)
     assert main(["figures", "cone_surface", "--out", str(out)]) == 2
     assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)
+
+
+def test_a_file_that_cannot_be_used_is_named_and_not_taken_for_standard_output(monkeypatch, capsys):
+    def full(options):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
+
+    monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
+    assert main(["backends"]) == 2
+    told = capsys.readouterr().err
+    assert told == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_what_is_inspected_fits_a_terminal(name, capsys):
+    assert main(["inspect", name]) == 0
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
+
+
+def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
+    assert main(["run", scene, "--out", str(tmp_path), "--quiet"]) == 0
+    capsys.readouterr()
+    path = tmp_path / "step.json"
+    (trajectory,) = tmp_path.glob("*.npz")
+    assert main(["extract", str(trajectory), "--step", "1", "-o", str(path)]) == 0
+    assert capsys.readouterr().out == f"wrote {path}\n"
+
+
+def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    for words, shown in (([], True), (["--quiet"], False)):
+        terminal = Terminal()
+        monkeypatch.setattr(sys, "stderr", terminal)
+        assert main(["run", scene, "--out", str(tmp_path), *words]) == 0
+        assert ("step/s" in terminal.getvalue()) is shown
+
+
+def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
+    assert main(["run", "block_incline", "--quiet", "--out", str(tmp_path)]) == 0
+    warned = capsys.readouterr().err
+    assert warned.startswith("quasistatic-ref: the spurious drag")
+    assert main(["run", "block_incline", "--quiet", "--strict", "--out", str(tmp_path)]) == 1

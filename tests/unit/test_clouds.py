@@ -1,5 +1,6 @@
 """Point clouds from files: every format gives the same points, every defect a sentence."""
 
+import io
 import struct
 from pathlib import Path
 
@@ -44,6 +45,39 @@ def binary_ply(kind: str, code: str, points: np.ndarray = POINTS) -> bytes:
     return BINARY_HEADER.format(kind).encode() + body
 
 
+PCD_HEADER = """# .PCD v0.7 - Point Cloud Data file format
+VERSION 0.7
+FIELDS red x y z
+SIZE 1 8 8 8
+TYPE U F F F
+COUNT 1 1 1 1
+WIDTH 2
+HEIGHT 1
+VIEWPOINT 0 0 0 1 0 0 0
+POINTS 2
+DATA """
+
+
+def pcd(kind: str, body: bytes, header: str = PCD_HEADER) -> bytes:
+    return f"{header}{kind}\n".encode() + body
+
+
+def binary_body(layout: str, points: np.ndarray = POINTS) -> bytes:
+    return b"".join(struct.pack(layout, 7, *point) for point in points)
+
+
+def npy(array: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    np.save(file, array)
+    return file.getvalue()
+
+
+def npz(**arrays: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)
+    return file.getvalue()
+
+
 GOOD: dict[str, tuple[str, bytes]] = {
     "xyz": (".xyz", b"# a comment\n0.1 -0.2 0.3\n\n1.0\t2e-3   -0.5 # end\n"),
     "xyz with CRLF and a mark": (".XYZ", b"\xef\xbb\xbf0.1 -0.2 0.3\r\n1 2e-3 -.5\r\n"),
@@ -52,6 +86,12 @@ GOOD: dict[str, tuple[str, bytes]] = {
     "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
     "ascii ply": (".ply", PLY_ASCII.encode()),
     "binary ply in float64": (".ply", binary_ply("double", "d")),
+    "ascii pcd": (".pcd", pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n")),
+    "binary pcd": (".pcd", pcd("binary", binary_body("<B3d"))),
+    "npy": (".npy", npy(POINTS)),
+    "npy of another order": (".npy", npy(np.asfortranarray(POINTS))),
+    "npz of one array": (".npz", npz(cloud=POINTS)),
+    "npz of several": (".npz", npz(colours=np.ones((2, 4)), points=POINTS)),
     "obj": (".obj", b"o thing\nv 0.1 -0.2 0.3\nvn 0 0 1\nv 1.0 2e-3 -0.5 1.0\nf 1 2 1\n"),
 }
 
@@ -75,6 +115,80 @@ def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path: Path) -> Non
 
 NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD: dict[str, tuple[str, bytes, str]] = {
+    "pcd that is compressed": (".pcd", pcd("binary_compressed", b""), "DATA: must be ascii or bin"),
+    "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
+    "pcd of nothing": (".pcd", b"\x00" * 100, "header: must end with a line DATA"),
+    "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
+    "pcd cut off": (
+        ".pcd",
+        pcd("binary", binary_body("<B3d")[:-1]),
+        "must hold 2 points .got 1",
+    ),
+    "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must hold 2 points .got 1"),
+    "pcd of short lines": (".pcd", pcd("ascii", b"1 2 3\n" * 2), "line 12: must be 4 numbers"),
+    "pcd of words": (".pcd", pcd("ascii", b"0 1 2 x\n" * 2), "line 12"),
+    "pcd of NaN": (
+        ".pcd",
+        pcd("binary", binary_body("<B3d", POINTS * np.nan)),
+        "point 0: must be finite",
+    ),
+    "pcd of more points than memory": (
+        ".pcd",
+        pcd(
+            "binary",
+            b"",
+            PCD_HEADER.replace("TH 2", "TH 999999999999999").replace("TS 2", "TS 999999999999999"),
+        ),
+        "must hold 9+ points .got 0",
+    ),
+    "pcd that contradicts itself": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("TH 2", "TH 3")),
+        "POINTS: must be given",
+    ),
+    "pcd of a wide field": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("COUNT 1", "COUNT 999999")),
+        "at most 1000",
+    ),
+    "pcd of an odd type": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
+        "an unknown SIZE and",
+    ),
+    "pcd without z": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
+        "FIELDS: must name z once",
+    ),
+    "pcd of too few sizes": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE")),
+        "FIELDS: must have",
+    ),
+    "npy of a pickle": (
+        ".npy",
+        npy(np.array([{}], dtype=object)),
+        "is a pickle",
+    ),
+    "npy of nothing": (".npy", b"", "is not an array of NumPy"),
+    "npy cut off": (".npy", npy(POINTS)[:-1], "does not have the size that it says"),
+    "npy of a size that is not there": (
+        ".npy",
+        npy(POINTS).replace(b"(2, 3)", b"(9**9,"),
+        "is not an array of NumPy",
+    ),
+    "npy of pairs": (
+        ".npy",
+        npy(POINTS[:, :2]),
+        "numbers of shape .N, 3. .got 'float64",
+    ),
+    "npy of complex numbers": (".npy", npy(POINTS * 1j), "numbers of shape .N, 3. .got 'complex"),
+    "npy of infinity": (".npy", npy(POINTS * np.inf), "point 0: must be finite numbers"),
+    "npz of two arrays": (".npz", npz(a=POINTS, b=POINTS), "must hold one array, or one that is"),
+    "npz of none": (".npz", npz(), "must hold one array, or one that is named points"),
+    "npz that is no zip": (".npz", b"PK", "is not a file of NumPy's arrays"),
+    "npz of a pickle": (".npz", npz(points=np.array([{}], dtype=object)), "points.npy is a pickle"),
     "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
     "no extension": ("", b"0 0 0", "extension: is not a known kind of point cloud"),
     "empty xyz": (".xyz", b"\n# nothing\n", "points: must hold at least one point"),

@@ -6,7 +6,14 @@ import pickle
 import pytest
 
 from quasistatic_ref import errors
-from quasistatic_ref.errors import InputError, QuasistaticError, StepNotSolved, suggestion
+from quasistatic_ref.errors import (
+    LONGEST,
+    MOST_NAMES,
+    InputError,
+    QuasistaticError,
+    StepNotSolved,
+    suggestion,
+)
 from tests.helpers import point_on_floor
 
 
@@ -44,6 +51,26 @@ def test_a_long_value_is_cut_to_a_line():
     assert len(text) < 110
     assert text.endswith("...)")
     assert "\n" not in str(InputError("is odd", value="a\nb"))
+
+
+LONG = "a" * 10_000
+LONG_NAMES = "a." * 40_000
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        InputError("is bad", field=LONG_NAMES),
+        InputError("is bad", file=f"/{LONG}"),
+        InputError(f"names {LONG} twice"),
+        InputError(f"is unknown{suggestion(LONG, ['x', LONG + 'b'])}", field=LONG, value=LONG),
+        InputError(f"is unknown{suggestion('abc', [f'name_{i:0200d}' for i in range(9999)])}"),
+        QuasistaticError(f"{LONG} is bad"),
+    ],
+)
+def test_a_sentence_repeats_no_more_than_200_characters_of_anything(error):
+    assert max(len(word) for word in str(error).split()) <= LONGEST + len("mean '?:,")
+    assert len(str(error)) <= (MOST_NAMES + 5) * LONGEST
 
 
 def test_the_file_is_added_once():

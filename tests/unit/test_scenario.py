@@ -231,7 +231,10 @@ SETTING_REFUSALS = {
         "contacts.floor.mu=1",
         "contacts.floor.mu: is unknown; did you mean 'mu_v'",
     ),
-    "an unknown contact": ("contacts.flor.mu_v=1", "contacts.flor.alpha: is missing"),
+    "an unknown contact": (
+        "contacts.flor.mu_v=1",
+        "contacts.flor: is no table of this file; did you mean 'floor'?",
+    ),
     "NaN": ("h=nan", "h: must be a finite number (got nan)"),
     "a word for a number": ("h=fast", "h: must be a number (got 'fast')"),
 }
@@ -522,7 +525,11 @@ REFUSALS = {
         'alpha = "ball"',
         "contacts.push: both shapes are fixed to the same link",
     ),
-    "an unknown field of a contact": ("mu_v = 0.3", "mu = 0.3", "contacts.push.mu_v: is missing"),
+    "an unknown field of a contact": (
+        "mu_v = 0.3",
+        "mu = 0.3",
+        "contacts.push.mu: is unknown; did you mean 'mu_v'?",
+    ),
     "a field too many": (
         "mu_v = 0.3",
         "mu_v = 0.3\nmu = 1",

@@ -79,8 +79,24 @@ def test_a_path_from_the_file_itself_still_may_not(path, tmp_path):
         load_scenario(path)
 
 
+RECURSIVE: dict[str, object] = {}
+RECURSIVE["inner"] = RECURSIVE
+
 REFUSED = {
     "one string": ("steps=3", {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "a number": (5, {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "a value that holds itself": ({"h": RECURSIVE}, {}, "h: is nested too deeply, or holds itself"),
+    "a keyword that holds itself": ((), {"solver": RECURSIVE}, "solver: is nested too deeply"),
+    "a contact that is not there": (
+        ["contacts.flor.mu_v=1"],
+        {},
+        "contacts.flor: is no table of this file; did you mean",
+    ),
+    "a body that is not there": (
+        {"bodies.bal.base": "fixed"},
+        {},
+        "bodies.bal: is no table of this file; did you mean",
+    ),
     "no equals": (["steps"], {}, "--set: must read dotted.key=value"),
     "no key": ({"": 3}, {}, "settings: must read dotted.key=value"),
     "an empty part": ({"contacts..mu_v": 3}, {}, "settings: must read dotted.key=value"),
@@ -101,3 +117,9 @@ def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, say
     with pytest.raises(InputError) as caught:
         load_scenario(path, settings, **named)
     assert str(caught.value).startswith(f"{path}: {says}")
+
+
+def test_a_contact_may_be_made_of_changes_alone(path):
+    contact = {"alpha": "floor", "beta": "rail/plate", "mu_v": 0.5, "rows": 4}
+    changes = {f"contacts.flor.{name}": value for name, value in contact.items()}
+    assert len(load_scenario(path, changes).pairs) == 3

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.files import json_text, text_written, writable_folder
@@ -19,6 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.add_out(parser, "validation/benchmarks")
     shared.add_json(parser)
+    shared.add_quiet(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     A quick run measures too little to judge, and does not.
     """
     writable_folder(options.out)
-    found = tables(options.quick, lambda name: print(f"{name} ...", file=sys.stderr))
+    found = tables(options.quick, lambda name: shared.progress_line(options, f"{name} ..."))
     text_written(options.out / "bench.json", json_text(found) + "\n")
     text_written(options.out / "bench.md", page(found))
     _figure(found, options)

@@ -19,6 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_solver(parser)
     shared.add_set(parser)
     shared.add_json(parser)
+    shared.add_quiet(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -28,10 +29,10 @@ def run(options: argparse.Namespace) -> int:
     runs: dict[str, Trajectory] = {}
     report: dict[str, dict[str, object]] = {}
     for case, scenario in scenarios.items():
-        print(f"bunny_grasp {case}: {scenario.steps} steps", file=sys.stderr)
+        shared.progress_line(options, f"bunny_grasp {case}: {scenario.steps} steps")
         stem = f"bunny_grasp_{case.replace(' ', '_')}"
         try:
-            runs[case] = scenario.run()
+            runs[case] = scenario.run(progress=not options.quiet)
         except RunFailed as failure:
             return shared.failed_run_saved(failure, options.out, stem)
         runs[case].save(options.out / f"{stem}.npz")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
@@ -33,6 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
     shared.add_json(run_)
+    shared.add_quiet(run_)
     export = actions.add_parser(
         "export",
         help="write a study's problems as a test set of qpbenchmark",
@@ -64,7 +67,16 @@ def _run(options: argparse.Namespace) -> int:
         kind = study_kind(tables)
     except InputError as error:
         raise error.in_file(path) from None
-    where = {"jobs": options.jobs, "scheduler": options.scheduler}
+    try:
+        return _measured(path, tables, kind, options)
+    except KeyboardInterrupt:
+        kept = f"what was measured is in {options.out}; the same command goes on from there"
+        print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
+        return 130
+
+
+def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.Namespace) -> int:
+    where = {"jobs": options.jobs, "scheduler": options.scheduler, "progress": not options.quiet}
     if kind == "sweep":
         from quasistatic_ref.lab.study.spec_sweep import sweep_study
         from quasistatic_ref.lab.study.sweep import run_sweep

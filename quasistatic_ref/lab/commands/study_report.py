@@ -6,8 +6,6 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.cli import options as shared
-
 
 def add_report(actions: Any) -> None:
     """Declare ``report`` and ``pack`` among the actions of ``study``."""
@@ -17,14 +15,19 @@ def add_report(actions: Any) -> None:
         description="Write what a study says: a self-contained HTML page, Markdown, figures.",
     )
     report.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    shared.add_out(report, "report")
+    _add_out(report, "report")
     pack = actions.add_parser(
         "pack",
         help="write a study's rows compressed, their numbers shortened",
         description="Write a study's rows compressed, their numbers shortened, to be kept.",
     )
     pack.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    shared.add_out(pack, "packed")
+    _add_out(pack, "packed")
+
+
+def _add_out(parser: argparse.ArgumentParser, name: str) -> None:
+    words = f"folder for the results (default: {name}, in that of the study)"
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help=words)
 
 
 def run_report(options: argparse.Namespace) -> int:
@@ -36,7 +39,8 @@ def run_report(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.report import study_report
 
     report = study_report(options.store)
-    folder = writable_folder(options.out / "figures")
+    out = options.store / "report" if options.out is None else options.out
+    folder = writable_folder(out / "figures")
     inside = {}
     for picture in report.pictures:
         found = images(picture.kind, picture.data)
@@ -44,7 +48,7 @@ def run_report(options: argparse.Namespace) -> int:
         print(f"wrote {bytes_written(folder / f'{picture.name}.png', found['png'])}")
     pages = {"report.md": markdown_page(report), "report.html": html_page(report, inside)}
     for name, text in pages.items():
-        print(f"wrote {text_written(options.out / name, text)}")
+        print(f"wrote {text_written(out / name, text)}")
     return 0
 
 
@@ -52,6 +56,7 @@ def run_pack(options: argparse.Namespace) -> int:
     """Write the packed store."""
     from quasistatic_ref.lab.study.pack import packed
 
-    for path in packed(options.store, options.out):
+    out = options.store / "packed" if options.out is None else options.out
+    for path in packed(options.store, out):
         print(f"wrote {path}")
     return 0

@@ -36,6 +36,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             shared.add_json(action)
         else:
             shared.add_out(action, "answers" if name == "own" else "vectors")
+        if name in ("generate", "own", "harvest"):
+            shared.add_quiet(action)
         if name in ("check", "own"):
             action.add_argument(
                 "--layer",
@@ -67,13 +69,14 @@ def _check(options: argparse.Namespace) -> int:
 def _generate(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.generate import generated
 
-    return _counted(generated(_source(options), options.out), options.out)
+    return _counted(generated(_source(options), options.out, not options.quiet), options.out)
 
 
 def _harvest(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.harvest import harvested
 
-    return _counted(harvested(options.out, lambda said: print(said, file=sys.stderr)), options.out)
+    counts = harvested(options.out, lambda said: shared.progress_line(options, said))
+    return _counted(counts, options.out)
 
 
 def _own(options: argparse.Namespace) -> int:
@@ -82,7 +85,7 @@ def _own(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.layers import LAYERS
 
     names = [check_layer(name) for name in options.layers or LAYERS]
-    for path in own_written(_source(options), options.out, names):
+    for path in own_written(_source(options), options.out, names, not options.quiet):
         print(path)
     return 0
 

@@ -11,14 +11,13 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 
-from tqdm import tqdm
-
 from quasistatic_ref.lab.study.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.keeper import Keeper
 from quasistatic_ref.lab.study.plan import Measurement
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.lab.study.store import Row, Store
+from quasistatic_ref.progress import progress_bar
 
 Block = list[tuple[Measurement, Problem]]
 Answered = Callable[[Block, float, float], list[Row]]
@@ -101,7 +100,7 @@ def conduct(
         queues.setdefault(m.solver.label, deque()).append((place, m))
     left = {label: budget - spent for label, spent in _spent(store, queues).items()}
     under_way: dict[Future[list[Row]], str] = {}
-    with tqdm(total=len(todo), unit="call", leave=False, disable=None if progress else True) as bar:
+    with progress_bar(total=len(todo), unit="call", words="asked", shown=progress) as bar:
         try:
             while queues or under_way:
                 idle = {n: q for n, q in queues.items() if n not in under_way.values()}

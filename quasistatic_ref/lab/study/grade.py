@@ -13,6 +13,7 @@ import numpy as np
 
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.errors import clipped
 from quasistatic_ref.lab.study.qp import Problem, Truth, units_of
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.units import Units, natural_form
@@ -91,7 +92,7 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
     wrong = reply.solved and (found is None or found < promised)
     return {
         "outcome": outcome,
-        "claimed": reply.status,
+        "claimed": clipped(reply.status),
         "said_optimal": reply.solved,
         "wrong": wrong,
         "digits": digits,
@@ -105,7 +106,7 @@ def ungraded(outcome: str, claimed: str, seconds: float) -> dict[str, Any]:
     """The same fields of a call that never came back, after `seconds` [s], or never was made."""
     return {
         "outcome": outcome,
-        "claimed": claimed,
+        "claimed": clipped(claimed),
         "said_optimal": False,
         "wrong": False,
         "digits": {"delta_q": None, "net_wrench": None},

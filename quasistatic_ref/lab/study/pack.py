@@ -16,7 +16,7 @@ from quasistatic_ref.files import (
     writable_folder,
 )
 from quasistatic_ref.lab.study.problems import FACTS
-from quasistatic_ref.lab.study.store import PACKED, STUDY, Row, rows_read, study_read
+from quasistatic_ref.lab.study.store import PACKED, STUDY, Row, rows_read, study_checked
 
 FIGURES = 3
 """Significant figures of times and residuals: their noise is larger."""
@@ -39,7 +39,7 @@ def packed(folder: str | Path, out: str | Path) -> list[Path]:
         What was written. A packed store is not continued: ``study run`` starts anew beside it.
     """
     folder, out = Path(folder), writable_folder(out)
-    study = study_read(folder)
+    study = study_checked(folder)
     lines = "".join(json_text(shorter(row)) + "\n" for row in rows_read(folder))
     content = lzma.compress(lines.encode(), preset=9 | lzma.PRESET_EXTREME)
     written = [

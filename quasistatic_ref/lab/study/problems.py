@@ -4,24 +4,33 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from tqdm import tqdm
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, json_read, json_text, text_written, written_whole
-from quasistatic_ref.lab.study.families.harvest import asked_again, harvested
+from quasistatic_ref.files import json_read, json_text, text_written, written_whole
+from quasistatic_ref.lab.study.families.harvest import (
+    Count,
+    asked_again,
+    harvested,
+    no_count,
+    scenario_of,
+    scenario_run,
+)
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
 from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
+from quasistatic_ref.lab.study.schema import FACT
 from quasistatic_ref.lab.study.spec import TestSet
+from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
-from quasistatic_ref.simulate.npz import npz_arrays
+from quasistatic_ref.npz import npz_arrays
+from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -36,10 +45,27 @@ TIME_STEPS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 MOST_CONTACTS, MOST_RATIO, MOST_BODIES = 1000, 1e9, 40
 
 
-def made(test_set: TestSet) -> Iterator[Made]:
-    """Every step of a test set, family by family."""
+def scenarios_run(test_set: TestSet) -> list[str]:
+    """The scenarios whose runs a test set is taken from."""
+    count, names = test_set.families, test_set.scenarios
+    share = _shares(count["scenarios"], len(names))
+    again = [AGAIN] if count["time_step"] > 1 or count["closest_points"] else []
+    return list(dict.fromkeys([n for n, c in zip(names, share, strict=True) if c] + again))
+
+
+def made(test_set: TestSet, count_steps: Count = no_count) -> Iterator[Made]:
+    """Every step of a test set, family by family.
+
+    Parameters
+    ----------
+    test_set : TestSet
+    count_steps : callable
+        Is called with the number of steps of scenarios that were just simulated.
+    """
     count, seed = test_set.families, test_set.seed
     names = test_set.scenarios
+    for name in scenarios_run(test_set):
+        scenario_run(name, count_steps)
     share = _shares(count["scenarios"], len(names))
     yield from chain.from_iterable(harvested(n, c) for n, c in zip(names, share, strict=True) if c)
     if n := count["contacts"]:
@@ -98,19 +124,24 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
     folder = Path(folder)
     asked = _asked(test_set)
     if (folder / HEADER).exists():
-        there = json_read(folder / HEADER)
+        there = _head(folder)
         if {name: there.get(name) for name in asked} != json.loads(json_text(asked)):
             raise InputError(
                 "holds another test set; choose another folder with --out, or remove this one",
                 file=folder,
             )
         return problems_read(folder)
+    # The bar counts steps: those of the runs that problems are taken from, and the problems.
     total = sum(test_set.families.values())
-    bar = tqdm(made(test_set), total=total, unit="problem", file=sys.stderr, leave=False,
-               disable=None if progress else True, desc="exact answers")  # fmt: skip
-    problems = list({p.id: p for p in map(problem_of, bar)}.values())
-    _written(problems, asked, folder)
-    return problems
+    problems: dict[str, Problem] = {}
+    with progress_bar(total=total, unit="step", words="exact answers", shown=progress) as bar:
+        bar.total += sum(scenario_of(name).steps for name in scenarios_run(test_set))
+        for one in made(test_set, bar.update):
+            problem = problem_of(one)
+            problems[problem.id] = problem
+            bar.update()
+    _written(list(problems.values()), asked, folder)
+    return list(problems.values())
 
 
 def problems_read(folder: str | Path) -> list[Problem]:
@@ -122,20 +153,21 @@ def problems_read(folder: str | Path) -> list[Problem]:
         If it holds no test set, or one whose numbers were changed.
     """
     folder = Path(folder)
-    head = json_read(folder / HEADER)
-    lines = bytes_read(folder / FACTS).decode().splitlines()
+    head, lines = _head(folder), lines_read(folder / FACTS, FACT)
     arrays = npz_arrays(folder / NUMBERS)
-    if head.get("format") != FORMAT or head.get("sha256") != _digest(arrays):
+    sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in NAMES}
+    if (
+        head.get("format") != FORMAT
+        or {name: array.shape for name, array in arrays.items()} != sizes
+        or head.get("sha256") != _digest(arrays)
+    ):
         raise InputError("is no test set, or was changed; remove the folder", file=folder)
     at = dict.fromkeys(NAMES, 0)
     problems = []
-    for line in lines:
-        said = json.loads(line)
-        n, m = said["n"], said["m"]
-        shapes = {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+    for said in lines:
         numbers = {}
-        for name, shape in shapes.items():
-            size = int(np.prod(shape))
+        for name, shape in _shapes(said).items():
+            size = math.prod(shape)
             numbers[name] = arrays[name][at[name] : at[name] + size].reshape(shape)
             at[name] += size
         facts = Facts(**{key: said[key] for key in Facts.__dataclass_fields__})
@@ -144,6 +176,18 @@ def problems_read(folder: str | Path) -> list[Problem]:
             Problem(facts, form, Truth(numbers["delta_q"], numbers["net"], said["bound"]))
         )
     return problems
+
+
+def _shapes(said: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
+    n, m = said["n"], said["m"]
+    return {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+
+
+def _head(folder: Path) -> dict[str, Any]:
+    head = json_read(folder / HEADER)
+    if not isinstance(head, dict):
+        raise InputError("must be a table", file=folder / HEADER, value=head)
+    return head
 
 
 def set_record(problems: Sequence[Problem]) -> dict[str, Any]:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read
 from quasistatic_ref.lab.study.page import Report
 from quasistatic_ref.lab.study.problems import FACTS
+from quasistatic_ref.lab.study.schema import FACT, check_solver_rows, check_sweep_rows
 from quasistatic_ref.lab.study.solver_report import solver_report
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.store import lines_read, rows_read, study_checked
 from quasistatic_ref.lab.study.sweep_report import sweep_report
 
 
@@ -31,10 +30,18 @@ def study_report(folder: str | Path) -> Report:
         If there is no store, or nothing in it yet.
     """
     folder = Path(folder)
-    study, rows = study_read(folder), rows_read(folder)
+    study, rows = study_checked(folder), rows_read(folder)
     if not rows:
         raise InputError("holds no rows yet; run the study first", file=folder)
-    if study["kind"] == "sweep":
-        return sweep_report(study, rows)
-    facts = [json.loads(line) for line in bytes_read(folder / FACTS).decode().splitlines()]
+    name = "sweep" if study["kind"] == "sweep" else "problem"
+    if any(name not in row for row in rows):
+        raise InputError("are of another kind of study", file=folder, field="its rows")
+    try:
+        if name == "sweep":
+            check_sweep_rows(study, rows)
+            return sweep_report(study, rows)
+        facts = lines_read(folder / FACTS, FACT)
+        check_solver_rows(study, facts, rows)
+    except InputError as error:
+        raise error.in_file(folder) from None
     return solver_report(study, facts, rows)

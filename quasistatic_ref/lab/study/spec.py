@@ -15,6 +15,7 @@ from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import chosen_solvers, own_solvers
 from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.simulate.settings import toml_tables
 
 FORMAT, VERSION = "quasistatic-ref/study", 1
 KINDS = ("solvers", "sweep")
@@ -128,7 +129,9 @@ def study_tables(path: Path) -> dict[str, Any]:
         If it is missing or not TOML.
     """
     try:
-        return tomllib.loads(text_of(bytes_read(path, largest=LARGEST), path))
+        return toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
+    except InputError as error:
+        raise error.in_file(path) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"is not TOML: {error}", file=path) from None
     except (RecursionError, ValueError):
@@ -187,7 +190,7 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
 def _problems(table: Fields, quick: bool) -> TestSet:
     seed = table.integer("seed", 1, least=0, most=2**32 - 1)
     known = scenario_names()
-    scenarios = table.sequence("scenarios", known)
+    scenarios = table.words("scenarios", known)
     for name in scenarios:
         if name not in known:
             raise table.fail("scenarios", f"holds no scenario{suggestion(str(name), known)}", name)
@@ -218,14 +221,14 @@ def _settings(tables: Fields) -> dict[str, Setting]:
 
 
 def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
-    asked = table.sequence("solvers", ["qpsolvers:*"])
+    asked = table.words("solvers", ["qpsolvers:*"])
     solvers = chosen_solvers(table, asked, own)
-    names = table.sequence("settings", ["default"])
+    names = table.words("settings", ["default"])
     for name in names:
         if name not in settings:
             hint = suggestion(str(name), settings)
             raise table.fail("settings", f"holds an unknown one{hint}", name)
-    units = table.sequence("units", ["natural"])
+    units = table.words("units", ["natural"])
     for name in units:
         if name not in UNITS:
             raise table.fail("units", f"must be among {', '.join(UNITS)}", name)

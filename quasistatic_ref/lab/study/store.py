@@ -10,17 +10,22 @@ from __future__ import annotations
 import fcntl
 import json
 import lzma
-import os
 from collections.abc import Iterable
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.lab.study.schema import SOLVER_ROW, STUDIES, SWEEP_ROW, Shape, checked
 
 ROWS, STUDY = "rows.jsonl", "study.json"
 PACKED = "rows.jsonl.xz"
 """The rows of a store that was packed to be kept, not to be continued."""
+LARGEST_UNPACKED = 256 * 2**20
+"""Largest size of packed rows [bytes]: those of the study 'default' have 26 MiB."""
+MEMORY = 128 * 2**20
+"""What the unpacking itself may take [bytes]: 65 MiB at the strongest setting."""
 KEY = ("problem", "solver", "road", "setting", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 SWEEP_KEY = ("sweep", "values")
@@ -56,7 +61,10 @@ class Store:
         self.folder = Path(folder)
         self._claim(study)
         path = self.folder / ROWS
-        self._file: IO[bytes] = path.open("ab")
+        try:
+            self._file = path.open("ab", buffering=0)
+        except OSError as error:
+            raise self._unwritable(error) from None
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
@@ -64,8 +72,15 @@ class Store:
             raise InputError("is being written by another run; wait for its end", file=path) from (
                 None
             )
-        self.rows, whole = _parsed(path)
-        os.truncate(path, whole)
+        try:
+            self.rows, whole = _parsed(path)
+            self._file.truncate(whole)
+        except OSError as error:
+            self.close()
+            raise self._unwritable(error) from None
+        except InputError:
+            self.close()
+            raise
 
     def _claim(self, study: dict[str, Any]) -> None:
         path = self.folder / STUDY
@@ -73,7 +88,7 @@ class Store:
         if not path.exists():
             text_written(path, text + "\n")
             return
-        there = json_read(path)
+        there = study_read(self.folder)
         for name, value in json.loads(text).items():
             if there.get(name) != value:
                 raise InputError(
@@ -88,10 +103,25 @@ class Store:
         return {key_of(row) for row in self.rows}
 
     def add(self, row: Row) -> None:
-        """Add one measurement; it is in the file when this returns."""
-        self._file.write((json_text(row) + "\n").encode())
-        self._file.flush()
+        """Add one measurement; it is in the file when this returns.
+
+        Raises
+        ------
+        InputError
+            If it cannot be written, as on a full disk; the rows before it are kept.
+        """
+        left = (json_text(row) + "\n").encode()
+        try:
+            while left:
+                left = left[self._file.write(left) :]
+        except OSError as error:
+            raise self._unwritable(error) from None
         self.rows.append(row)
+
+    def _unwritable(self, error: OSError) -> InputError:
+        remedy = "its whole rows are kept; make room, and run the study again to go on"
+        reason = f"cannot be written: {error.strerror or error}; {remedy}"
+        return InputError(reason, file=self.folder / ROWS)
 
     def close(self) -> None:
         """Close the file, and let others write."""
@@ -130,7 +160,56 @@ def study_read(folder: str | Path) -> dict[str, Any]:
     study = json_read(Path(folder) / STUDY)
     if not isinstance(study, dict) or study.get("format") != "quasistatic-ref/study-store":
         raise InputError("is no store of a study", file=folder)
+    try:
+        json_text(study)
+    except ValueError:  # NaN and 1e999, which Python reads and JSON does not have
+        raise InputError("holds a number that is not finite", file=Path(folder) / STUDY) from None
     return study
+
+
+def study_checked(folder: str | Path) -> dict[str, Any]:
+    """The same, with every field that a report needs.
+
+    Raises
+    ------
+    InputError
+        Naming the field that is missing, or not as it must be.
+    """
+    study, path = study_read(folder), Path(folder) / STUDY
+    try:
+        kind = Fields(study).text("kind", choices=tuple(STUDIES))
+        checked(study, STUDIES[kind])
+    except InputError as error:
+        raise error.in_file(path) from None
+    return study
+
+
+def lines_read(path: Path, shape: Shape) -> list[Row]:
+    """JSON objects of one shape, one a line.
+
+    Raises
+    ------
+    InputError
+        Naming the line and the field.
+    """
+    rows: list[Row] = []
+    for number, line in enumerate(bytes_read(path).split(b"\n"), start=1):
+        if line.strip():
+            try:
+                row = json.loads(text_of(line, path))
+            except (ValueError, InputError, RecursionError):
+                raise InputError("is no JSON", file=path, field=f"line {number}") from None
+            rows.append(_checked(row, shape, path, number))
+    return rows
+
+
+def _checked(row: Row, shape: Shape, path: Path, number: int) -> Row:
+    try:
+        checked(row, shape, strict=True)
+    except InputError as error:
+        named = f"line {number}{f', {error.field}' if error.field else ''}"
+        raise InputError(error.problem, file=path, field=named, value=error.value) from None
+    return row
 
 
 def table(rows: Iterable[Row]) -> list[Row]:
@@ -141,12 +220,7 @@ def table(rows: Iterable[Row]) -> list[Row]:
 
 def _parsed(path: Path) -> tuple[list[Row], int]:
     """Return the rows of a file, and the length of what parses [bytes]."""
-    content = bytes_read(path)
-    if path.name == PACKED:
-        try:
-            content = lzma.decompress(content)
-        except lzma.LZMAError:
-            raise InputError("is no xz file, or was cut off; take it anew", file=path) from None
+    content = _unpacked(path) if path.name == PACKED else bytes_read(path)
     rows: list[Row] = []
     whole = 0
     lines = content.split(b"\n")
@@ -154,7 +228,7 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
         try:
             row = json.loads(text_of(line, path))
             key_of(row)
-        except (ValueError, InputError, KeyError, TypeError):
+        except (ValueError, InputError, KeyError, TypeError, RecursionError):
             if number == len(lines) - 1:
                 break  # the last line, torn
             raise InputError(
@@ -162,6 +236,22 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
                 file=path,
                 field=f"line {number}",
             ) from None
-        rows.append(row)
+        shape = SOLVER_ROW if "problem" in row else SWEEP_ROW
+        rows.append(_checked(row, shape, path, number))
         whole += len(line) + 1
     return rows, whole
+
+
+def _unpacked(path: Path) -> bytes:
+    """The content of an xz file, unless it is larger than any study's rows."""
+    stream = lzma.LZMADecompressor(lzma.FORMAT_XZ, memlimit=MEMORY)
+    try:
+        content = stream.decompress(bytes_read(path), LARGEST_UNPACKED + 1)
+    except lzma.LZMAError:
+        raise InputError("is no xz file, or was cut off; copy it again", file=path) from None
+    if len(content) > LARGEST_UNPACKED:
+        most = LARGEST_UNPACKED / 2**20
+        raise InputError(f"unpacks to more than {most:g} MiB", file=path)
+    if not stream.eof:
+        raise InputError("is no xz file, or was cut off; copy it again", file=path)
+    return content

@@ -14,14 +14,13 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from quasistatic_ref.errors import QuasistaticError, RunFailed
 from quasistatic_ref.files import writable_folder
 from quasistatic_ref.lab.study.environment import machine, versions
 from quasistatic_ref.lab.study.outcomes import outcomes
 from quasistatic_ref.lab.study.spec_sweep import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.store import Row, Store, key_of
+from quasistatic_ref.progress import progress_bar
 
 DONE, ENDED_EARLY, REFUSED = "done", "ended_early", "refused"
 
@@ -107,7 +106,7 @@ def _conduct(
 ) -> None:
     left = list(reversed(todo))
     under_way: set[Future[Row]] = set()
-    with tqdm(total=len(todo), unit="run", leave=False, disable=None if progress else True) as bar:
+    with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
         while left or under_way:
             while left and len(under_way) < slots:
                 under_way.add(executor.submit(sweep_row, *left.pop()))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import IO, Final
-
-from tqdm import tqdm
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import bytes_read, text_written, writable_folder, written_whole
@@ -14,6 +12,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, answers_written, expected_text, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.manifest import MANIFEST, manifest_text
+from quasistatic_ref.progress import progress_bar
 
 COPIED: Final = ("README.md", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
@@ -93,5 +92,6 @@ def _copied(path: Path, content: bytes) -> None:
     written_whole(path, write)
 
 
-def _shown(cases: list[Case], name: str, progress: bool) -> tqdm[Case]:
-    return tqdm(cases, desc=name, unit="case", disable=None if progress else True, leave=False)
+def _shown(cases: list[Case], name: str, progress: bool) -> Iterable[Case]:
+    bar: Iterable[Case] = progress_bar(cases, words=name, unit="case", shown=progress)
+    return bar

@@ -2,18 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.families.made import Made, mass_ratio
-from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array, StepData
 
 POSES = 40
 """Configurations of a run at which a scenario is asked again with another h or k."""
+
+
+Count = Callable[[int], object]
+_RUNS: dict[str, Trajectory] = {}
+
+
+def no_count(steps: int) -> None:
+    """Count nothing."""
+
+
+@cache
+def scenario_of(name: str) -> Scenario:
+    """A scenario by name, loaded once."""
+    return load_scenario(name)
+
+
+def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajectory]:
+    """A scenario and its run, each step exact: the same bits whatever the machine's solvers.
+
+    Parameters
+    ----------
+    name : str
+    count : callable
+        Is called with the number of steps that were just simulated.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Between two steps, after Ctrl-C.
+    RunFailed
+        If a step fails.
+    """
+    scenario = scenario_of(name)
+    if name in _RUNS:
+        count(scenario.steps)
+        return scenario, _RUNS[name]
+
+    def target(t: float) -> Array:
+        count(1)
+        return scenario.targets(t)
+
+    try:
+        _RUNS[name] = rollout(scenario.simulator(), scenario.system.q_start, target, scenario.steps,
+                              force=scenario.force, record=scenario.record,
+                              progress=False)  # fmt: skip
+    except RunFailed as failure:
+        if isinstance(failure.__cause__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
+        raise
+    return scenario, _RUNS[name]
 
 
 def harvested(name: str, count: int) -> Iterator[Made]:
@@ -25,7 +78,7 @@ def harvested(name: str, count: int) -> Iterator[Made]:
     count : int
         At most so many.
     """
-    scenario, run = ran(name)  # exact: the same bits whatever the solvers
+    scenario, run = scenario_run(name)
     steps = np.unique(np.linspace(0, run.steps - 1, min(count, run.steps)).round().astype(int))
     for s in steps:
         step = run.step_data(int(s))
@@ -48,7 +101,7 @@ def asked_again(
     first : int
         Which of the configurations comes first, so that families do not all ask at the same ones.
     """
-    _, run = ran(name)
+    _, run = scenario_run(name)
     other = load_scenario(name, settings)
     simulator, words = other.simulator(), ",".join(settings)
     for i in range(count):

@@ -1,4 +1,4 @@
-"""The arrays of an ``.npz`` file from anywhere: no pickles, and no size but the one it says.
+"""The arrays of an ``.npz`` or ``.npy`` file from anywhere: no pickles, and only the size it says.
 
 ``numpy.load`` believes the shape in an array's header and asks for that much memory at once, and a
 few kilobytes of ZIP can hold gigabytes of zeros. Here sizes are compared before anything is
@@ -39,8 +39,16 @@ UNREADABLE: tuple[type[Exception], ...] = (
 """What zipfile and NumPy raise at a file that is something else, or spoilt."""
 
 
-def npz_arrays(path: str | Path) -> dict[str, NDArray[Any]]:
+def npz_arrays(
+    path: str | Path, what: str = "a trajectory written by this program"
+) -> dict[str, NDArray[Any]]:
     """Every array of the file by name, each of the shape and type that it has there.
+
+    Parameters
+    ----------
+    path : str or Path
+    what : str
+        What the file must be, for the sentence on one that is something else.
 
     Raises
     ------
@@ -48,16 +56,42 @@ def npz_arrays(path: str | Path) -> dict[str, NDArray[Any]]:
         If it is no such file, is spoilt, holds pickles, or unpacks to more than it should.
     """
     content = bytes_read(path)
-    problem = "is not a trajectory written by this program"
+    problem = f"is not {what}"
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             members = _checked_sizes(archive)
-            return {_name(one): _array(archive.read(one), one.filename) for one in members}
+            return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
     except InputError as error:
         raise error.in_file(path) from None
     except UNREADABLE as error:
         reason = " ".join(str(error).split())[:80]
         raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
+
+
+def npy_array(path: str | Path) -> NDArray[Any]:
+    """The array of an ``.npy`` file, of the shape and type that it has there.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    ndarray, any shape
+        In the file's own unit.
+
+    Raises
+    ------
+    InputError
+        If it is no such file, is spoilt, or holds a pickle.
+    """
+    try:
+        return _array(bytes_read(path), "it")
+    except InputError as error:
+        raise error.in_file(path) from None
+    except UNREADABLE as error:
+        reason = " ".join(str(error).split())[:80]
+        raise InputError(f"is not an array of NumPy: {reason}", file=path) from None
 
 
 def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
@@ -76,9 +110,9 @@ def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     return members
 
 
-def _name(member: zipfile.ZipInfo) -> str:
+def _name(member: zipfile.ZipInfo, problem: str) -> str:
     if not member.filename.endswith(".npy"):
-        raise InputError("is not a trajectory written by this program", field=member.filename)
+        raise InputError(problem, field=member.filename)
     return member.filename.removesuffix(".npy")
 
 

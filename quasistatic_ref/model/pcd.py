@@ -1,0 +1,167 @@
+"""Point positions of a PCD file (Point Cloud Library, versions .5 to .7), ascii or binary.
+
+The viewpoint is where the sensor stood; the points are taken as written.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.text import decimal
+
+_TYPES = {
+    ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
+    ("I", "8"): "<i8", ("U", "1"): "u1", ("U", "2"): "<u2", ("U", "4"): "<u4", ("U", "8"): "<u8",
+}  # fmt: skip
+_WORDS = (
+    "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA",
+)  # fmt: skip
+MOST_COLUMNS = 1000
+
+
+@dataclass(frozen=True)
+class Header:
+    """What the header says of the points.
+
+    Parameters
+    ----------
+    columns : tuple of (str, str, int)
+        Name, NumPy type and number of entries of each field.
+    count : int
+        Number of points.
+    data : str
+        ``"ascii"`` or ``"binary"``.
+    body : bytes
+        What follows the header.
+    line : int
+        Line number at which the body starts.
+    """
+
+    columns: tuple[tuple[str, str, int], ...]
+    count: int
+    data: str
+    body: bytes
+    line: int
+
+
+def pcd_points(content: bytes) -> NDArray[np.float64]:
+    """Point positions of a PCD file.
+
+    Parameters
+    ----------
+    content : bytes
+        The whole file.
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        x, y, z [m].
+
+    Raises
+    ------
+    ModelError
+        If the header or a point is malformed, not finite, or missing.
+    """
+    header = _header(content)
+    names = [name for name, _, _ in header.columns]
+    for name in "xyz":
+        if names.count(name) != 1 or header.columns[names.index(name)][2] != 1:
+            raise ModelError(f"must name {name} once, with one entry", field="FIELDS", value=names)
+    points = _ascii(header, names) if header.data == "ascii" else _binary(header, names)
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if bad.size:
+        value = points[bad[0]].tolist()
+        raise ModelError("must be finite numbers", field=f"point {bad[0]}", value=value)
+    return points
+
+
+def _binary(header: Header, names: list[str]) -> NDArray[np.float64]:
+    # Names are not unique: PCL pads with fields that are all called "_".
+    point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(header.columns)])
+    held = len(header.body) // point.itemsize
+    if held < header.count:
+        raise ModelError(f"must hold {header.count} points", field="DATA", value=held)
+    table = np.frombuffer(header.body, dtype=point, count=header.count)
+    columns = [table[str(names.index(name))][:, 0] for name in "xyz"]
+    return np.stack([column.astype(np.float64) for column in columns], axis=1)
+
+
+def _ascii(header: Header, names: list[str]) -> NDArray[np.float64]:
+    starts = np.cumsum([0, *(n for _, _, n in header.columns)])
+    columns, width = [int(starts[names.index(name)]) for name in "xyz"], int(starts[-1])
+    points: list[list[float]] = []
+    lines = header.body.decode("ascii", errors="replace").splitlines()
+    for number, line in enumerate(lines, start=header.line):
+        words = line.split()
+        if not words or len(points) == header.count:
+            continue
+        if len(words) != width:
+            raise ModelError(f"must be {width} numbers", field=f"line {number}", value=line)
+        try:
+            points.append([decimal(words[c]) for c in columns])
+        except ModelError as error:
+            error.field = f"line {number}"
+            raise
+    if len(points) < header.count:
+        raise ModelError(f"must hold {header.count} points", field="DATA", value=len(points))
+    return np.array(points, dtype=np.float64).reshape(-1, 3)
+
+
+def _header(content: bytes) -> Header:
+    said: dict[str, list[str]] = {}
+    start, number = 0, 0
+    while "DATA" not in said:
+        end = content.find(b"\n", start)
+        if end < 0:
+            raise ModelError("must end with a line DATA", field="header")
+        words = content[start:end].decode("ascii", errors="replace").split()
+        start, number = end + 1, number + 1
+        if not words or words[0].startswith("#"):
+            continue
+        if words[0] not in _WORDS or words[0] in said:
+            problem = f"must begin with one of {', '.join(_WORDS)}, each given once"
+            raise ModelError(problem, field=f"line {number}", value=" ".join(words))
+        said[words[0]] = words[1:]
+    data = " ".join(said["DATA"])
+    if data not in ("ascii", "binary"):
+        raise ModelError("must be ascii or binary; convert the file", field="DATA", value=data)
+    columns = _columns(said)
+    return Header(columns, _count(said), data, content[start:], number + 1)
+
+
+def _columns(said: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
+    names, sizes, types = (said.get(word, []) for word in ("FIELDS", "SIZE", "TYPE"))
+    counts = said.get("COUNT", ["1"] * len(names))
+    if not len(names) == len(sizes) == len(types) == len(counts) <= MOST_COLUMNS:
+        problem = "must have as many entries as SIZE, TYPE and COUNT"
+        raise ModelError(problem, field="FIELDS", value=names)
+    columns = []
+    for name, size, kind, count in zip(names, sizes, types, counts, strict=True):
+        if (kind, size) not in _TYPES:
+            raise ModelError("has an unknown SIZE and TYPE", field=name, value=f"{size} {kind}")
+        columns.append((name, _TYPES[kind, size], _whole("COUNT", count)))
+    if sum(n for _, _, n in columns) > MOST_COLUMNS:
+        raise ModelError(f"must have at most {MOST_COLUMNS} entries", field="FIELDS")
+    return tuple(columns)
+
+
+def _count(said: dict[str, list[str]]) -> int:
+    """The number of points, which POINTS and WIDTH times HEIGHT must agree on."""
+    sizes = [_whole(word, *said[word]) for word in ("WIDTH", "HEIGHT") if word in said]
+    given = [_whole("POINTS", *said["POINTS"])] if "POINTS" in said else []
+    if len(sizes) == 2:
+        given.append(math.prod(sizes))
+    if not given or len(set(given)) > 1:
+        raise ModelError("must be given, and be WIDTH times HEIGHT", field="POINTS", value=given)
+    return given[0]
+
+
+def _whole(field: str, *words: str) -> int:
+    if len(words) != 1 or not (words[0].isascii() and words[0].isdigit()) or len(words[0]) > 18:
+        raise ModelError("must be a whole number", field=field, value=" ".join(words))
+    return int(words[0])

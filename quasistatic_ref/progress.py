@@ -1,0 +1,37 @@
+"""The progress of long work, on standard error where that is a terminal."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable
+from typing import Any
+
+from tqdm import tqdm
+
+
+def progress_bar(
+    items: Iterable[Any] | None = None,
+    *,
+    unit: str,
+    total: int | None = None,
+    words: str | None = None,
+    shown: bool = True,
+) -> Any:
+    """A bar with an estimate of the time left; it leaves no line behind.
+
+    Parameters
+    ----------
+    items : iterable, optional
+        What is gone through; without it, ``update`` of the bar counts.
+    unit : str
+        Of which there are `total`.
+    total : int, optional
+    words : str, optional
+        What is done.
+    shown : bool
+        Whether a terminal is to show it.
+    """
+    # tqdm by itself prints nothing on a terminal that does not know its size.
+    size = shutil.get_terminal_size()
+    return tqdm(items, desc=words, total=total, unit=unit, leave=False, ncols=size.columns,
+                nrows=size.lines, disable=None if shown else True)  # fmt: skip

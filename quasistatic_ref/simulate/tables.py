@@ -1,0 +1,72 @@
+"""The names that each table of a scenario may hold: checked before any value is read.
+
+So a misspelt name is reported as what it is, and not as the absence of the right one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from quasistatic_ref.errors import ScenarioError, known_names, nearest_name
+from quasistatic_ref.fields import Fields
+
+TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
+BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
+NAMES: dict[str, tuple[str, ...]] = {
+    TOP: ("format", "version", "h", "steps", "gravity", "cone", "record", "solver", "limits",
+          "bodies", "shapes", "contacts"),
+    SOLVER: ("backend", "engine", "accuracy", "certify"),
+    LIMITS: ("penetration", "reach"),
+    BODY: ("urdf", "base", "actuated", "pose", "positions", "package_dirs", "K_q", "targets",
+           "cloud", "gravity_compensated", "wrenches"),
+    CONTACT: ("alpha", "beta", "mu_v", "mu_omega", "rows", "k", "hull"),
+    WRENCH: ("t", "force", "torque"),
+}  # fmt: skip
+"""Names by kind of table."""
+NAMED = {"bodies": "urdf", "contacts": "alpha"}
+"""Tables of tables, and a field without which none of theirs can be."""
+
+
+def check_names(table: Fields, kind: str) -> None:
+    """Refuse a name that this kind of table does not hold.
+
+    Raises
+    ------
+    InputError
+        Naming the nearest name of the table; or, if only another kind of table holds one that is
+        near, that one and its table.
+    """
+    own = NAMES[kind]
+    for name in table.names():
+        if name not in own:
+            near = nearest_name(name, own) or _elsewhere(name, kind)
+            raise table.fail(name, f"is unknown{near or ';'} {known_names(own)}", table.take(name))
+
+
+def _elsewhere(name: str, kind: str) -> str:
+    for other, names in NAMES.items():
+        if other != kind and (near := nearest_name(name, names)):
+            return near.replace("?", f" of {other}?")
+    return ""
+
+
+def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> None:
+    """Refuse a body or a contact that changes alone have made, and have not made whole.
+
+    Parameters
+    ----------
+    made : collection of (str, str)
+        ``("contacts", "grp")`` for each table that a change led into and that was not there.
+    tables : dict
+
+    Raises
+    ------
+    ScenarioError
+        Naming the nearest table that was there.
+    """
+    for kind, name in made:
+        if kind in NAMED and NAMED[kind] not in tables[kind][name]:
+            there = [other for other in tables[kind] if (kind, other) not in made]
+            near = f"{nearest_name(name, there) or ';'} {known_names(there)}"
+            raise ScenarioError(f"is no table of this file{near}", field=f"{kind}.{name}")
