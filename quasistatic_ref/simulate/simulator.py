@@ -20,7 +20,6 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
-from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
@@ -77,8 +76,9 @@ class Simulator:
         [m/s^2], world frame.
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
-    solver : str
-        Name of a backend; it, accuracy and certify are as in
+    solver : str, optional
+        Name of a backend, by default that of
+        :func:`~quasistatic_ref.solve.engines.default_backend`; it, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; ``"native"`` by default where that
@@ -108,7 +108,7 @@ class Simulator:
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
         feels_gravity: Array | None = None,
-        solver: str = DEFAULT,
+        solver: str | None = None,
         engine: str | None = None,
         accuracy: float = ACCURACY,
         certify: str = "full",
@@ -140,7 +140,7 @@ class Simulator:
             "K_q": self.K_q,
             "gravity": self.gravity,
             "feels_gravity": self.weighs[: self.system.n_a],
-            "solver": self.solver.backend,
+            "solver": self.solver.named,
             "engine": self.solver.asked,
             "accuracy": self.solver.accuracy,
             "certify": self.solver.certify,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import (
     CVXPY,
     check_solver,
+    default_backend,
     default_engine,
     may_be_sparse,
     solver_for,
@@ -21,8 +23,10 @@ class StepSolver:
 
     Parameters
     ----------
-    backend : str
-        Name of a backend, as for :func:`~quasistatic_ref.solve.solve.solve_step`.
+    backend : str or None
+        Name of a backend, as for :func:`~quasistatic_ref.solve.solve.solve_step`; None is that of
+        :func:`~quasistatic_ref.solve.engines.default_backend`, and for extensions that are more
+        than rows that of ``solve_step``.
     engine : str or None
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; None is ``"native"`` where that
         reaches the backend and the cone, and ``"cvxpy"`` for extensions that are more than rows.
@@ -35,11 +39,12 @@ class StepSolver:
     """
 
     def __init__(
-        self, backend: str, engine: str | None, accuracy: float, certify: str, cone: str
+        self, backend: str | None, engine: str | None, accuracy: float, certify: str, cone: str
     ) -> None:
-        self.backend, self.asked, self.accuracy, self.certify = backend, engine, accuracy, certify
-        self.engine = default_engine(backend, cone) if engine is None else engine
-        check_solver(backend, self.engine, cone)
+        self.named, self.asked, self.accuracy, self.certify = backend, engine, accuracy, certify
+        self.backend = default_backend(engine, cone, certify) if backend is None else backend
+        self.engine = default_engine(self.backend, cone) if engine is None else engine
+        check_solver(self.backend, self.engine, cone)
         self.kept: Solver | None = None
 
     @property
@@ -54,7 +59,7 @@ class StepSolver:
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
         return solve_step(
             step,
-            self.backend if by_name else self.kept,
+            (self.named or DEFAULT) if by_name else self.kept,
             accuracy=self.accuracy,
             certify=self.certify,
             extension=extension,
