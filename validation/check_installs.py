@@ -56,7 +56,7 @@ class Environment:
     home: Path
     folder: Path
 
-    def run(self, line: str, patience: float = 900.0) -> subprocess.CompletedProcess[str]:
+    def run(self, line: str) -> subprocess.CompletedProcess[str]:
         """One command with this environment's programs and none of the checkout's modules."""
         place, line = (ROOT, line.removeprefix(CHECKOUT)) if CHECKOUT in line else ("", line)
         path = f"{self.home / 'bin'}{os.pathsep}{os.environ['PATH']}"
@@ -66,7 +66,6 @@ class Environment:
         words[0] = str(self.home / "bin" / words[0])
         return subprocess.run(
             words, cwd=place or self.folder, env=settings, capture_output=True, text=True,
-            timeout=patience,
         )  # fmt: skip
 
 
