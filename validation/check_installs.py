@@ -212,16 +212,15 @@ def main() -> int:
     extras = options.extras or list(COMMANDS)
     if unknown := set(extras) - set(COMMANDS):
         parser.error(f"no such extra: {', '.join(sorted(unknown))}")
-    rows, wrong = [], []
+    wrong: list[str] = []
     with tempfile.TemporaryDirectory() as temporary:
         wheel = built(Path(temporary))
         for extra in extras:
             cells, faulty = row(wheel, extra, options.python, options.lowest)
             print("| " + " | ".join(cells) + " |", flush=True)
-            rows.append(cells)
+            if options.out is not None:
+                written(options.out, [cells])
             wrong += [f"{extra}: {fault}" for fault in faulty]
-    if options.out is not None:
-        written(options.out, rows)
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0
 
