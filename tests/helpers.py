@@ -7,8 +7,8 @@ from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.step.data import Contacts, StepData
 
-REQUIRED = ("clarabel", "osqp", "piqp")
-ROADS = (*REQUIRED, *(f"qpsolvers:{name}" for name in (*REQUIRED, "daqp")))
+REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
+ROADS = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
 
 

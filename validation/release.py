@@ -124,6 +124,11 @@ RESULTS = (
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),
     ),
+    Result(
+        "installs",
+        ("validation.check_installs", "--out", "validation/results/installs.md"),
+        ("validation/results/installs.md",),
+    ),
     *(
         Result(
             f"study_{name}",

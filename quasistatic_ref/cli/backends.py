@@ -8,10 +8,14 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
+    DEFAULT_OF_RUNS,
     QPSOLVERS,
     installed,
     installed_backends,
 )
+
+DEFAULTS = {DEFAULT: " (default of solve)", DEFAULT_OF_RUNS: " (default of run)"}
+"""Of a run without DAQP it is Clarabel too, which then has the second word."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -23,13 +27,14 @@ def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
     known, native = installed_backends(), installed("native")
     if options.json:
-        shared.print_json({"default": DEFAULT, "installed": known, "native": native})
+        defaults = {"default": DEFAULT_OF_RUNS, "default_of_solve": DEFAULT}
+        shared.print_json({**defaults, "installed": known, "native": native})
         return 0
     rows: list[tuple[str, ...]] = [
         ("backend", "through cvxpy", "through qpsolvers", "native", "method")
     ]
     for entry in (entry for entry in BACKENDS.values() if entry.steps):
-        name = f"{entry.name} (default)" if entry.name == DEFAULT else entry.name
+        name = f"{entry.name}{DEFAULTS.get(entry.name, '')}"
         asked = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
         rows.append((name, *asked, "yes" if entry.name in native else "-", entry.method))
     shared.print_rows(rows)

@@ -75,7 +75,7 @@ def _installed(table: Fields, field: str, text: str) -> Path:
                 raise table.fail(field, "leads out of the package", text)
     except (ValueError, RuntimeError, OSError) as error:
         raise table.fail(field, f"cannot be a path: {error}", text) from None
-    remedy = "robots come with pip install quasistatic-ref[robots]"
+    remedy = "robots come with pip install 'quasistatic-ref[robots]'"
     raise table.fail(field, f"is no file of an installed package; {remedy}", text)
 
 

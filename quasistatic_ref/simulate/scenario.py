@@ -30,8 +30,8 @@ from quasistatic_ref.simulate.tables import LIMITS, SOLVER, TOP, check_made, che
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.words import scenario_page
-from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.engines import ENGINES, check_solver, default_engine
+from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS, NONE
+from quasistatic_ref.solve.engines import ENGINES, check_solver, default_backend, default_engine
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
@@ -84,7 +84,7 @@ class Scenario(Plain):
     feels_gravity: Array
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
-    backend: str = DEFAULT
+    backend: str = DEFAULT_OF_RUNS
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     record: str = "full"
@@ -238,8 +238,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
 
 def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
     """Names of the backend and the engine, looked up here rather than in the first step."""
-    name = solver.text("backend", DEFAULT)
-    engine = solver.text("engine", default_engine(name, cone_name), ENGINES)
+    asked = solver.text("engine", None, ENGINES)
+    name = solver.text("backend", default_backend(asked, cone_name, certify))
+    engine = asked or default_engine(name, cone_name)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
         raise solver.fail("backend", problem, name)

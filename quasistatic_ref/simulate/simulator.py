@@ -23,6 +23,7 @@ from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import (
     CVXPY,
     check_solver,
+    default_backend,
     default_engine,
     may_be_sparse,
     solver_for,
@@ -85,8 +86,9 @@ class Simulator:
         [m/s^2], world frame.
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
-    solver : str
-        Name of a backend; it, accuracy and certify are as in
+    solver : str, optional
+        Name of a backend, by default that of
+        :func:`~quasistatic_ref.solve.engines.default_backend`; it, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
@@ -125,7 +127,7 @@ class Simulator:
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
         feels_gravity: Array | None = None,
-        solver: str = DEFAULT,
+        solver: str | None = None,
         engine: str | None = None,
         accuracy: float = ACCURACY,
         certify: str = "full",
@@ -141,12 +143,14 @@ class Simulator:
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.backend, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
-        self.engine = default_engine(solver, cone) if engine is None else engine
-        check_solver(solver, self.engine, cone)
+        self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
+        self.backend = default_backend(engine, cone, certify) if solver is None else solver
+        self.engine = default_engine(self.backend, cone) if engine is None else engine
+        check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = may_be_sparse(self.engine, solver, certify) and extension is None and system.rigid
+        blocks = may_be_sparse(self.engine, self.backend, certify)
+        blocks = blocks and extension is None and system.rigid
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -155,7 +159,7 @@ class Simulator:
             "K_q": self.K_q,
             "gravity": self.gravity,
             "feels_gravity": self.weighs[: self.system.n_a],
-            "solver": self.backend,
+            "solver": self.named,
             "engine": self.asked,
             "accuracy": self.accuracy,
             "certify": self.certify,
@@ -239,7 +243,7 @@ class Simulator:
         if self.solver is None or not self.solver.fits(step):
             self.solver = solver_for(step, self.backend, self.engine)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
-        solver = self.backend if by_name else self.solver
+        solver = (self.named or DEFAULT) if by_name else self.solver
         return solve_step(
             step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
         )

@@ -39,7 +39,7 @@ def data_frame(trajectory: Trajectory) -> DataFrame:
     try:
         pandas = import_module("pandas")
     except ImportError:
-        problem = "a table needs pandas, which is not installed: pip install pandas"
+        problem = "a table needs pandas: pip install 'quasistatic-ref[pandas]'"
         raise InputError(problem) from None
     columns = {}
     for name in COLUMNS:

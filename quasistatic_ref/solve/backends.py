@@ -83,6 +83,12 @@ class Backend:
         """The package that it comes in."""
         return self.package or self.name
 
+    @property
+    def to_install_it(self) -> str:
+        """What to type for it: its package, or the extra that has every solver."""
+        alone = f"pip install {self.to_install}"
+        return alone if self.required else f"{alone}, or 'quasistatic-ref[study]' for every solver"
+
 
 GAP = 1e-2
 """How much smaller than the residuals the duality gap of interior-point methods must be.
@@ -181,7 +187,7 @@ BACKENDS: dict[str, Backend] = {
                 sparse=True, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
         Backend("daqp", "dual active set", lambda accuracy: (_daqp(accuracy),), _daqp,
-                adapter="Daqp", warm=("qpsolvers",)),
+                adapter="Daqp", warm=("qpsolvers",), required=True),
         Backend("proxqp", "augmented Lagrangian", _proxqp, _plain_proximal, warm=BOTH,
                 package="proxsuite"),
         Backend("scs", "operator splitting", _scs, _plain_scs, time_limit="time_limit_secs",
@@ -196,6 +202,9 @@ BACKENDS: dict[str, Backend] = {
     )
 }  # fmt: skip
 DEFAULT = "clarabel"
+"""Of a single step, through CVXPY: it takes every cone and every extension."""
+DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT
+"""Of certified runs, natively: their steps are the fastest, and have the same bits with any."""
 NONE = "none"
 """No backend: the exact method from a cold start."""
 
@@ -238,7 +247,7 @@ def backend(name: str) -> Backend:
         other = QPSOLVERS + name
         remedy = f"is reached as {other!r}" if other in known else "is not installed"
         if other not in known:
-            remedy += f"; pip install {entry.to_install}"
+            remedy += f"; {entry.to_install_it}"
         choices = ", ".join(known)
         raise BackendError(f"{remedy}; choices here: {choices}", field="backend", value=name)
     return entry

@@ -43,7 +43,7 @@ def check_native(name: str, cone_name: str) -> None:
     if entry is None or not entry.steps:
         problem = f"is not a backend{suggestion(str(name), installed('native'))}"
     elif entry.adapter and entry.name == name:
-        problem = f"is not installed; pip install {entry.to_install}"
+        problem = f"is not installed; {entry.to_install_it}"
     else:
         problem = "has no native interface here; use engine = 'cvxpy'"
     raise BackendError(f"{problem}; engine = 'native' reaches {there}", field="backend", value=name)

@@ -9,7 +9,13 @@ import pytest
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.solve import solve
-from quasistatic_ref.solve.backends import BACKENDS, DEFAULT, backend, installed_backends
+from quasistatic_ref.solve.backends import (
+    BACKENDS,
+    DEFAULT,
+    DEFAULT_OF_RUNS,
+    backend,
+    installed_backends,
+)
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.standard_form import standard_form
@@ -53,7 +59,7 @@ def test_the_roads_of_these_tests_are_installed_so_that_green_means_they_ran():
 
 def test_the_required_backends_are_those_of_the_package():
     assert tuple(name for name, entry in BACKENDS.items() if entry.required) == REQUIRED
-    assert DEFAULT in REQUIRED
+    assert {DEFAULT, DEFAULT_OF_RUNS} <= set(REQUIRED)
 
 
 @every_road

@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.bare import bare_daqp
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.lab.study.bench.grasp import DEFAULT_STEP, places
+from quasistatic_ref.lab.study.bench.grasp import places
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.scaled import Scaled
@@ -109,7 +109,7 @@ def test_the_page_says_why_mujoco_was_not_run(tmp_path):
         "machine": dict.fromkeys(("processor", "cores", "system", "python", "numpy", "load"), "x"),
         "roads": ROADS,
         "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
-        "parts": [part], "certification": {"off": 1.0, DEFAULT_STEP: 2.0}, "clouds": [],
+        "parts": [part], "certification": {"off": 1.0, "full": 2.0}, "clouds": [],
         "chains": [], "contacts": [], "heaps": [],
     }  # fmt: skip
     assert "| not run | MuJoCo is not installed |" in page(tables)

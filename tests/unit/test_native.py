@@ -1,5 +1,7 @@
 """The native engine: the program is CVXPY's, the answers are certified to the same bits."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import cvxpy as cp
@@ -10,7 +12,7 @@ from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.engines import default_engine, solver_for
+from quasistatic_ref.solve.engines import default_backend, default_engine, solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import Scaled
@@ -196,6 +198,45 @@ def test_the_default_is_native_where_it_reaches():
     assert default_engine("clarabel", "ellipsoid") == "cvxpy"
     assert default_engine("highs", "pyramid") == "cvxpy"
     assert default_engine("none", "pyramid") == "cvxpy"
+
+
+def test_the_default_backend_is_daqp_where_certified_rows_are_solved_natively():
+    assert default_backend(None, "pyramid", "full") == "daqp"
+    assert default_backend("native", "facets-8", "full") == "daqp"
+    for others in (
+        ("cvxpy", "pyramid", "full"), (None, "ellipsoid", "full"), (None, "pyramid", "residual"),
+        (None, "pyramid", "off"),
+    ):  # fmt: skip
+        assert default_backend(*others) == "clarabel"
+    assert load_scenario("sphere_spin").backend == "daqp"
+    assert load_scenario("sphere_spin", {"solver.engine": "cvxpy"}).backend == "clarabel"
+    assert load_scenario("sphere_spin", cone="ellipsoid").backend == "clarabel"
+
+
+WITHOUT_DAQP = """
+import importlib.util as util
+found = util.find_spec
+util.find_spec = lambda name, *more: None if name == "daqp" else found(name, *more)
+from quasistatic_ref import load_scenario
+run = load_scenario("sphere_spin", steps=2).run(progress=False)
+print(run.header["backend"], *run["certificate"])
+"""
+
+
+def test_without_daqp_clarabel_takes_its_place():
+    told = subprocess.run(
+        [sys.executable, "-c", WITHOUT_DAQP], capture_output=True, text=True, check=True
+    )
+    assert told.stdout == "clarabel exact exact\n"
+
+
+def test_a_simulator_that_names_no_backend_takes_curved_extensions():
+    scenario = load_scenario("sphere_spin")
+    simulator = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
+    assert simulator.backend == "daqp"  # which takes rows only
+    simulator.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+    answer = simulator.step(scenario.system.q_start, scenario.targets(scenario.h)).solution
+    assert (answer.backend, answer.certificate.kind) == ("clarabel", "residual")
 
 
 def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():

@@ -33,7 +33,7 @@ def load(tmp_path):
 
 def test_the_settings_are_those_of_the_file(load):
     scenario = load()
-    assert (scenario.h, scenario.steps, scenario.backend) == (0.01, 5, "clarabel")
+    assert (scenario.h, scenario.steps, scenario.backend) == (0.01, 5, "daqp")
     assert (scenario.certify, scenario.record) == ("full", "full")
     np.testing.assert_allclose(scenario.gravity, [0, 0, -9.81], rtol=EXACT)
     assert [c.name for c in scenario.system.coordinates[:3]] == [

@@ -72,5 +72,5 @@ def test_a_run_without_steps_is_an_empty_table(run):
 
 def test_without_pandas_a_table_is_one_sentence(run, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(InputError, match=r"^a table needs pandas, which is not installed: pip"):
+    with pytest.raises(InputError, match=r"^a table needs pandas: pip install 'quasistatic"):
         run.to_pandas()

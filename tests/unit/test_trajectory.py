@@ -110,7 +110,7 @@ def test_the_header_says_what_the_run_was(run):
         "format": "quasistatic-ref/trajectory",
         "version": 1,
         "h": 0.01,
-        "backend": "clarabel",
+        "backend": "daqp",
         "cone": "pyramid",
         "extra": [],
         "record": "full",

@@ -38,7 +38,7 @@ def test_parquet_holds_qpbenchmarks_columns_with_its_signs(tmp_path):
 
 def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(parquet, "import_module", _missing)
-    with pytest.raises(InputError, match=r"pip install \"quasistatic-ref\[parquet\]\""):
+    with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[parquet\]'"):
         parquet_written(tmp_path / "qps.parquet", PROGRAMS)
 
 

@@ -13,6 +13,13 @@ from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, NOT_RUN, Finding, f
 from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
 
+IN = {
+    "daqp": "daqp",
+    "mujoco": "'quasistatic-ref[engines]'",
+    "pydrake": "'quasistatic-ref[drake]'",
+}
+"""What an engine of a claim comes in."""
+
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
@@ -54,6 +61,10 @@ def run(options: argparse.Namespace) -> int:
     shared.print_rows(rows)
     count = {v: sum(f.verdict == v for f in findings.values()) for v in (HOLDS, FAILS, NOT_RUN)}
     print(", ".join(f"{n} {verdict}" for verdict, n in count.items() if n))
+    missing = {str(f.claim.engine) for f in findings.values() if f.verdict == NOT_RUN}
+    for engine in sorted(missing):
+        remedy = f"pip install {IN.get(engine, engine)}"
+        print(f"quasistatic-ref: some claims need {engine}: {remedy}", file=sys.stderr)
     for name in failed:
         print(f"quasistatic-ref: {_why(findings[name])}", file=sys.stderr)
     print(f"wrote {page} and {len(drawn)} figures")

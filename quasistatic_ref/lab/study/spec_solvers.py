@@ -71,7 +71,7 @@ def _check_installed(table: Fields, road: str, solver: str) -> None:
         hint = suggestion(solver, BY_ROAD[road])
         raise table.fail("solvers", f"holds no solver of {road}{hint}", solver)
     if solver not in installed(road):
-        remedy = f"pip install {BACKENDS[solver].to_install}"
+        remedy = BACKENDS[solver].to_install_it
         raise table.fail("solvers", f"is not installed; {remedy}", solver)
 
 

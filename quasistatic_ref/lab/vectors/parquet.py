@@ -71,7 +71,7 @@ def parquet_written(path: str | Path, programs: Sequence[Program]) -> Path:
         arrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     except ImportError:
         raise InputError(
-            'needs pyarrow: pip install "quasistatic-ref[parquet]"', field="parquet"
+            "needs pyarrow: pip install 'quasistatic-ref[parquet]'", field="parquet"
         ) from None
     columns: dict[str, list[Any]] = {name: [None] * len(programs) for name in COLUMNS}
     columns["name"] = [program.name for program in programs]

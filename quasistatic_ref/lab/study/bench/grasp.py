@@ -18,7 +18,7 @@ from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, r
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.backends import DEFAULT, installed, installed_backends
+from quasistatic_ref.solve.backends import installed, installed_backends
 from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import CERTIFY
@@ -167,10 +167,6 @@ def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
     return row | {"unsolved": failed}
 
 
-DEFAULT_STEP = f"{CERTIFY[0]}, {DEFAULT} (default)"
-"""The step that a scenario takes if it asks for nothing else."""
-
-
 def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
     """A step with a solver of which nothing is kept."""
     simulator.solver = None
@@ -183,10 +179,8 @@ def brute_force(scenario: Scenario, q: Array) -> None:
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
-    """The native step with each kind of certificate, and that of a scenario by default [us]."""
-    scenarios = {kind: replace(at.scenario, certify=kind) for kind in CERTIFY}
-    scenarios[DEFAULT_STEP] = replace(at.scenario, certify=CERTIFY[0], backend=DEFAULT)
-    simulators = {kind: scenario.simulator() for kind, scenario in scenarios.items()}
+    """The native step with each kind of certificate; the first is a scenario's default [us]."""
+    simulators = {kind: replace(at.scenario, certify=kind).simulator() for kind in CERTIFY}
     rounds = [
         {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
         for q, g in zip(at.q, at.goals, strict=True)

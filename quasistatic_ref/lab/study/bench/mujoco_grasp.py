@@ -55,7 +55,7 @@ def mujoco_grasp(steps: int, repeat: int) -> dict[str, Any]:
     try:
         mujoco: Any = import_module("mujoco")
     except ImportError:
-        return {"not run": "MuJoCo is not installed; pip install quasistatic-ref[engines]"}
+        return {"not run": "MuJoCo is not installed; pip install 'quasistatic-ref[engines]'"}
     mesh = models_folder() / "bunny_grasp" / "bunny.obj"
     if not mesh.is_file():
         raise InputError("is missing", file=mesh)

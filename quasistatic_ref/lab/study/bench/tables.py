@@ -47,7 +47,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
         If DAQP, which the comparison is with, is not installed.
     """
     if "daqp" not in installed("native"):
-        raise InputError("the step is compared with DAQP; pip install daqp", field="bench")
+        raise InputError("compares the step with DAQP: pip install daqp", field="bench")
     steps, repeat = (6, 1) if quick else (250, 2)
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
     load = f"load before the run {_load()}"

@@ -101,7 +101,7 @@ class Profiles(NamedTuple):
 def profiles(steps: int) -> Profiles:
     """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS`` that is there.
 
-    They are uncertified; the default of a scenario, Clarabel with a certificate, is added.
+    They are uncertified; Clarabel with a certificate is added.
     """
     names = [name for name in BACKENDS if name in installed("native")]
     runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]

@@ -1,0 +1,94 @@
+"""What each extra is for, as commands that need it; run by ``validation/check_installs.py``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+CHECKOUT: Final = "checkout:"
+"""In front of commands whose programs or pages are in the checkout and not in the wheel."""
+
+MODELS: Final = Path(__file__).parent.parent / "models"
+OWN: Final = tuple(
+    sorted(
+        path.stem for path in MODELS.glob("*/*.toml") if "package://" not in path.read_text("utf-8")
+    )
+)
+"""Scenarios whose robots come along."""
+
+ROBOTS: Final = (
+    "quasistatic-ref run panda_push --set steps=20 --json",
+    "quasistatic-ref run allegro_turn --set steps=5 --json",
+)
+VIEW: Final = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
+ENGINES: Final = ("quasistatic-ref validate mujoco_rows",)
+PARQUET: Final = ("quasistatic-ref vectors export --out bundle",)
+PANDAS: Final = (
+    'python -c "from quasistatic_ref import load_scenario as load; '
+    "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
+)
+STUDY: Final = (
+    "quasistatic-ref study run default --quick --out study",
+    "quasistatic-ref study report study --out report",
+    "quasistatic-ref study export study --every 20 --out qpbenchmark",
+)
+
+COMMANDS: Final[dict[str, tuple[str, ...]]] = {
+    "base": (
+        "quasistatic-ref --help",
+        "quasistatic-ref demo --out demo --json",
+        "python readme.py",
+        *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
+        "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --engine cvxpy --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --cone ellipsoid",
+        "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
+        "quasistatic-ref solve step.json -o solution.json",
+        "quasistatic-ref verify step.json solution.json",
+        "quasistatic-ref inspect bunny_grasp",
+        "quasistatic-ref backends",
+        "quasistatic-ref vectors own --layer qp --out answers",
+        "quasistatic-ref vectors check answers",
+        "quasistatic-ref validate incline_sliding",
+        "quasistatic-ref figures block_on_a_table",
+        "python -m quasistatic_ref.lab.examples.door",
+        "quasistatic-ref bench --quick",
+    ),
+    "robots": ROBOTS,
+    "view": VIEW,
+    "engines": ENGINES,
+    "drake": ("quasistatic-ref validate drake",),
+    "pandas": PANDAS,
+    "parquet": PARQUET,
+    "diff": ("python diff.py",),
+    "study": STUDY,
+    "notebooks": (
+        "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
+    ),
+    "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
+    "fuzz": (
+        "checkout:python -m validation.fuzz_structured --seconds 5",
+        "checkout:python -m validation.fuzz_bytes --seconds 5",
+    ),
+    "all": (*ROBOTS, *VIEW, *ENGINES, *PARQUET, *PANDAS),
+}
+"""Extra -> command lines; ``{out}`` is the empty folder."""
+
+SCRIPTS: Final = {
+    "readme.py": ("README.md", "load_scenario"),
+    "diff.py": ("docs/sensitivity.md", "DIFFCP"),
+}
+"""Script in the empty folder -> the page that it stands on, and a word of its block there."""
+
+REFUSED: Final = {
+    "base": {
+        "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
+        "quasistatic-ref run sphere_spin --set steps=5 --view": "quasistatic-ref[view]",
+        "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
+        "quasistatic-ref study run default --quick": "quasistatic-ref[robots]",
+        "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
+        "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",
+        PANDAS[0]: "quasistatic-ref[pandas]",
+    }
+}
+"""Extra -> command that needs another one -> what its sentence must name."""
