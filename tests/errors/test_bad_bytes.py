@@ -49,7 +49,8 @@ CAUSES = {
     "points without end": ("scene.toml", b". " * 2**19, "is not TOML: "),
     "a list without end": ("scene.toml", b"h = [" + b"1," * 500_000 + b"]", "format: is missing"),
     "very many keys": (
-        "scene.toml", b"".join(b"a%d=1\n" % i for i in range(90_000)), "a0: is unknown; known: bodies, cone",
+        "scene.toml", b"".join(b"a%d=1\n" % i for i in range(90_000)),
+        "a0: is unknown; known: bodies, cone",
     ),
     "deep TOML": ("scene.toml", b"h = " + b"{a=" * 200 + b"1" + b"}" * 200, "format: is missing"),
     "JSON without end": ("step.json", b"[" * DEEP + b"]" * DEEP, "is not usable JSON: too deep"),
