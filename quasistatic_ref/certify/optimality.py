@@ -53,10 +53,10 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
         Slack times multiplier [N m s].
     """
     return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),  # Eq. (9), mended
-        primal=float(short.max(initial=0.0)),  # Eq. (10)
-        dual=float(pull.max(initial=0.0)),  # Eq. (11)
-        complementarity=float(np.abs(work).max(initial=0.0)),  # Eq. (12)
+        stationarity=float(np.abs(balance).max(initial=0.0)),
+        primal=float(short.max(initial=0.0)),
+        dual=float(pull.max(initial=0.0)),
+        complementarity=float(np.abs(work).max(initial=0.0)),
     )
 
 
@@ -80,8 +80,11 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
     unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
     balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
-    slack = A @ delta_q - b  # Eq. (10): not negative
-    return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (9)-(12)
+    slack = A @ delta_q - b
+    short = -slack  # Eq. (10): slack >= 0
+    pull = -lam  # Eq. (11): lam >= 0
+    work = slack * lam  # Eq. (12): zero, row by row
+    return residuals_of(balance, short, pull, work)
 
 
 def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
