@@ -47,7 +47,7 @@ class Plain:
 
 def field_values(data: Plain) -> dict[str, Any]:
     """All fields of plain data by name."""
-    return {f.name: getattr(data, f.name) for f in fields(data)}  # type: ignore[arg-type]
+    return {f.name: getattr(data, f.name) for f in fields(data)}  # type: ignore[arg-type]  # each heir is a dataclass
 
 
 def bits(value: Any) -> Any:
@@ -60,7 +60,7 @@ def bits(value: Any) -> Any:
         compares itself.
     """
     if isinstance(value, Plain):
-        own = [f.name for f in fields(value) if f.compare]  # type: ignore[arg-type]
+        own = [f.name for f in fields(value) if f.compare]  # type: ignore[arg-type]  # as above
         return value.compared_as(), tuple(bits(getattr(value, name)) for name in own)
     if isinstance(value, np.ndarray):
         numbers = value + 0.0 if value.dtype.kind == "f" else value

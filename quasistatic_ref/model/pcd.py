@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.text import decimal
+from quasistatic_ref.model.text import ascii_points
 
 _TYPES = {
     ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
@@ -94,22 +94,10 @@ def _binary(header: Header, names: list[str]) -> NDArray[np.float64]:
 def _ascii(header: Header, names: list[str]) -> NDArray[np.float64]:
     starts = np.cumsum([0, *(n for _, _, n in header.columns)])
     columns, width = [int(starts[names.index(name)]) for name in "xyz"], int(starts[-1])
-    points: list[list[float]] = []
-    lines = header.body.decode("ascii", errors="replace").splitlines()
-    for number, line in enumerate(lines, start=header.line):
-        words = line.split()
-        if not words or len(points) == header.count:
-            continue
-        if len(words) != width:
-            raise ModelError(f"must be {width} numbers", field=f"line {number}", value=line)
-        try:
-            points.append([decimal(words[c]) for c in columns])
-        except ModelError as error:
-            error.field = f"line {number}"
-            raise
+    points = ascii_points(header.body, header.line, columns, width, header.count)
     if len(points) < header.count:
         raise ModelError(f"must hold {header.count} points", field="DATA", value=len(points))
-    return np.array(points, dtype=np.float64).reshape(-1, 3)
+    return points
 
 
 def _header(content: bytes) -> Header:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.text import decimal
+from quasistatic_ref.model.text import ascii_points
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -69,7 +69,11 @@ def ply_points(content: bytes) -> NDArray[np.float64]:
             problem = f"must have one property {name}"
             raise ModelError(problem, field="element vertex", value=names)
     if header.format == "ascii":
-        return _ascii_points(header, [names.index(name) for name in "xyz"])
+        columns, width = [names.index(name) for name in "xyz"], len(names)
+        lines = ascii_points(header.body, header.line, columns, width, header.count)
+        if len(lines) < header.count:
+            raise ModelError(f"must hold {header.count} vertices", field="body", value=len(lines))
+        return lines
     vertex = np.dtype(list(header.columns))
     held = len(header.body) // vertex.itemsize
     if held < header.count:
@@ -81,28 +85,6 @@ def ply_points(content: bytes) -> NDArray[np.float64]:
         value = points[bad[0]].tolist()
         raise ModelError("must be finite numbers", field=f"vertex {bad[0]}", value=value)
     return points
-
-
-def _ascii_points(header: Header, columns: list[int]) -> NDArray[np.float64]:
-    points: list[list[float]] = []
-    width = len(header.columns)
-    lines = header.body.decode("ascii", errors="replace").splitlines()
-    for number, line in enumerate(lines, start=header.line):
-        if len(points) == header.count:
-            break
-        words = line.split()
-        if not words:
-            continue
-        if len(words) != width:
-            raise ModelError(f"must be {width} numbers", field=f"line {number}", value=line)
-        try:
-            points.append([decimal(words[c]) for c in columns])
-        except ModelError as error:
-            error.field = f"line {number}"
-            raise
-    if len(points) < header.count:
-        raise ModelError(f"must hold {header.count} vertices", field="body", value=len(points))
-    return np.array(points, dtype=np.float64).reshape(-1, 3)
 
 
 def _header(content: bytes) -> Header:
