@@ -48,10 +48,7 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
         return Answers(present=False)
     try:
         top = Fields(json_read(path))
-        top.text("format", choices=(ANSWERS,))
-        version = top.integer("version")
-        if version != VERSION:
-            raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+        top.check_format(ANSWERS, VERSION)
         top.text("layer", choices=(layer,))
         implementation = top.text("implementation")
         tangent = top.text("tangent", "body", choices=TANGENTS)
