@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError, about_file, suggestion
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
@@ -116,10 +116,8 @@ def urdf_file(given: str | Path) -> UrdfFile:
     else:
         path = Path(given)
         text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
-    try:
+    with about_file(path):
         return _content(path, text)
-    except ModelError as error:
-        raise error.in_file(path) from None
 
 
 def _content(path: Path, text: str) -> UrdfFile:
