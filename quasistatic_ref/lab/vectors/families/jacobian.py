@@ -7,6 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.mechanisms import (
     few_digits,
     free_body,
@@ -16,9 +18,6 @@ from quasistatic_ref.lab.vectors.families.mechanisms import (
     random_q,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.families.shapes import Table
-
-Case = tuple[str, str, Table]
 
 
 def jacobian_cases() -> Iterator[Case]:
@@ -70,7 +69,7 @@ def _one_joint(rng: Rng, kind: str, turned: bool) -> Case:
     )
 
 
-def _chains(rng: Rng) -> Iterator[Table]:
+def _chains(rng: Rng) -> Iterator[Json]:
     for kinds in (
         ("revolute", "fixed") * 4,
         ("fixed", "continuous", "fixed", "prismatic") * 2,
@@ -137,8 +136,8 @@ def _corners(rng: Rng) -> Iterator[Case]:
 
 
 def _with_contacts(
-    rng: Rng, tree: Table, count: int, pairs: list[tuple[str | None, str | None]] | None = None
-) -> Table:
+    rng: Rng, tree: Json, count: int, pairs: list[tuple[str | None, str | None]] | None = None
+) -> Json:
     names = [body["name"] for body in tree["bodies"]]
     contacts = []
     for k in range(count):

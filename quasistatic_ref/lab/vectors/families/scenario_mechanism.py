@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.shapes import at
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.rotation import quaternion
@@ -119,7 +119,7 @@ def _tree(body: Body, file: UrdfFile) -> list[Json]:
 
 def _base(body: Body) -> tuple[Json, str]:
     if body.base == "floating":
-        return at(0.0, 0.0, 0.0), "floating"
+        return ORIGIN, "floating"
     xyz = np.asarray(body.xyz)
     if body.base == "planar":
         return at(0.0, 0.0, float(xyz[2])), "planar"

@@ -8,11 +8,11 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.steps import contact_entries
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Array, Contacts
 
-Case = tuple[str, str, Json]
 CONES = ("pyramid", "product", "facets-8", "frictionless", "ellipsoid")
 KEYS = ("n", "d1", "d2", "mu_v", "mu_omega", "rows")
 
