@@ -7,6 +7,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Figure
+
     from quasistatic_ref.figures.animation import animate as animate
     from quasistatic_ref.figures.draw import draw_scene as draw_scene
     from quasistatic_ref.figures.legible import faults as faults
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Camera": "scene",
+    "Figure": "style",
     "animate": "animation",
     "draw_scene": "draw",
     "faults": "legible",
