@@ -107,7 +107,7 @@ def evidence() -> Evidence:
                 ),
             ]
             picture["creep"][kind, cone] = finals
-    return Evidence(tuple(comparisons), picture)
+    return Evidence.of(*comparisons, **picture)
 
 
 CLAIM = Claim(
