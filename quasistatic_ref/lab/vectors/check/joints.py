@@ -1,31 +1,19 @@
 """Which entries of q and delta_q belong to which joint of a case's mechanism.
 
-The checker keeps to this table and plain float64: the mechanism in exact numbers is what the
-answers are measured against.
+The checker keeps to plain float64: the mechanism in exact numbers is what the answers are measured
+against.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.lab.vectors.check.valid_witness import rotation
+from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
 from quasistatic_ref.lab.vectors.expected import Json
-
-Array = NDArray[np.float64]
-
-ENTRIES: Final = {
-    "fixed": (0, 0),
-    "revolute": (1, 1),
-    "continuous": (2, 1),
-    "prismatic": (1, 1),
-    "floating": (7, 6),
-    "planar": (4, 3),
-}
-"""Entries of q and of delta_q of each kind of joint."""
+from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True)
@@ -48,7 +36,7 @@ def places(mechanism: Json) -> list[Places]:
         for body in mechanism["bodies"]:
             if bool(body.get("actuated")) == actuated and "mimic" not in body:
                 kind = body["joint"]
-                size_q, size_v = ENTRIES[kind]
+                size_q, size_v = SIZES[kind]
                 found.append(Places(body["name"], kind, slice(i, i + size_q), slice(k, k + size_v)))
                 i, k = i + size_q, k + size_v
     return found

@@ -10,6 +10,7 @@ from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.steps import contact_entries
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Array, Contacts
 
@@ -68,11 +69,11 @@ def wrench_input(at: Contacts, cone: str, h: float, lam: Array, points: Json, bo
     bodies : dict
         Point of each body about which torques are taken.
     """
-    ends = np.cumsum(cone_of(cone).counts(at.rows))
     entries = contact_entries(at, KEYS)
-    for entry, point, lam_j in zip(entries, points, np.split(lam, ends[:-1]), strict=True):
+    parts = by_contact(lam.tolist(), cone, entries)
+    for entry, point, part in zip(entries, points, parts, strict=True):
         entry |= dict(zip(("alpha_body", "beta_body", "alpha", "beta"), point, strict=True))
-        entry["lam"] = lam_j.tolist()
+        entry["lam"] = part
     return {"h": h, "cone": cone, "contacts": entries, "bodies": bodies}
 
 
