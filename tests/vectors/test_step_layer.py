@@ -5,8 +5,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
-from quasistatic_ref.lab.vectors.exact.difference import difference
-from quasistatic_ref.lab.vectors.exact.integration import integrated
+from quasistatic_ref.lab.vectors.exact.integration import difference, integrated
 from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.families.mechanisms import link, random_q, random_step

@@ -12,7 +12,6 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.lab.vectors.check.compare import differences, tolerance_of
-from quasistatic_ref.lab.vectors.check.joints import quaternion_places
 from quasistatic_ref.lab.vectors.check.multipliers import (
     multipliers_problem,
     program_rows,
@@ -21,6 +20,7 @@ from quasistatic_ref.lab.vectors.check.multipliers import (
 from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.expected import Json
 
 Failing = Mapping[str, Difference]

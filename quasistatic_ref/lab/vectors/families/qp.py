@@ -72,11 +72,8 @@ def _corners(rng: np.random.Generator) -> Iterator[Case]:
     ):
         for n_a, n_u in ((6, 0), (0, 6), (2, 4)):
             what = {0: "nothing moves freely", 6: "nothing is actuated"}.get(n_u, "both kinds")
-            yield (
-                f"qp/corner/{name}_{n_a}_{n_u}",
-                f"{why}; {what}",
-                program(random_step(rng, n_a, n_u, at)),
-            )
+            step = random_step(rng, n_a, n_u, at)
+            yield f"qp/corner/{name}_{n_a}_{n_u}", f"{why}; {what}", program(step)
     heavy = random_contacts(rng, 4, 8, phi=abs(1e-3 * rng.standard_normal(4)))
     for ratio in (1e6, 1e9, 1e12):
         why = f"masses and stiffness {ratio:g} apart"
@@ -94,11 +91,8 @@ def _ellipsoid(rng: np.random.Generator) -> Iterator[Case]:
         why = f"a random step of {n_c} contacts in the ellipsoid"
         yield f"qp/ellipsoid/{i}", why, program(random_step(rng, 3, 3, at, cone="ellipsoid"))
     why = "a body squeezed between two fingers, in the ellipsoid"
-    yield (
-        "qp/ellipsoid/grasp",
-        why,
-        program(aligned_grasp_step(rng, 4, 2).replace(cone="ellipsoid")),
-    )
+    grasp = aligned_grasp_step(rng, 4, 2).replace(cone="ellipsoid")
+    yield "qp/ellipsoid/grasp", why, program(grasp)
     flat = random_contacts(rng, 2, 6, mu_omega=0.0, rows=6, phi=1e-4)
     why = "an ellipsoid without torsion: a second-order cone in the plane"
     yield "qp/ellipsoid/flat", why, program(random_step(rng, 2, 4, flat, cone="ellipsoid"))

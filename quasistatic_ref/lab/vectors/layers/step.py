@@ -24,7 +24,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     unit,
 )
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
-from quasistatic_ref.lab.vectors.exact.difference import difference
+from quasistatic_ref.lab.vectors.exact.integration import difference
 from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
 from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
 from quasistatic_ref.lab.vectors.exact.precision import Real, least, number, numbers, rounded
