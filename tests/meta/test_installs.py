@@ -53,9 +53,13 @@ def test_a_table_keeps_the_lines_of_other_runs(tmp_path):
     assert all(line.endswith("| good |") for line in lines)
 
 
-def test_the_largest_parts_count_the_libraries_of_a_wheel(tmp_path):
+def test_the_largest_parts_are_packages_by_the_files_of_their_records(tmp_path):
     packages = tmp_path / "lib" / "python3.11" / "site-packages"
-    for name, size in (("one", 1), ("two", 2), ("one.libs", 3)):
-        (packages / name).mkdir(parents=True)
-        (packages / name / "file").write_bytes(b"x" * (size << 20))
-    assert largest(tmp_path) == "one 4, two 2"
+    for name, size in (("one", 1), ("two", 2), ("three", 4)):
+        file, info = packages / "shared" / name, packages / f"{name}-1.0.dist-info"
+        info.mkdir(parents=True)
+        file.parent.mkdir(exist_ok=True)  # as cmeel's packages, all in one folder
+        file.write_bytes(b"x" * (size << 20))
+        (info / "METADATA").write_text(f"Name: {name}\nVersion: 1.0\n")
+        (info / "RECORD").write_text(f"shared/{name},,\nshared/never_written.py,,\n")
+    assert largest(tmp_path) == "three 4, two 2, one 1"
