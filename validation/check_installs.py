@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
 
-from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS
+from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
 
 ROOT = Path(__file__).parent.parent
 DEMO_SECONDS = 60.0  # for both runs on 2 cores
@@ -124,8 +124,9 @@ def python_block(page: str, word: str) -> str:
 
 def faults(at: Environment, extra: str) -> list[str]:
     """What is wrong with the commands of an extra, each told as it runs."""
-    for name, (page, word) in SCRIPTS.items():
-        (at.folder / name).write_text(python_block(page, word), "utf-8")
+    scripts = {name: python_block(page, word) for name, (page, word) in SCRIPTS.items()}
+    for name, text in (scripts | WALK_FILES).items():
+        (at.folder / name).write_text(text, "utf-8")
     wrong = []
     for line in COMMANDS[extra]:
         start = time.perf_counter()
