@@ -91,6 +91,11 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.fuzz_structured --seconds 5",
         "checkout:python -m validation.fuzz_bytes --seconds 5",
     ),
+    "test": (
+        "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
+        "checkout:ruff check .",
+        "checkout:mypy",
+    ),
     "all": (*ROBOTS, *VIEW, *ENGINES, *PARQUET, *PANDAS),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
@@ -108,7 +113,10 @@ REFUSED: Final = {
         "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
         "quasistatic-ref study run default --quick": "quasistatic-ref[robots]",
         "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
+        "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
         "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",
+        "quasistatic-ref validate drake": "quasistatic-ref[drake]",
+        "checkout:python -m validation.notebooks": "quasistatic-ref[notebooks]",
         PANDAS[0]: "quasistatic-ref[pandas]",
     }
 }
