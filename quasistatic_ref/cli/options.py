@@ -8,15 +8,16 @@ import textwrap
 from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import json_text
-from quasistatic_ref.simulate.saved import EVERY, saved_steps
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 def add_out(parser: argparse.ArgumentParser, default: str) -> None:
@@ -53,6 +54,8 @@ def add_quiet(parser: argparse.ArgumentParser) -> None:
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
+    from quasistatic_ref.simulate.saved import EVERY
+
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
     )
@@ -139,6 +142,8 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say what a failed run left in its trajectory's file; write its failing step; its status."""
+    from quasistatic_ref.simulate.saved import saved_steps
+
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {path}"
     if failure.step is not None:
