@@ -120,8 +120,21 @@ class Scenario(Plain):
             return None
         return lambda t, q: np.sum([w.force(self.system, t, q) for w in self.wrenches], axis=0)
 
-    def run(self, progress: bool = True) -> Trajectory:
-        """Simulate the whole scenario; raises RunFailed where a step fails."""
+    def run(self, progress: bool = True, **saving: Any) -> Trajectory:
+        """Simulate the whole scenario.
+
+        Parameters
+        ----------
+        progress : bool
+        saving : object
+            `save`, `save_every` and `resume` of
+            :func:`~quasistatic_ref.simulate.rollout.rollout`, which takes `progress` as well.
+
+        Raises
+        ------
+        RunFailed
+            If a step fails.
+        """
         return rollout(
             self.simulator(),
             self.system.q_start,
@@ -130,6 +143,7 @@ class Scenario(Plain):
             force=self.force,
             record=self.record,
             progress=progress,
+            **saving,
         )
 
 
