@@ -187,13 +187,24 @@ def highs_unsolved():
     return (highs.unsolved_with + highs.unsolved_without) / 600
 
 
-def steps_without_a_digit():
-    """Of random steps: backends that have an answer without a digit, and what they leave."""
+def equal_bits():
     text = (ROOT / "validation/results/exact_everywhere.txt").read_text()
-    line = re.search(r"random, until.*?own answer[^:]*: ([^\n]+)", text, re.DOTALL)[1]
-    found = {m[1]: (float(m[2]), int(m[3])) for m in re.finditer(r"(\w+) ([\d.]+) \((\d+)\)", line)}
-    assert all(digits == 0.0 for digits, _ in found.values())
-    return found
+    assert text.endswith("all bits equal\n")
+    return text
+
+
+def steps_with_equal_bits():
+    """How many of each family."""
+    return [int(n) for n in re.findall(r"^\w.*: (\d+) optimal", equal_bits(), re.MULTILINE)]
+
+
+def unsolved_random_steps(*backends):
+    """Random steps that backends leave; each has an answer without a correct digit, too."""
+    line = re.search(r"random, until.*?own answer[^:]*: ([^\n]+)", equal_bits(), re.DOTALL)[1]
+    found = re.findall(r"(\w+) ([\d.]+) \((\d+)\)", line)
+    assert {digits for _, digits, _ in found} == {"0.0"}
+    left = {backend: int(count) for backend, _, count in found}
+    return [left[backend] or "none" for backend in backends]
 
 
 def pinch(cone, d, mass=0.2, mu_v=0.5, mu_omega=0.02):
