@@ -66,10 +66,6 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
-    "fuzz": (
-        "checkout:python -m validation.fuzz_structured --seconds 5",
-        "checkout:python -m validation.fuzz_bytes --seconds 5",
-    ),
     "all": (*ROBOTS, *VIEW, *ENGINES, *PARQUET, *PANDAS),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""

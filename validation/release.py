@@ -120,6 +120,11 @@ RESULTS = (
         ("validation/results/same_bits.json",),
     ),
     Result(
+        "fuzzing",
+        ("validation.fuzz", "--out", "{temporary}", "--table", "validation/results/fuzzing.md"),
+        ("validation/results/fuzzing.md",),
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),
