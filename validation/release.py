@@ -126,6 +126,11 @@ RESULTS = (
         output="validation/results/bench_exact.txt",
     ),
     Result(
+        "fuzzing",
+        ("validation.fuzz", "--out", "{temporary}", "--table", "validation/results/fuzzing.md"),
+        ("validation/results/fuzzing.md",),
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),
