@@ -150,7 +150,7 @@ class Fields:
             numbers = array.astype(np.float64)
         except (ValueError, OverflowError, TypeError):
             raise self.fail(field, f"must be {wanted} finite numbers", value) from None
-        if numbers.size == 0 and 0 in shape:
+        if numbers.shape == (0,) and 0 in shape:
             numbers = numbers.reshape([s or 0 for s in shape])
         if numbers.ndim != len(shape) or any(
             s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)

@@ -42,7 +42,7 @@ def seeds(name: str) -> list[bytes]:
     if name == "solution":
         step = small_step()
         solution = solution_text(step, solve_step(step))
-        return [solution.encode(), infeasible_text(step, "none", ["1/2"] * 6).encode()]
+        return [solution.encode(), infeasible_text(step, ["1/2"] * 6).encode()]
     if name == "urdf":
         return [(sphere / "sphere.urdf").read_bytes(), (grasp / "gripper.urdf").read_bytes()]
     if name == "cloud":

@@ -110,12 +110,14 @@ def step_written(path: str | Path, step: StepData) -> Path:
     return text_written(path, step_text(step))
 
 
-def check_format(top: Fields, name: str) -> None:
-    """Take ``format`` and ``version`` from a file, and refuse others than ours."""
+def check_format(top: Fields, name: str, versions: tuple[int, ...] = (VERSION,)) -> int:
+    """Take ``format`` and ``version`` from a file, and refuse others than ours: the version."""
     top.text("format", choices=(name,))
     version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    if version not in versions:
+        known = " and ".join(map(str, versions))
+        raise top.fail("version", f"is not known here; this program reads {known}", version)
+    return version
 
 
 def _contacts(top: Fields, n_v: int) -> Contacts:
