@@ -152,7 +152,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     text = step_text(step).encode()
     solutions = (
         solution_text(step, solve_step(step, NONE)),
-        infeasible_text(step, NONE, ["1/2"] * 6),
+        infeasible_text(step, ["1/2"] * 6),
     )
 
     def solved(path: Path) -> None:
