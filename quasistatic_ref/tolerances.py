@@ -55,10 +55,9 @@ PROVED: Final = 1e-13
 coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
 another feature misses by the size of the shapes, or is as good."""
 
-WITNESS: Final = 1e-6
-"""Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
-
-coal's own solvers stop at 1e-6; a wrong normal disagrees by the size of the shapes."""
+WITNESS: Final = 1e-10
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""
 
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.

@@ -92,6 +92,11 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "curved_pairs",
+        ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
+        ("validation/results/curved_pairs.md",),
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),
