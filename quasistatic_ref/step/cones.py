@@ -12,9 +12,9 @@ from decimal import Decimal, localcontext
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError, nearest_name
+from quasistatic_ref.step.arrays import Indices
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
@@ -46,7 +46,7 @@ class Cone:
         """Whether the cone is a matter of rows alone."""
         return self.name != ELLIPSOID
 
-    def counts(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
         return np.where(rows == 6, len(self.row_names), self.short)
 

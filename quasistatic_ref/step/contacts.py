@@ -7,11 +7,10 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array, columns, freeze, names, numbers, read_only
+from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import contacts_page
@@ -31,7 +30,7 @@ class Points(Plain):
     d2: Array
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
 
     def _check(self, **own: tuple[int, ...]) -> None:
         """Check all fields, and `own` ones of those shapes."""
@@ -124,7 +123,7 @@ class Contacts(Points):
     J: Array
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
     blocks: ClassVar[Blocks | None] = None
 
     __repr__, _repr_html_ = shown(contacts_page)
@@ -166,7 +165,7 @@ class SparseContacts(Points):
     blocks: Blocks
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
 
     __repr__, _repr_html_ = shown(contacts_page)
 
