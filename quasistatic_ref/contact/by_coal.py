@@ -68,12 +68,11 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     if not best.phi > 0:
         best = _shallowest(a, b, best)
     if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
-        raise ContactError(
+        problem = (
             "no trustworthy contact normal at this pose: move the bodies apart, or use a box, "
-            "a capsule, a convex mesh or a cloud",
-            field=name,
-            value={"phi": best.phi, "n": best.n.tolist()},
         )
+        problem += "a capsule, a convex mesh or a cloud"
+        raise ContactError(problem, field=name, value={"phi": best.phi, "n": best.n.tolist()})
     return Witness(best.phi, best.alpha, best.beta, best.n)
 
 

@@ -53,10 +53,10 @@ class ContactPair(Plain):
     def __post_init__(self) -> None:
         clouds = [isinstance(s.shape, PointCloud) for s in (self.alpha, self.beta)]
         if all(clouds):
-            raise ContactError(
-                "two clouds cannot touch: a point has no surface; give one of the bodies a shape",
-                field=self.name,
+            problem = (
+                "two clouds cannot touch: a point has no surface; give one of the bodies a shape"
             )
+            raise ContactError(problem, field=self.name)
         if self.alpha.link == self.beta.link:
             raise ContactError("both shapes are fixed to the same link", field=self.name)
         if all(isinstance(s.shape, HalfSpace) for s in (self.alpha, self.beta)):
@@ -81,12 +81,17 @@ class ContactPair(Plain):
         return corner_count(self.alpha.shape) + corner_count(self.beta.shape)
 
     @property
-    def n_c(self) -> int:
-        """Number of contacts that this pair makes at every step."""
+    def candidates(self) -> int:
+        """Number of points that its contacts are chosen from."""
         for shape in (self.alpha.shape, self.beta.shape):
             if isinstance(shape, PointCloud):
-                return min(self.k, len(shape.points))
-        return min(self.k, self.corners + 1)
+                return len(shape.points)
+        return self.corners + 1
+
+    @property
+    def n_c(self) -> int:
+        """Number of contacts that this pair makes at every step."""
+        return min(self.k, self.candidates)
 
 
 @dataclass(frozen=True, eq=False)

@@ -140,9 +140,6 @@ def positive_definite(key: str, S: Array) -> Array:
         pivots = np.full(len(S), -np.inf)
     # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
     if (pivots <= DEFINITE * np.diag(S)).any():
-        raise StepDataError(
-            "must be positive definite (no zero stiffness, no massless link)",
-            field=key,
-            value=S.tolist(),
-        )
+        problem = "must be positive definite (no zero stiffness, no massless link)"
+        raise StepDataError(problem, field=key, value=S.tolist())
     return read_only(S)

@@ -80,11 +80,9 @@ class Points(Plain):
         dextral = np.linalg.det(axes.transpose(1, 0, 2)) > 0
         if n_c and not (defect.max() <= ORTHONORMAL and dextral.all()):
             j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~dextral).argmax())
-            raise StepDataError(
-                "d1, d2, n must be a right-handed orthonormal frame",
-                field=f"contacts[{self.name[j]}]",
-                value=axes[:, j].tolist(),
-            )
+            problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
+            value = axes[:, j].tolist()
+            raise StepDataError(problem, field=f"contacts[{field}]", value=value)
 
 
 @dataclass(frozen=True, eq=False)
