@@ -15,11 +15,8 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    shared.add_out(parser, "demo")
-    shared.add_solver(parser)
-    shared.add_set(parser)
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="demo")
+    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -17,7 +17,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
     )
-    shared.add_out(parser, "figures")
+    shared.add(parser, "--out", default="figures")
 
 
 def run(options: argparse.Namespace) -> int:

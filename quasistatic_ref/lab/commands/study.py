@@ -24,7 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         description="Run a study; one that was interrupted goes on where it stopped.",
     )
     run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
-    shared.add_out(run_, "study")
+    shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
         "--jobs", type=int, metavar="N", help="solvers asked at once (default: all cores)"
@@ -32,15 +32,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
-    shared.add_json(run_)
-    shared.add_quiet(run_)
+    shared.add(run_, "--json", "--quiet")
     export = actions.add_parser(
         "export",
         help="write a study's problems as a test set of qpbenchmark",
         description="Write a study's problems as a test set of qpbenchmark (parquet).",
     )
     export.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    shared.add_out(export, "qpbenchmark")
+    shared.add(export, "--out", default="qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     add_report(actions)
 
