@@ -144,10 +144,7 @@ def check_layer(name: str) -> str:
 def opened(path: Path, wanted: str, layer: str) -> Fields:
     """The fields of a file after its head, which says its format, version and layer."""
     top = Fields(json_read(path))
-    top.text("format", choices=(wanted,))
-    version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.check_format(wanted, VERSION)
     top.text("layer", choices=(layer,))
     return top
 

@@ -32,7 +32,7 @@ def mechanism_of(scenario: Scenario) -> Json:
         bodies += _tree(entry.body, urdf_file(entry.body.urdf))
     by_name = {body["name"]: body for body in bodies}
     # Among the actuated and among the others the order of pinocchio counts.
-    joints = {joint.name: joint.v[0] for joint in world_of(scenario.system.bodies).joints}
+    joints = {joint.name: joint.v.start for joint in world_of(scenario.system.bodies).joints}
     moving = [body for body in bodies if body["joint"] != "fixed" and "mimic" not in body]
     ordered: list[Json] = []
     for body in [*sorted(moving, key=lambda body: joints[body["of"]]), *bodies]:
