@@ -51,7 +51,8 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
         if len({c["index"] for c in own}) < len(own):
             return f"{pair['name']} names a candidate twice"
-        if any(abs(c["phi"] - phi) > 2 * room for c, phi in zip(_by_phi(own), due, strict=True)):
+        given = sorted(float(c["phi"]) for c in own)
+        if any(abs(one - other) > 2 * room for one, other in zip(given, due, strict=True)):
             return f"the distances of {pair['name']} are others"
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
@@ -64,10 +65,6 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             if problem := _contact_problem(candidates[contact["index"]], contact, room):
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
-
-
-def _by_phi(contacts: Json) -> list[Json]:
-    return sorted(contacts, key=lambda contact: float(contact["phi"]))
 
 
 def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
