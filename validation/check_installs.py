@@ -28,6 +28,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
+from textwrap import dedent
 
 from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
 
@@ -123,16 +124,16 @@ def largest(home: Path) -> str:
     return ", ".join(f"{name} {size:.0f}" for name, size in named)
 
 
-def python_block(page: str, word: str) -> str:
-    """The first fenced block of Python on a page of the checkout that holds a word."""
+def python_code(page: str, word: str) -> str:
+    """The fenced blocks of Python on a page of the checkout that hold a word, one after another."""
     text = (ROOT / page).read_text("utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    return next(str(block) for block in blocks if word in block)
+    blocks = re.findall(r"^( *)```python\n(.*?)^\1```", text, re.MULTILINE | re.DOTALL)
+    return "\n".join(dedent(block) for _, block in blocks if word in block)
 
 
 def faults(at: Environment, extra: str) -> list[str]:
     """What is wrong with the commands of an extra, each told as it runs."""
-    scripts = {name: python_block(page, word) for name, (page, word) in SCRIPTS.items()}
+    scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
     for name, text in (scripts | WALK_FILES).items():
         (at.folder / name).write_text(text, "utf-8")
     wrong = []
