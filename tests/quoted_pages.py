@@ -225,7 +225,7 @@ MEANT = {
     ],
     "docs/extensions.md": ["0.2 kg, 20 mm off the axis"],
     "docs/guides/add_a_scenario.md": ["under 1 MB"],
-    "docs/guides/first_scene.md": [  # the scene's own; tests/meta/test_first_scene.py has its motion
+    "docs/guides/first_scene.md": [  # tests/meta/test_first_scene.py has its motion
         "target lies 5 mm inside the can",
         "K_q times 5 mm",
         "rose by 29 mm",
