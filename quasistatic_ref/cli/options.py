@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,20 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 
+COMPLETED = "completed"
+"""The attribute of an argument by which ``completion`` knows what it may be."""
+ENGINES, CERTIFY = ("cvxpy", "native"), ("full", "residual", "off")
+"""As in ``solve``, which takes a second to import; a test holds them equal."""
+
+
+def completed(
+    argument: argparse.Action, words: Callable[[], Iterable[str]], *files: str
+) -> argparse.Action:
+    """An argument that a shell completes by words, and by files of these endings."""
+    setattr(argument, COMPLETED, (words, files))
+    return argument
+
+
 def add_out(parser: argparse.ArgumentParser, default: str) -> None:
     """``--out FOLDER``."""
     parser.add_argument(
@@ -29,17 +43,26 @@ def add_out(parser: argparse.ArgumentParser, default: str) -> None:
 
 def add_solver(parser: argparse.ArgumentParser) -> None:
     """``--backend``, ``--engine``, ``--cone`` and ``--certify``."""
-    parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
-    parser.add_argument("--engine", metavar="NAME", help="native or cvxpy: how it is asked")
+    help_ = "solver; see 'quasistatic-ref backends'"
+    completed(parser.add_argument("--backend", metavar="NAME", help=help_), _backends)
+    help_ = "native or cvxpy: how it is asked"
+    completed(parser.add_argument("--engine", metavar="NAME", help=help_), lambda: ENGINES)
     add_cone(parser)
-    parser.add_argument("--certify", metavar="KIND", help="full (default), residual or off")
+    help_ = "full (default), residual or off"
+    completed(parser.add_argument("--certify", metavar="KIND", help=help_), lambda: CERTIFY)
+
+
+def _backends() -> Sequence[str]:
+    from quasistatic_ref.solve.backends import installed_backends
+
+    return installed_backends()
 
 
 def add_cone(parser: argparse.ArgumentParser) -> None:
     """``--cone``."""
-    parser.add_argument(
-        "--cone", metavar="NAME", help=f"friction cone in place of the file's: {', '.join(CONES)}"
-    )
+    help_ = f"friction cone in place of the file's: {', '.join(CONES)}"
+    cones = [name.replace("-K", "-8") for name in CONES]
+    completed(parser.add_argument("--cone", metavar="NAME", help=help_), lambda: cones)
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

@@ -23,7 +23,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="run a study; one that was interrupted goes on where it stopped",
         description="Run a study; one that was interrupted goes on where it stopped.",
     )
-    run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    shared.completed(study, _studies, ".toml")
     shared.add_out(run_, "study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
@@ -43,6 +44,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add_out(export, "qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     add_report(actions)
+
+
+def _studies() -> list[str]:
+    from quasistatic_ref.lab.study.spec import study_names
+
+    return sorted(study_names())
 
 
 def run(options: argparse.Namespace) -> int:
