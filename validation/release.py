@@ -120,6 +120,12 @@ RESULTS = (
         ("validation/results/same_bits.json",),
     ),
     Result(
+        "bench_exact",
+        ("validation.bench_exact", "200"),
+        ("validation/results/bench_exact.txt",),
+        output="validation/results/bench_exact.txt",
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),

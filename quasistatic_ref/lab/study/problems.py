@@ -7,6 +7,7 @@ import json
 import math
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -242,7 +243,7 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
         natural = natural_form(form, units_of(form))
         lines.append(
             json_text(
-                problem.facts.record()
+                asdict(problem.facts)
                 | {
                     "n": len(form.g),
                     "m": len(form.b),
