@@ -69,6 +69,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref verify step.json solution.json",
         "quasistatic-ref inspect bunny_grasp",
         "quasistatic-ref backends",
+        "quasistatic-ref completion bash",
         "quasistatic-ref vectors own --layer qp --out answers",
         "quasistatic-ref vectors check answers",
         "quasistatic-ref validate incline_sliding",

@@ -30,7 +30,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         for name, words in ACTIONS.items()
     }
     run_, export = parsers["run"], parsers["export"]
-    run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
@@ -48,6 +49,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     for name, folder in (("report", "report"), ("pack", "packed")):
         words = f"folder for the results (default: {folder}, in that of the study)"
         parsers[name].add_argument("--out", type=Path, metavar="FOLDER", help=words)
+
+
+def _studies() -> list[str]:
+    from quasistatic_ref.lab.study.spec import study_names
+
+    return sorted(study_names())
 
 
 def run(options: argparse.Namespace) -> int:
