@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import methodcaller
 from typing import NamedTuple
 
 import numpy as np
@@ -45,13 +46,8 @@ class Nearest(NamedTuple):
 
     def chosen(self, order: NDArray[np.int64]) -> Nearest:
         """The same contacts in another order, shape (k,)."""
-        return Nearest(
-            self.phi.take(order),
-            self.normal.take(order, axis=1),
-            self.local.take(order, axis=1),
-            self.point.take(order),
-            self.proved,
-        )
+        phi, normal, local, point = map(methodcaller("take", order, axis=-1), self[:-1])
+        return Nearest(phi, normal, local, point, self.proved)
 
 
 class Batch:
@@ -140,13 +136,8 @@ class Batch:
             found = order.ravel().take(self.ranked) + self.start
         distance = phi.take(found)
         proved = distance.take(self.furthest) < limit
-        return Nearest(
-            distance,
-            normal.T.take(found, axis=1),
-            self.local.take(found, axis=1),
-            self.index.take(found),
-            proved,
-        )
+        n, local = normal.T.take(found, axis=1), self.local.take(found, axis=1)
+        return Nearest(distance, n, local, self.index.take(found), proved)
 
     def reorder(self, order: NDArray[np.int64]) -> None:
         """Give the contacts in another order (r,) from now on: entry i was number order[i]."""
@@ -176,12 +167,10 @@ def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
     box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
     """
     ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
+    here = np.column_stack([box, np.ones(CORNERS)])
+    by_height = made.n + UNSEEN * ways, made.by_height
     slopes, offsets = [], []
-    for directions, bound in (
-        (made.n + UNSEEN * ways, made.by_height),
-        ((1 + UNSEEN) * ways, made.by_distance),
-    ):
-        here = np.column_stack([box, np.ones(CORNERS)])
+    for directions, bound in (by_height, ((1 + UNSEEN) * ways, made.by_distance)):
         slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
         offsets.append(bound - (directions @ made.corners.T).ravel())
     return np.concatenate(slopes), np.concatenate(offsets)

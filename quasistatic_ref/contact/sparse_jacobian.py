@@ -35,10 +35,7 @@ class BlockGeometry:
         a, b = moves[layout.link_alpha], moves[layout.link_beta]
         contact, rank, joint_column = _ragged(a | b)
         shape = (len(a), 1 + int(rank.max(initial=-1)))
-        self.joint_column, (self.alpha, self.beta) = (
-            np.zeros(shape, np.int64),
-            np.zeros((2, *shape)),
-        )
+        self.joint_column, (self.alpha, self.beta) = np.zeros(shape, int), np.zeros((2, *shape))
         self.joint_column[contact, rank] = by_coordinate[joint_column]
         self.alpha[contact, rank] = a[contact, joint_column]
         self.beta[contact, rank] = b[contact, joint_column]

@@ -116,6 +116,27 @@ def moment(scenario: Scenario, run: Trajectory, k: int) -> Moment:
     )
 
 
+def frames(scenario: Scenario, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
+    """Moments of a film in real time, and how many of them a second.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    run : Trajectory
+    fps : float
+        Frames a second that are wanted [1/s]; there are no more than steps.
+
+    Raises
+    ------
+    InputError
+        If the run has no steps.
+    """
+    if not run.steps:
+        raise InputError("has no steps to show", field="trajectory")
+    every = max(round(1 / (fps * scenario.h)), 1)
+    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
+
+
 def drawn_shapes(scenario: Scenario) -> tuple[PlacedShape, ...]:
     """Every shape of a scenario once: those of URDFs, clouds, and what is fixed in the world.
 

@@ -68,9 +68,8 @@ def patch(floor: HalfSpace, centre: Array, half_width: float) -> Array:
     one = np.eye(3)[np.abs(n).argmin()]
     one = half_width * (one - (one @ n) * n) / np.linalg.norm(one - (one @ n) * n)
     other = np.cross(n, one)
-    return np.array(
-        [foot - one - other, foot + one - other, foot + one + other, foot - one + other]
-    )
+    around = np.array([-one - other, one - other, one + other, other - one])
+    return np.asarray(foot + around)
 
 
 def triangles(points: Array) -> NDArray[np.int64]:

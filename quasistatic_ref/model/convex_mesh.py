@@ -51,12 +51,9 @@ class ConvexMesh(Plain):
 
     def __post_init__(self) -> None:
         T = len(self.triangles)
-        for key, shape in (
-            ("vertices", (len(self.vertices), 3)),
-            ("normals", (T, 3)),
-            ("offsets", (T,)),
-        ):
-            freeze_array(self, key, shape)
+        freeze_array(self, "vertices", (len(self.vertices), 3))
+        freeze_array(self, "normals", (T, 3))
+        freeze_array(self, "offsets", (T,))
         self.triangles.setflags(write=False)
 
     @property

@@ -16,11 +16,9 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.paths import path_in, shared_folders
-from quasistatic_ref.simulate.tables import BODY, WRENCH, check_names
+from quasistatic_ref.simulate.tables import BODY, WRENCH, ZERO, check_names, pose
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
-
-ZERO = np.zeros(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +93,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
             raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
         actuated = tuple(actuated)
-    xyz, rpy = _pose(table.table("pose", {}))
+    xyz, rpy = pose(table.table("pose", {}))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
     package_dirs = table.sequence("package_dirs", [])
@@ -169,7 +167,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
             if joints[name].kind == "floating":
-                xyz, rpy = _pose(waypoint.table(name))
+                xyz, rpy = pose(waypoint.table(name))
                 value: Any = np.concatenate([xyz, quaternion(rpy)])
             elif joints[name].kind == "planar":
                 value = _planar(waypoint, name, entry.body)
@@ -199,9 +197,7 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
 
 def _planar(waypoint: Fields, name: str, body: Body) -> Array:
     """Entries of q of a planar base, from the same table as a floating one's."""
-    pose = waypoint.table(name)
-    xyz, rpy = pose.array("xyz", (3,), np.array(body.xyz)), pose.array("rpy", (3,), ZERO)
-    pose.close()
+    xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
     height = float(np.asarray(body.xyz)[2])
     if xyz[2] != height or rpy[:2].any():
         problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
@@ -218,12 +214,6 @@ def _positive_definite(block: Array, field: str) -> Array:
     return block
 
 
-def _pose(table: Fields) -> tuple[Array, Array]:
-    xyz, rpy = table.array("xyz", (3,), ZERO), table.array("rpy", (3,), ZERO)
-    table.close()
-    return xyz, rpy
-
-
 def _wrenches(name: str, table: Fields) -> Wrenches | None:
     times, values = [], []
     for i, record in enumerate(table.sequence("wrenches", [])):
@@ -232,9 +222,7 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
         times.append(one.number("t"))
         if not {"force", "torque"} & set(one.names()):
             raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
-        values.append(
-            np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
-        )
+        values.append(np.concatenate([one.array(key, (3,), ZERO) for key in ("force", "torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():

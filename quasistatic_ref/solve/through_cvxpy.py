@@ -12,13 +12,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import (
-    DEFAULT,
-    QPSOLVERS,
-    Options,
-    backend,
-    cone_backend,
-)
+from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend, cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver

@@ -10,16 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.files import VERSION, check_format, step_sha256
+from quasistatic_ref.step.files import VERSION, step_sha256
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 KINDS = ("exact", "enclosure", "residual", "none")
+YES_OR_NO = ("multipliers_unique", "differentiable")
+NUMBERS = ("smallest_inactive_slack", "smallest_active_multiplier", "error_bound")
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,10 +76,8 @@ def solution_read(path: str | Path, step: StepData) -> SolutionFile:
     InputError
         Naming the file, the field and the value.
     """
-    try:
+    with about_file(path):
         return _solution(Fields(json_read(path), error=StepDataError), step)
-    except InputError as error:
-        raise error.in_file(path) from None
 
 
 def _head(step: StepData, status: str, backend: str) -> dict[str, Any]:
@@ -92,7 +92,7 @@ def _head(step: StepData, status: str, backend: str) -> dict[str, Any]:
 
 
 def _solution(top: Fields, step: StepData) -> SolutionFile:
-    check_format(top, SOLUTION_FORMAT)
+    top.check_format(SOLUTION_FORMAT, VERSION)
     status = top.text("status", choices=("optimal", "infeasible"))
     named = top.text("cone", PYRAMID)
     if named != step.cone:
@@ -123,10 +123,8 @@ def _nested(top: Fields, step: StepData) -> Array:
     value = top.sequence("lam")
     if len(value) != step.contacts.n_c:
         raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
-    parts = [
-        Fields({f"lam[{j}]": part}, error=StepDataError).array(f"lam[{j}]", (int(rows),))
-        for j, (part, rows) in enumerate(zip(value, step.counts, strict=True))
-    ]
+    each = Fields({f"lam[{j}]": part for j, part in enumerate(value)}, error=StepDataError)
+    parts = [each.array(f"lam[{j}]", (int(rows),)) for j, rows in enumerate(step.counts)]
     return np.concatenate([np.zeros(0), *parts])
 
 
@@ -139,23 +137,8 @@ def _certificate(table: Fields) -> Certificate:
         if not (isinstance(pair, list) and len(pair) == 2 and all(type(i) is int for i in pair)):
             raise table.fail("active", "must be a list of [contact, row]", pair)
         active.append((pair[0], pair[1]))
-    certificate = Certificate(
-        kind,
-        found,
-        tuple(active),
-        multipliers_unique=_optional(table, "multipliers_unique", table.boolean),
-        differentiable=_optional(table, "differentiable", table.boolean),
-        smallest_inactive_slack=_optional(table, "smallest_inactive_slack", table.number),
-        smallest_active_multiplier=_optional(table, "smallest_active_multiplier", table.number),
-        error_bound=_optional(table, "error_bound", table.number),
-    )
+    # The other claims may be missing or null.
+    claims: dict[str, Any] = {name: table.boolean(name, None) for name in YES_OR_NO}
+    claims |= {name: table.number(name, None) for name in NUMBERS}
     table.close()
-    return certificate
-
-
-def _optional(table: Fields, name: str, read: Any) -> Any:
-    """A field that may be missing or null."""
-    if name in table and not table.is_null(name):
-        return read(name)
-    table.take(name, None)
-    return None
+    return Certificate(kind, found, tuple(active), **claims)

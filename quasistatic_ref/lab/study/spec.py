@@ -145,10 +145,7 @@ def study_kind(tables: dict[str, Any]) -> str:
 
 def header(top: Fields) -> None:
     """Read ``format``, ``version`` and ``kind``, which both kinds of study begin with."""
-    top.text("format", choices=(FORMAT,))
-    version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.check_format(FORMAT, VERSION)
     top.text("kind", "solvers", KINDS)
 
 

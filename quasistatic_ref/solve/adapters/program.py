@@ -143,9 +143,9 @@ class Adapter(Protocol):
         does not: rows that are far are never in its set.
     """
 
-    ORDER: Literal["C", "F"]
-    WARM: bool
-    NEAR: bool
+    ORDER: Literal["C", "F"] = "F"
+    WARM: bool = False
+    NEAR: bool = True
 
     def __init__(self, program: Any, options: dict[str, Any]) -> None:
         """Set up with the program as it stands: a Program, or a SparseProgram where it takes it."""
