@@ -87,10 +87,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
-    "fuzz": (
-        "checkout:python -m validation.fuzz_structured --seconds 5",
-        "checkout:python -m validation.fuzz_bytes --seconds 5",
-    ),
+    "fuzz": ("checkout:python -m validation.fuzz --inputs 600 --out {out}/fuzz",),
     "test": (
         "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
         "checkout:ruff check .",

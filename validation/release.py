@@ -92,6 +92,11 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "curved_pairs",
+        ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
+        ("validation/results/curved_pairs.md",),
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),
@@ -124,6 +129,11 @@ RESULTS = (
         ("validation.bench_exact", "200"),
         ("validation/results/bench_exact.txt",),
         output="validation/results/bench_exact.txt",
+    ),
+    Result(
+        "fuzzing",
+        ("validation.fuzz", "--out", "{temporary}", "--table", "validation/results/fuzzing.md"),
+        ("validation/results/fuzzing.md",),
     ),
     Result(
         "bench",
