@@ -21,6 +21,7 @@ from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_sol
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits
+from quasistatic_ref.errors import clipped
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
@@ -168,8 +169,8 @@ def _wrong_claim(
         "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),
     }
     for name, value in right.items():
-        if getattr(claims, name) != value:
-            return f"{name} is claimed to be {getattr(claims, name)!r}; it is {value!r}"
+        if (claimed := getattr(claims, name)) != value:
+            return f"{name} is claimed to be {clipped(repr(claimed))}; it is {value!r}"
     return ""
 
 
