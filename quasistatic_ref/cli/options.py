@@ -8,11 +8,10 @@ import textwrap
 from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import json_text
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
@@ -39,11 +38,30 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
 }
 SOLVER: Final = ("--backend", "--engine", "--cone", "--certify")
 
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.trajectory import Trajectory
+
 
 def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
     """Declare some of `OPTIONS`, perhaps with a default."""
     for name in names:
         parser.add_argument(name, **OPTIONS[name], **more)
+
+
+def add_resume(parser: argparse.ArgumentParser) -> None:
+    """``--resume`` and ``--save-every SECONDS``."""
+    from quasistatic_ref.simulate.saved import EVERY
+
+    parser.add_argument(
+        "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
+    )
+    parser.add_argument(
+        "--save-every",
+        type=float,
+        default=EVERY,
+        metavar="SECONDS",
+        help=f"time between two saves of the steps so far ({EVERY:g} by default)",
+    )
 
 
 def progress_line(options: argparse.Namespace, line: str) -> None:
@@ -103,13 +121,16 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
         print(line)
 
 
-def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:
-    """Write what a failed run left: its steps so far, and the failing step; return the status."""
+def failed_run(failure: RunFailed, path: Path) -> int:
+    """Say what a failed run left in its trajectory's file; write its failing step; its status."""
+    from quasistatic_ref.simulate.saved import saved_steps
+
     trajectory: Trajectory = failure.trajectory
-    path = trajectory.save(folder / f"{stem}.npz")
     kept = f"the first {trajectory.steps} steps are in {path}"
     if failure.step is not None:
-        step = step_written(folder / f"{stem}_failed_step.json", failure.step)
+        step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
+    if saved_steps(path):
+        kept += "; --resume goes on from there"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
     return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
         solver = solver_for(step, backend, options.engine or CVXPY)
         solution = solve_step(step, solver, certify=certify)
     except StepInfeasible as proof:
-        _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
+        _write(options.output, infeasible_text(step, proof.farkas.exact))
         raise
     if options.digits is not None:
         shared.print_rows(decimals(step, solution, options.digits))

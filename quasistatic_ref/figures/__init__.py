@@ -7,6 +7,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Figure
+
     from quasistatic_ref.figures.animation import animate as animate
     from quasistatic_ref.figures.camera import Camera as Camera
     from quasistatic_ref.figures.draw import draw_scene as draw_scene
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Camera": "camera",
+    "Figure": "style",
     "animate": "animation",
     "draw_scene": "draw",
     "faults": "legible",

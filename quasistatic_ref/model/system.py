@@ -60,6 +60,8 @@ class System:
         About each link's centre of mass, along the axes of its frame [kg m^2].
     motion : Motion
         How links move with the coordinates.
+    texts : tuple of str
+        The URDF of each body.
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -102,6 +104,7 @@ class System:
         self._roots = world.roots
         self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
+        self.texts = world.texts
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
         self.inertias = world.inertias
         for array in (self.masses, self.inertias):

@@ -101,11 +101,14 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND``.
     certifies : bool
         Whether its answers can be the start of an exact certificate.
+    remembers : bool
+        Whether its answer to a step depends on the steps before.
     """
 
     engine: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
     certifies: ClassVar[bool] = True
+    remembers: ClassVar[bool] = False
 
     def __init__(self, like: StepData, name: str) -> None:
         self.like, self.name = like, name

@@ -95,7 +95,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
     assert main(["run", swing, "--out", str(out)]) == 3
     captured = capsys.readouterr()
     assert captured.out == ""
-    said = one_sentence(captured.err)
+    *warned, said = [line.removeprefix("quasistatic-ref: ") for line in captured.err.splitlines()]
     assert said.startswith("step 3: the step has no solution: floor(floor, post/club#0)/0 ")
     step_file = out / "swing_failed_step.json"
     assert f"the first 3 steps are in {out / 'swing.npz'}" in said
@@ -103,6 +103,10 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
     trajectory = trajectory_read(out / "swing.npz")
     assert trajectory.steps == 3
     assert trajectory.failed is not None
+    assert warned == list(trajectory.warnings)
+    assert "turns by 270 degrees, in step 2" in warned[0]
+    assert main(["run", swing, "--out", str(out), "--quiet"]) == 3
+    assert capsys.readouterr().err == captured.err
     np.testing.assert_allclose(step_read(step_file).contacts.phi, [-0.11], rtol=MULTIPLIERS)
     assert main(["solve", str(step_file)]) == 3  # replayed by itself, it fails again
     assert one_sentence(capsys.readouterr().err).startswith("the step has no solution")

@@ -2,10 +2,13 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.check.verdict import DIGITS, correct_digits
+from tests.tolerances import ROUNDING
 from tests.vectors.material import VECTORS, cases, right_answers
 
 LIGHT = ("selection", "rows", "wrench")
@@ -273,3 +276,10 @@ def test_what_is_no_folder_of_answers_or_vectors_is_refused(tmp_path, arguments,
         given += ["--vectors", str(VECTORS)]
     assert main(["vectors", "check", *given]) == 2
     assert says in capsys.readouterr().err
+
+
+def test_an_error_that_underflows_beside_its_field_is_no_warning():
+    # 5e-324 / 2 is 0 in float64, whose logarithm there is none of: all digits are right.
+    assert correct_digits(5e-324, 2.0, 0.0) == DIGITS
+    assert correct_digits(1.0, 1e-3, 0.0) == correct_digits(1.0, 0.0, 0.0) == 0.0
+    np.testing.assert_allclose(correct_digits(1e-5, 1.0, 0.0), 5.0, rtol=ROUNDING)

@@ -27,12 +27,12 @@ def run(options: argparse.Namespace) -> int:
     report: dict[str, dict[str, object]] = {}
     for case, scenario in scenarios.items():
         shared.progress_line(options, f"bunny_grasp {case}: {scenario.steps} steps")
-        stem = f"bunny_grasp_{case.replace(' ', '_')}"
+        path = options.out / f"bunny_grasp_{case.replace(' ', '_')}.npz"
         try:
             runs[case] = scenario.run(progress=not options.quiet)
         except RunFailed as failure:
-            return shared.failed_run_saved(failure, options.out, stem)
-        runs[case].save(options.out / f"{stem}.npz")
+            return shared.failed_run(failure, failure.trajectory.save(path))
+        runs[case].save(path)
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:

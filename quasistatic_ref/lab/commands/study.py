@@ -12,8 +12,6 @@ from typing import Any
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands.study_report import add_report, run_pack, run_report
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_path, study_tables
 from quasistatic_ref.lab.study.store import ROWS, Row
 
 
@@ -60,6 +58,9 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
+    from quasistatic_ref.lab.study.spec import study_kind, study_path, study_tables
+
     path = study_path(options.study)
     tables = study_tables(path)
     try:
@@ -82,6 +83,9 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
 
         rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
         return _swept(rows, options)
+    from quasistatic_ref.lab.study.run import run_study
+    from quasistatic_ref.lab.study.spec import solver_study
+
     rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
     if options.json:
         counts = Counter(row["outcome"] for row in rows)

@@ -90,7 +90,7 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     """
     path = Path(folder) / "inputs" / f"{layer}.json"
     try:
-        top = _opened(path, INPUTS, layer)
+        top = opened(path, INPUTS, layer)
         shapes = top.take("shapes", {})
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
@@ -114,7 +114,7 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     """What a layer is expected to answer, by the id of the case."""
     path = Path(folder) / "expected" / f"{layer}.json"
     try:
-        top = _opened(path, EXPECTED, layer)
+        top = opened(path, EXPECTED, layer)
         records = top.sequence("cases")
         top.close()
         ids = [Fields(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
@@ -147,7 +147,8 @@ def check_layer(name: str) -> str:
     return name
 
 
-def _opened(path: Path, wanted: str, layer: str) -> Fields:
+def opened(path: Path, wanted: str, layer: str) -> Fields:
+    """The fields of a file after its head, which says its format, version and layer."""
     top = Fields(json_read(path))
     top.check_format(wanted, VERSION)
     top.text("layer", choices=(layer,))

@@ -11,17 +11,15 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.lab.vectors.layers.step import shape_pose
-from quasistatic_ref.step.cones import cone
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.data import Array
 
 TIED: Final = 1e-9
 """Components of n that are that near to each other are the same to one who computes n."""
@@ -126,18 +124,11 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     if "farkas" in solved.output:
         return {**record, "output": {**output, "farkas": solved.output["farkas"]}}
     output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
-    lam, at = output["lam"], 0
-    for entry in entries:
-        count = _rows(case["cone"], entry["rows"])
-        entry["lam"] = lam[at : at + count]
-        at += count
+    for entry, lam in zip(entries, by_contact(output["lam"], case["cone"], entries), strict=True):
+        entry["lam"] = lam
     loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
     output["wrench"] = layer("wrench").expected(loads).output["wrench"]
     after = layer("integrate").expected({**tree, "delta_q": output["delta_q"]})
     output["q_next"] = after.output["q"]
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}
-
-
-def _rows(name: str, rows: int) -> int:
-    return len(cone(name).row_names) if rows == 6 else cone(name).short

@@ -42,7 +42,7 @@ def expected(case_input: Json) -> Expected:
     optimum = exact_optimum(form, (), least_index)
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
-    x, _, net, _ = solution_of(form, optimum.working_set)
+    x, net = _solution(form, optimum.working_set)
     bound = bounds(form, optimum.working_set)
     return Expected(
         output={
@@ -150,19 +150,14 @@ def optimum_of(form: ExactForm) -> ExactOptimum:
     return optimum
 
 
-def solution_of(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact, Exact, Exact]:
-    """delta_q, lam on the working set, A'lam and slacks as fractions."""
+def _solution(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact]:
+    """delta_q and A'lam as fractions."""
     found = rational_solution(form, tuple(working))
-    x, lam, net, slack = (
+    x, net = (
         np.array([_fraction(unit * v / found.denominator) for v in values], dtype=object)
-        for unit, values in (
-            (form.x_unit, found.x),
-            (form.lam_unit, found.lam),
-            (form.net_unit, found.net),
-            (form.slack_unit, found.slack),
-        )
+        for unit, values in ((form.x_unit, found.x), (form.net_unit, found.net))
     )
-    return x, lam, net, slack
+    return x, net
 
 
 def _fraction(value: fmpq) -> Fraction:

@@ -24,7 +24,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     unit,
 )
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
-from quasistatic_ref.lab.vectors.exact.difference import difference
+from quasistatic_ref.lab.vectors.exact.integration import difference
 from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
 from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
 from quasistatic_ref.lab.vectors.exact.precision import Real, least, number, numbers, rounded
@@ -33,7 +33,7 @@ from quasistatic_ref.lab.vectors.exact.rotation import quaternion_of, rotation
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
 ROUNDINGS: Final = 16
@@ -242,11 +242,8 @@ def _solved(program: Json, errors: Errors) -> Expected:
 
 
 def _wrenches(case: Json, contacts: list[Json], solved: Expected) -> Expected:
-    lam, entries, at, table = solved.output["lam"], [], 0, cone(case["cone"])
-    for contact in contacts:
-        count = len(table.row_names) if contact["rows"] == 6 else table.short
-        entries.append({**contact, "lam": lam[at : at + count]})
-        at += count
+    parts = by_contact(solved.output["lam"], case["cone"], contacts)
+    entries = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
     return layer("wrench").expected(
         {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
     )
