@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -42,10 +42,41 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 
+COMPLETED = "completed"
+"""The attribute of an argument by which ``completion`` knows what it may be."""
+ENGINES, CERTIFY = ("cvxpy", "native"), ("full", "residual", "off")
+"""As in ``solve``, which takes a second to import; a test holds them equal."""
+
+
+def _backends() -> Sequence[str]:
+    from quasistatic_ref.solve.backends import installed_backends
+
+    return installed_backends()
+
+
+WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
+    "--backend": _backends,
+    "--engine": lambda: ENGINES,
+    "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
+    "--certify": lambda: CERTIFY,
+}
+"""What a shell completes an option by."""
+
+
 def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
     """Declare some of `OPTIONS`, perhaps with a default."""
     for name in names:
-        parser.add_argument(name, **OPTIONS[name], **more)
+        argument = parser.add_argument(name, **OPTIONS[name], **more)
+        if name in WORDS:
+            completed(argument, WORDS[name])
+
+
+def completed(
+    argument: argparse.Action, words: Callable[[], Iterable[str]], *files: str
+) -> argparse.Action:
+    """An argument that a shell completes by words, and by files of these endings."""
+    setattr(argument, COMPLETED, (words, files))
+    return argument
 
 
 def add_resume(parser: argparse.ArgumentParser) -> None:

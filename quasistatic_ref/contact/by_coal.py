@@ -76,12 +76,12 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     if not (best.phi > 0 or touching):
         best = _shallowest(here, there, best)
     if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
-        problem = (
+        raise ContactError(
             "no trustworthy contact normal at this pose: move the bodies apart, or use a box, "
-            "a capsule, a convex mesh or a cloud"
+            "a capsule, a convex mesh or a cloud",
+            field=name,
+            value={"phi": best.phi / scale, "n": best.n.tolist()},
         )
-        value = {"phi": best.phi / scale, "n": best.n.tolist()}
-        raise ContactError(problem, field=name, value=value)
     alpha, phi = best.alpha / scale + a.t, float(best.phi / scale)
     return Witness(phi, alpha, alpha + phi * best.n, best.n)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.step.arrays import freeze
+from quasistatic_ref.tolerances import SHORT
 
 
 def finite(value: Any, key: str) -> float:
@@ -28,6 +29,8 @@ def freeze_size(owner: Any, key: str) -> None:
     # Twice the size is what coal is given.
     if not (number > 0 and np.isfinite(2 * number)):
         raise ModelError("must be a positive length", field=key, value=value)
+    if number < SHORT:
+        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=value)
     object.__setattr__(owner, key, number)
 
 
@@ -42,3 +45,5 @@ def freeze_lengths(owner: Any, key: str) -> None:
     lengths = getattr(owner, key)
     if not ((lengths > 0).all() and np.isfinite(2 * lengths).all()):
         raise ModelError("must be three positive lengths", field=key, value=lengths.tolist())
+    if not (lengths >= SHORT).all():
+        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=lengths.tolist())

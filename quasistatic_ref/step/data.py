@@ -225,11 +225,19 @@ class StepData(Plain):
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:
-    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg]."""
+    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg].
+
+    StepDataError if an entry leaves the range of float64.
+    """
     n_a, n_v = len(K_q), len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
-    H[:n_a, :n_a] = h * K_q
-    H[n_a:, n_a:] = M_u / h
+    with np.errstate(over="ignore"):
+        H[:n_a, :n_a] = h * K_q
+        H[n_a:, n_a:] = M_u / h
+    if not np.isfinite(H).all():
+        raise StepDataError(
+            "takes h K_q or M_u / h out of the range of float64", field="h", value=h
+        )
     return read_only(H)
 
 

@@ -64,12 +64,10 @@ def _figures(
 
 
 def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
+    lift = f"t = {CLOSED:g} to {TOP:g} s"
     labels = {
-        "rotation_deg": (
-            f"rotation of the bunny, t = {CLOSED:g} to {TOP:g} s, at most [deg]",
-            "{:.3f}",
-        ),
-        "lift_mm": (f"lift height, t = {CLOSED:g} to {TOP:g} s [mm]", "{:.2f}"),
+        "rotation_deg": (f"rotation of the bunny, {lift}, at most [deg]", "{:.3f}"),
+        "lift_mm": (f"lift height, {lift} [mm]", "{:.2f}"),
         "drag_share": ("largest drag / friction that contacts can bear [-]", "{:.3f}"),
         "certified": ("certified", "{}"),
         "worst_residual": ("worst residual [natural units]", "{:.1e}"),

@@ -23,7 +23,8 @@ IN = {
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
+    names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
+    shared.completed(names, lambda: BY_NAME)
     shared.add(parser, "--out", default="validation")
     shared.add(parser, "--json")
 
