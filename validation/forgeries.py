@@ -18,9 +18,9 @@ from __future__ import annotations
 import argparse
 import copy
 import json
-import tempfile
 import math
 import sys
+import tempfile
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path

@@ -26,7 +26,7 @@ _HOMES = {
     "draw": "draw_scene",
     "legible": "faults",
     "moments": "moment",
-    "style": "figure_style figure_written panels style_file styled",
+    "style": "Figure figure_style figure_written panels style_file styled",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

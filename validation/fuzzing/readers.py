@@ -57,7 +57,7 @@ from validation.fuzzing.worker import Reader, content_of
 def readers(folder: Path) -> dict[str, Reader]:
     """Every reader by name; what their files need beside them is written into the folder."""
     return {
-        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(),
+        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(folder),
         **_stores(folder), **_studies(),
     }  # fmt: skip
 
@@ -179,7 +179,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _answers() -> dict[str, Reader]:
+def _answers(folder: Path) -> dict[str, Reader]:
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
