@@ -7,8 +7,8 @@ Each must end with status 0. What the extra does not bring must be refused by on
 names the extra that does (``REFUSED``). The README's own lines are taken from the README.
 
 ``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
-``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
-README says; else uv takes the same wheels in less time, and can take the lowest. An environment
+``--out`` writes the table and keeps what other runs wrote there. The base of the own
+interpreter comes by pip, as the README says; else uv takes the same wheels in less time, and can take the lowest. An environment
 takes one or two gigabytes and is removed. Exit status 1 if a command fails.
 """
 
@@ -90,7 +90,7 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     subprocess.run([python, "-m", "venv", str(home)], check=True)
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
     command = [home / "bin" / "pip", "install", "-q", what]
-    if lowest or extra != "base":
+    if lowest or extra != "base" or python != sys.executable:
         command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
         command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)
