@@ -7,9 +7,10 @@ Each must end with status 0. What the extra does not bring must be refused by on
 names the extra that does (``REFUSED``). The README's own lines are taken from the README.
 
 ``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
-``--out`` writes the table and keeps what other runs wrote there. The base of the own
-interpreter comes by pip, as the README says; else uv takes the same wheels in less time, and can take the lowest. An environment
-takes one or two gigabytes and is removed. Exit status 1 if a command fails.
+``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
+README says; with an extra or on another interpreter, uv takes the same wheels in less time, and it
+can take the lowest. An environment takes one or two gigabytes and is removed. Exit status 1 if a
+command fails.
 """
 
 from __future__ import annotations
