@@ -147,7 +147,7 @@ class Fields:
             numbers = array.astype(np.float64)
         except (ValueError, OverflowError, TypeError):
             raise self.fail(field, f"must be {wanted} finite numbers", value) from None
-        if numbers.size == 0 and 0 in shape:
+        if numbers.shape == (0,) and 0 in shape:
             numbers = numbers.reshape([s or 0 for s in shape])
         if numbers.ndim != len(shape) or any(
             s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
@@ -173,12 +173,14 @@ class Fields:
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)
 
-    def check_format(self, name: str, version: int) -> None:
-        """Take ``format`` and ``version`` of a file, and refuse others than these."""
+    def check_format(self, name: str, *versions: int) -> int:
+        """Take ``format`` and ``version`` of a file, refuse others than these: the version."""
         self.text("format", choices=(name,))
-        given = self.integer("version")
-        if given != version:
-            raise self.fail("version", f"is not known here; this program reads {version}", given)
+        version = self.integer("version")
+        if version not in versions:
+            known = " and ".join(map(str, versions))
+            raise self.fail("version", f"is not known here; this program reads {known}", version)
+        return version
 
     def only(self, known: Iterable[str]) -> None:
         """Refuse every field but these: before any of them is found missing."""

@@ -50,6 +50,7 @@ PANDAS: Final = (
 STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
+    "quasistatic-ref study pack study",
     "quasistatic-ref study export study --every 20 --out qpbenchmark",
 )
 
@@ -88,10 +89,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
-    "fuzz": (
-        "checkout:python -m validation.fuzz_structured --seconds 5",
-        "checkout:python -m validation.fuzz_bytes --seconds 5",
-    ),
+    "fuzz": ("checkout:python -m validation.fuzz --inputs 600 --out {out}/fuzz",),
     "test": (
         "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
         "checkout:ruff check .",
@@ -102,10 +100,10 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
 SCRIPTS: Final = {
-    "readme.py": ("README.md", "load_scenario"),
+    "readme.py": ("README.md", "solve_step"),
     "diff.py": ("docs/sensitivity.md", "DIFFCP"),
 }
-"""Script in the empty folder -> the page that it stands on, and a word of its block there."""
+"""Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
 
 REFUSED: Final = {
     "base": {

@@ -33,8 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="where package://NAME/ is looked for as FOLDER/NAME/ (of a URDF; may be repeated)",
     )
-    shared.add_set(parser)
-    shared.add_json(parser)
+    shared.add(parser, "--set", "--json")
 
 
 def run(options: argparse.Namespace) -> int:

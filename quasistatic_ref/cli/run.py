@@ -30,11 +30,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="a TOML file, or the name of a scenario that comes along (bunny_grasp, ...)",
     )
     shared.completed(scenario, scenario_names, ".toml")
-    shared.add_out(parser, "results")
-    shared.add_solver(parser)
-    shared.add_set(parser)
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="results")
+    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
     shared.add_resume(parser)
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"

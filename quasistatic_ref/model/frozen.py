@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.step.arrays import freeze
 from quasistatic_ref.tolerances import SHORT
 
 
@@ -35,17 +36,7 @@ def freeze_size(owner: Any, key: str) -> None:
 
 def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
     """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
-    value = getattr(owner, key)
-    try:
-        array = np.array(value, dtype=np.float64) + 0.0
-    except (TypeError, ValueError):
-        raise ModelError("must be numbers", field=key, value=value) from None
-    if array.shape != shape:
-        raise ModelError(f"must have shape {shape}", field=key, value=array.shape)
-    if not np.isfinite(array).all():
-        raise ModelError("must hold finite numbers only", field=key, value=array.tolist())
-    array.setflags(write=False)
-    object.__setattr__(owner, key, array)
+    freeze(owner, {key: shape}, error=ModelError)
 
 
 def freeze_lengths(owner: Any, key: str) -> None:

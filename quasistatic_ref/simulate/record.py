@@ -43,9 +43,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.number("h", above=0.0)
     if not top.is_null("failed"):
         top.text("failed")
+    extra = top.sequence("extra", [])
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
-        needed = (*PER_STEP, *PROGRAM) if full else PER_STEP
+        needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         _check_present(arrays, needed)
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):

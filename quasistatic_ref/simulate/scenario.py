@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
+from quasistatic_ref.errors import BackendError, ScenarioError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
@@ -190,13 +190,10 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
-    h, steps, gravity, named, record = (
-        value(top, TOP, name) for name in ("h", "steps", "gravity", "cone", "record")
+    h, steps, gravity, record = (
+        value(top, TOP, name) for name in ("h", "steps", "gravity", "record")
     )
-    try:
-        cone(named)
-    except InputError as error:
-        raise top.fail("cone", error.problem, named) from None
+    named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")

@@ -19,8 +19,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
     )
-    shared.add_out(parser, "figures")
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="figures")
+    shared.add(parser, "--quiet")
 
 
 def _examples() -> Sequence[str]:

@@ -25,9 +25,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
     shared.completed(names, lambda: BY_NAME)
-    shared.add_out(parser, "validation")
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="validation")
+    shared.add(parser, "--json", "--quiet")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -108,4 +108,5 @@ def correct_digits(error: float, size: float, tolerance: float) -> float:
     """
     if error == 0 or (error <= tolerance and size <= CANCELLED * tolerance):
         return DIGITS
-    return float(np.clip(-np.log10(error / size), 0.0, DIGITS)) + 0.0 if size > 0 else 0.0
+    relative = max(error / size, 10.0**-DIGITS) if size > 0 else 1.0  # the quotient may underflow
+    return float(np.clip(-np.log10(relative), 0.0, DIGITS)) + 0.0
