@@ -89,6 +89,10 @@ LARGE: Final = 1e15
 
 Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
 
+SHORT: Final = 1e-15
+"""Smallest length of a shape [m], about a proton's; quotients of lengths stay in float64's range.
+"""
+
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the
 larger of the unconstrained step and the longest push-out of a single row.

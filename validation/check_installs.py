@@ -6,9 +6,10 @@ folder; those that start with ``checkout:`` run in the checkout, whose programs 
 Each must end with status 0. What the extra does not bring must be refused by one sentence that
 names the extra that does (``REFUSED``). The README's own lines are taken from the README.
 
-``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared
-(with uv, which is installed for that), ``--out`` writes the table and keeps what other runs wrote
-there. An environment takes about a gigabyte and is removed. Exit status 1 if a command fails.
+``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
+``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
+README says; else uv takes the same wheels in less time, and can take the lowest. An environment
+takes one or two gigabytes and is removed. Exit status 1 if a command fails.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
+from textwrap import dedent
 
 from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
 
@@ -39,6 +41,8 @@ HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
     "| verdict |"
 )
+LOWEST = ("--resolution", "lowest-direct", "--only-binary", ":all:")
+"""Options of uv: of what the package itself asks for, the lowest versions; of the rest, newest."""
 PARTS = 8
 """Packages that are named for their size."""
 PAGE = """# What an installation holds, and that it works
@@ -85,16 +89,21 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     empty.mkdir()
     subprocess.run([python, "-m", "venv", str(home)], check=True)
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
-    if lowest:
-        uv = folder / "uv"
-        subprocess.run([python, "-m", "venv", str(uv)], check=True)
-        subprocess.run([str(uv / "bin" / "pip"), "install", "-q", "uv"], check=True)
-        command = [uv / "bin" / "uv", "pip", "install", "-q", "--python", home / "bin" / "python"]
-        command += ["--resolution", "lowest-direct", "--only-binary", ":all:", what]
-    else:
-        command = [home / "bin" / "pip", "install", "-q", what]
+    command = [home / "bin" / "pip", "install", "-q", what]
+    if lowest or extra != "base":
+        command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
+        command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)
     return Environment(home, empty)
+
+
+def _uv(folder: Path) -> Path:
+    """The program uv, installed into an environment of its own once a run."""
+    home = folder / "uv"
+    if not home.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
+        subprocess.run([str(home / "bin" / "pip"), "install", "-q", "uv"], check=True)
+    return home / "bin" / "uv"
 
 
 def mebibytes(files: Iterable[Path]) -> float:
@@ -115,16 +124,16 @@ def largest(home: Path) -> str:
     return ", ".join(f"{name} {size:.0f}" for name, size in named)
 
 
-def python_block(page: str, word: str) -> str:
-    """The first fenced block of Python on a page of the checkout that holds a word."""
+def python_code(page: str, word: str) -> str:
+    """The fenced blocks of Python on a page of the checkout that hold a word, one after another."""
     text = (ROOT / page).read_text("utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    return next(str(block) for block in blocks if word in block)
+    blocks = re.findall(r"^( *)```python\n(.*?)^\1```", text, re.MULTILINE | re.DOTALL)
+    return "\n".join(dedent(block) for _, block in blocks if word in block)
 
 
 def faults(at: Environment, extra: str) -> list[str]:
     """What is wrong with the commands of an extra, each told as it runs."""
-    scripts = {name: python_block(page, word) for name, (page, word) in SCRIPTS.items()}
+    scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
     for name, text in (scripts | WALK_FILES).items():
         (at.folder / name).write_text(text, "utf-8")
     wrong = []

@@ -25,8 +25,14 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-TESTS = ("tests/meta", "tests/equations", "tests/vectors", "tests/unit/test_cli.py")
-"""Those that read most files of the checkout besides the package: docs, models, vectors."""
+TESTS = (
+    *(f"tests/meta/test_{name}.py" for name in (
+        "docstrings", "first_scene", "installs", "layers", "lock", "readme", "release", "sdist",
+        "traceability", "workflows",
+    )),
+    "tests/equations", "tests/study/test_committed_studies.py", "tests/vectors/test_folder.py",
+)  # fmt: skip
+"""Those that read most of the checkout besides the package: docs, models, committed results."""
 NOWHERE = "http://127.0.0.1:9"
 """A proxy where nobody listens."""
 MADE = {"PKG-INFO"}

@@ -11,8 +11,8 @@ directions it looks for a wider gap elsewhere. What is reported, relative to the
 
 - phi: |phi - s*| / L;
 - points: distance of alpha and beta from their surfaces, |beta - alpha - phi n|, over L;
-- normal: |n - n*| times c / L, at most 1, where c, the drop of the gap per square of the angle, says
-  how well the normal is determined: an angle is found to about the rounding of lengths over c;
+- normal: |n - n*| times c / L, at most 1, where c, the drop of the gap per square of the angle,
+  says how well the normal is determined: an angle is found to about the rounding of lengths over c;
 - elsewhere: by how much a gap in another direction exceeds phi, over L.
 """
 

@@ -50,6 +50,7 @@ PANDAS: Final = (
 STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
+    "quasistatic-ref study pack study",
     "quasistatic-ref study export study --every 20 --out qpbenchmark",
 )
 
@@ -68,6 +69,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref verify step.json solution.json",
         "quasistatic-ref inspect bunny_grasp",
         "quasistatic-ref backends",
+        "quasistatic-ref completion bash",
         "quasistatic-ref vectors own --layer qp --out answers",
         "quasistatic-ref vectors check answers",
         "quasistatic-ref validate incline_sliding",
@@ -98,10 +100,10 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
 SCRIPTS: Final = {
-    "readme.py": ("README.md", "load_scenario"),
+    "readme.py": ("README.md", "solve_step"),
     "diff.py": ("docs/sensitivity.md", "DIFFCP"),
 }
-"""Script in the empty folder -> the page that it stands on, and a word of its block there."""
+"""Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
 
 REFUSED: Final = {
     "base": {

@@ -120,6 +120,11 @@ RESULTS = (
         ("validation/results/exact_everywhere.txt",),
     ),
     Result(
+        "forgeries",
+        ("validation.forgeries", "--out", "validation/forgeries.md"),
+        ("validation/forgeries.md",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),

@@ -12,6 +12,7 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
+from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.saved import saved_steps
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -24,15 +25,13 @@ TOLD = 4
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
+    scenario = parser.add_argument(
         "scenario",
         help="a TOML file, or the name of a scenario that comes along (bunny_grasp, ...)",
     )
-    shared.add_out(parser, "results")
-    shared.add_solver(parser)
-    shared.add_set(parser)
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.completed(scenario, scenario_names, ".toml")
+    shared.add(parser, "--out", default="results")
+    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
     shared.add_resume(parser)
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"

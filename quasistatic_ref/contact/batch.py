@@ -7,14 +7,13 @@ from operator import methodcaller
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.contact.poses import PairPoses
 from quasistatic_ref.contact.shortlist import Shortlist
 from quasistatic_ref.contact.solid_rows import SolidRows
 from quasistatic_ref.model.shapes import Shape
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import UNSEEN
 
 CORNERS = 8
@@ -41,10 +40,10 @@ class Nearest(NamedTuple):
     phi: Array
     normal: Array
     local: Array
-    point: NDArray[np.int64]
-    proved: NDArray[np.bool_]
+    point: Indices
+    proved: Mask
 
-    def chosen(self, order: NDArray[np.int64]) -> Nearest:
+    def chosen(self, order: Indices) -> Nearest:
         """The same contacts in another order, shape (k,)."""
         phi, normal, local, point = map(methodcaller("take", order, axis=-1), self[:-1])
         return Nearest(phi, normal, local, point, self.proved)
@@ -139,7 +138,7 @@ class Batch:
         n, local = normal.T.take(found, axis=1), self.local.take(found, axis=1)
         return Nearest(distance, n, local, self.index.take(found), proved)
 
-    def reorder(self, order: NDArray[np.int64]) -> None:
+    def reorder(self, order: Indices) -> None:
         """Give the contacts in another order (r,) from now on: entry i was number order[i]."""
         self.ranked, self.start = self.ranked[order], self.start[order]
         self.furthest = np.argsort(order)[self.furthest]

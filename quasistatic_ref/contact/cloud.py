@@ -12,7 +12,6 @@ with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, our
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.curved import distance_to_cone, distance_to_ellipsoid
 from quasistatic_ref.contact.hull import distance_to_hull, dot, norm
@@ -28,7 +27,7 @@ from quasistatic_ref.model.shapes import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 Distance = tuple[Array, Array]
 Rounded = Sphere | Capsule | Box
@@ -76,7 +75,7 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
             raise ContactError("a cloud touches solid shapes only", field="shape", value=kind)
 
 
-def closest(phi: Array, k: int) -> NDArray[np.int64]:
+def closest(phi: Array, k: int) -> Indices:
     """Indices of the k smallest signed distances in ascending order, ties broken by index.
 
     Parameters

@@ -13,7 +13,6 @@ from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.corners import corners
@@ -24,7 +23,7 @@ from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import REPEATED
 
 
@@ -47,13 +46,13 @@ class ClosestPoints(NamedTuple):
     alpha: Array
     beta: Array
     n: Array
-    point: NDArray[np.int64]
+    point: Indices
 
     def swapped(self) -> ClosestPoints:
         """The same contacts with alpha's and beta's bodies exchanged."""
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
-    def chosen(self, index: NDArray[np.int64]) -> ClosestPoints:
+    def chosen(self, index: Indices) -> ClosestPoints:
         """The contacts of an `index` of shape (k,), in its order."""
         return ClosestPoints(*map(itemgetter(index), self))
 
@@ -109,7 +108,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
 
 
-def _late(candidates: ClosestPoints, k: int) -> NDArray[np.bool_]:
+def _late(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
 
     The closest pair mostly is a corner, and on parallel faces anything between corners that are

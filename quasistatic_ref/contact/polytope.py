@@ -9,15 +9,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import distance_to_rounded_box, rounded_box, signed_distance
 from quasistatic_ref.contact.corners import corners
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
-Indices = NDArray[np.int64]
 UP = np.array([0.0, 0.0, 1.0])
 
 

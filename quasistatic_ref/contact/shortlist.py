@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.contact.ball_tree import BallTree, Indices
+from quasistatic_ref.contact.ball_tree import BallTree
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.support import support_value
 from quasistatic_ref.model.shapes import HalfSpace, Shape
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.tolerances import UNSEEN
 
 RATIO = 16.0

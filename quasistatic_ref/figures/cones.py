@@ -9,12 +9,11 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-from numpy.typing import NDArray
 
 from quasistatic_ref.figures.style import figure_style, scaled, sized
 from quasistatic_ref.figures.surfaces import faces
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
@@ -49,7 +48,7 @@ def limit_surfaces() -> Figure:
 
 
 def pinch_thresholds(
-    d: Array, least: Mapping[str, Array], slips: Mapping[str, Mapping[float, NDArray[np.bool_]]]
+    d: Array, least: Mapping[str, Array], slips: Mapping[str, Mapping[float, Mask]]
 ) -> Figure:
     """The least squeeze that holds a bar off its axis: closed forms, and steps that slip or hold.
 

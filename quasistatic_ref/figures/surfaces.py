@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh
@@ -18,7 +17,7 @@ from quasistatic_ref.model.shapes import (
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 AROUND, UP = 48, 25
 """Corners of round shapes around their axis and along it."""
@@ -72,7 +71,7 @@ def patch(floor: HalfSpace, centre: Array, half_width: float) -> Array:
     return np.asarray(foot + around)
 
 
-def triangles(points: Array) -> NDArray[np.int64]:
+def triangles(points: Array) -> Indices:
     """Triangles of the convex hull as indices, (T, 3), counter-clockwise from outside."""
     hull = ConvexHull(points)
     corners = points[hull.simplices]

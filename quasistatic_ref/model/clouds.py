@@ -21,6 +21,7 @@ from quasistatic_ref.model.ply import ply_points
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.text import decimal
 from quasistatic_ref.npz import npy_array, npz_arrays
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
 Lines = Iterator[tuple[int, str]]
@@ -64,7 +65,7 @@ def point_cloud(path: str | Path) -> PointCloud:
         raise ModelError(error.problem, **given) from None
 
 
-def _checked(given: list[list[float]] | NDArray[np.float64]) -> NDArray[np.float64]:
+def _checked(given: list[list[float]] | Array) -> Array:
     points = np.array(given, dtype=np.float64).reshape(-1, 3)
     for wrong, problem in (
         (~np.isfinite(points), "must be finite numbers"),
@@ -133,7 +134,7 @@ def _obj(lines: Lines) -> Iterator[Point]:
             yield number, words[1:4]
 
 
-def _npz(path: Path) -> NDArray[np.float64]:
+def _npz(path: Path) -> Array:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
     if name != "points" and len(arrays) != 1:
@@ -142,14 +143,14 @@ def _npz(path: Path) -> NDArray[np.float64]:
     return _of_array(arrays[name], name)
 
 
-def _of_array(array: NDArray[Any], name: str) -> NDArray[np.float64]:
+def _of_array(array: NDArray[Any], name: str) -> Array:
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
         given = f"{array.dtype} of shape {array.shape}"
         raise ModelError("must hold numbers of shape (N, 3)", field=name, value=given)
     return array.astype(np.float64)
 
 
-KINDS: dict[str, Callable[[Path], list[list[float]] | NDArray[np.float64]]] = {
+KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
     ".xyz": partial(_of_lines, _xyz),
     ".csv": partial(_of_lines, _csv),
     ".ply": lambda path: ply_points(bytes_read(path, ModelError)),

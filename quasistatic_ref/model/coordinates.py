@@ -11,12 +11,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
-Indices = NDArray[np.int64]
 _TWISTS = {
     "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),
     "planar": (("x", "m"), ("y", "m"), ("rz", "rad")),

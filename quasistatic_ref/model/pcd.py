@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.step.arrays import Array
 
 _TYPES = {
     ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
@@ -23,7 +21,7 @@ _WORDS = (
 MOST_COLUMNS = 1000
 
 
-def pcd_points(content: bytes) -> NDArray[np.float64]:
+def pcd_points(content: bytes) -> Array:
     """Point positions of a PCD file.
 
     Parameters

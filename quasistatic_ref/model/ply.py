@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.step.arrays import Array
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -17,7 +15,7 @@ _TYPES = {
 _FORMATS = ("ascii", "binary_little_endian")
 
 
-def ply_points(content: bytes) -> NDArray[np.float64]:
+def ply_points(content: bytes) -> Array:
     """Vertex positions of a PLY file.
 
     Parameters

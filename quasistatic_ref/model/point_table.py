@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.step.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def header_lines(content: bytes, last: str) -> Iterator[tuple[int, list[str], in
         yield number, words, start
 
 
-def table_points(table: PointTable, field: str, what: str) -> NDArray[np.float64]:
+def table_points(table: PointTable, field: str, what: str) -> Array:
     """Positions of the points, shape (count, 3) [m], from the columns x, y and z.
 
     Parameters
@@ -78,14 +78,14 @@ def table_points(table: PointTable, field: str, what: str) -> NDArray[np.float64
     return points
 
 
-def _binary(table: PointTable, at: Sequence[int]) -> NDArray[np.float64]:
+def _binary(table: PointTable, at: Sequence[int]) -> Array:
     point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(table.columns)])
     held = min(len(table.body) // point.itemsize, table.count)
     rows = np.frombuffer(table.body, dtype=point, count=held)
     return np.stack([rows[str(i)][:, 0].astype(np.float64) for i in at], axis=1)
 
 
-def _ascii(table: PointTable, at: Sequence[int]) -> NDArray[np.float64]:
+def _ascii(table: PointTable, at: Sequence[int]) -> Array:
     *starts, width = np.cumsum([0, *(n for _, _, n in table.columns)]).tolist()
     points: list[list[float]] = []
     lines = table.body.decode("ascii", errors="replace").splitlines()

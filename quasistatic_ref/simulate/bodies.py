@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ScenarioError, suggestion
+from quasistatic_ref.errors import ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
@@ -142,13 +142,15 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
         whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
         block = whole.array("K_q", (len(index), len(index)))
-        K_q[np.ix_(index, index)] = _positive_definite(block, table.name("K_q"))
+        positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
+        K_q[np.ix_(index, index)] = block
         return
     given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
     given.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(given, entry.short(joint), joint)
-        K_q[joint.v, joint.v] = _positive_definite(block, given.name(entry.short(joint)))
+        positive_definite(given.name(entry.short(joint)), block)
+        K_q[joint.v, joint.v] = block
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -203,15 +205,6 @@ def _planar(waypoint: Fields, name: str, body: Body) -> Array:
         problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
         raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
     return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
-
-
-def _positive_definite(block: Array, field: str) -> Array:
-    """The block as it is, refused here rather than in the first step."""
-    try:
-        positive_definite(field, block)
-    except InputError as error:
-        raise ScenarioError(error.problem, field=field, value=error.value) from None
-    return block
 
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:

@@ -11,6 +11,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
 from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
 
@@ -55,10 +57,16 @@ def resumed(
         if len(kept["t"]):
             parts.append((kept, extra))
             taken += len(kept["t"])
-    simulator.start_cold()
+    start_cold(simulator)
     for part, extra in parts:
         again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)
         recorder.take(part | again.posed(part, recorder), extra)
+
+
+def start_cold(simulator: Simulator) -> None:
+    """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
+    if simulator.solver is not None and simulator.solver.remembers:
+        simulator.solver = None
 
 
 @dataclass(frozen=True)
@@ -79,7 +87,7 @@ class _Again:
             t = (k + 1) * recorder.h
             goal, pushed = self.target(t, q), self.force(t, q)
             _check("target", k, part["q_bar_a"][i], goal)
-            _check("force", k, part["tau"][i], self.simulator.tau(q, pushed))
+            _check("force", k, part["tau"][i], self._tau(q, pushed))
             if self.record == "full" or k >= self.cold:
                 step, own = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
@@ -88,6 +96,10 @@ class _Again:
                     self._ask(step, own)
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
+    def _tau(self, q: Array, pushed: Array) -> Array:
+        simulator = self.simulator
+        return simulator.weighs * simulator.system.gravity_force(q, simulator.gravity) + pushed
+
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, Extension | None]:
         simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
         points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
@@ -95,10 +107,13 @@ class _Again:
 
     def _ask(self, step: StepData, own: Extension | None) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
-        solver = self.simulator.solver
-        if own is None and (solver is None or solver.remembers) and self.simulator.backend != NONE:
+        simulator, solver = self.simulator, self.simulator.solver
+        if own is None and (solver is None or solver.remembers) and simulator.backend != NONE:
+            if solver is None or not solver.fits(step):
+                solver = solver_for(step, simulator.backend, simulator.engine)
+                simulator.solver = solver
             with suppress(StepNotSolved):
-                self.simulator.solution(step, certify="off")
+                solve_step(step, solver, accuracy=simulator.accuracy, certify="off")
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:

@@ -12,7 +12,7 @@ from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.recorder import Recorder
-from quasistatic_ref.simulate.resume import resumed
+from quasistatic_ref.simulate.resume import resumed, start_cold
 from quasistatic_ref.simulate.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -101,7 +101,7 @@ def rollout(
         for k in bar:
             t, q = recorder.t, recorder.q
             if k % STRETCH == 0:
-                simulator.start_cold()
+                start_cold(simulator)
             try:
                 interrupt.check()
                 goal = q_bar_a(t, q)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
+from quasistatic_ref.errors import BackendError, ScenarioError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
@@ -188,11 +188,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     check_names(top, TOP)
     h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    named = top.text("cone", PYRAMID)
-    try:
-        cone(named)
-    except InputError as error:
-        raise top.fail("cone", error.problem, named) from None
+    named = cone(top.text("cone", PYRAMID)).name
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
     check_names(solver, SOLVER)

@@ -222,7 +222,7 @@ class Simulator:
             If the force has another shape.
         """
         system, n_a = self.system, self.system.n_a
-        tau = self.tau(q, force)
+        tau = self.weighs * system.gravity_force(q, self.gravity) + force
         if tau.shape != self.weighs.shape:
             problem = f"must have shape {self.weighs.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
@@ -231,10 +231,6 @@ class Simulator:
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
-    def tau(self, q: Array, force: Array | float) -> Array:
-        """Generalised force at q besides the stiffness, shape (n_v,) [N, N m]."""
-        return self.weighs * self.system.gravity_force(q, self.gravity) + force
-
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
         own = None if self.extension is None else self.extension(q)
@@ -242,31 +238,12 @@ class Simulator:
             return with_rows(step, rows), None
         return step, own
 
-    def start_cold(self) -> None:
-        """Forget what the solver keeps of earlier steps, if its answers depend on it."""
-        if self.solver is not None and self.solver.remembers:
-            self.solver = None
-
-    def solution(
-        self, step: StepData, extension: Extension | None = None, certify: str | None = None
-    ) -> StepSolution:
-        """A step solved, perhaps with an extension that is more than rows.
-
-        Parameters
-        ----------
-        step : StepData
-        extension : Extension, optional
-        certify : str, optional
-            In place of the simulator's own.
-        """
+    def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
+        """A step solved, perhaps with an extension that is more than rows."""
         if self.solver is None or not self.solver.fits(step):
             self.solver = solver_for(step, self.backend, self.engine)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else self.solver
         return solve_step(
-            step,
-            solver,
-            accuracy=self.accuracy,
-            certify=self.certify if certify is None else certify,
-            extension=extension,
+            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
         )

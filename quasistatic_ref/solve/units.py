@@ -18,9 +18,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quasistatic_ref.step.data import Array, Extra, StepData
+from quasistatic_ref.step.data import Array, Extra, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -167,7 +166,7 @@ def within_reach(natural: StepData) -> StepData:
     return natural.replace(contacts=replace(natural.contacts, phi=near))
 
 
-def out_of_reach(natural: StepData) -> NDArray[np.bool_]:
+def out_of_reach(natural: StepData) -> Mask:
     """Which contacts are too far to matter, shape (n_c,)."""
     return np.asarray(natural.contacts.phi > _reach(natural.contacts.J))
 

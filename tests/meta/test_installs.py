@@ -4,7 +4,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from validation.check_installs import largest, python_block, written
+from validation.check_installs import largest, python_code, written
 from validation.installs import COMMANDS, OWN, REFUSED, SCRIPTS
 
 ROOT = Path(__file__).parents[2]
@@ -54,7 +54,8 @@ def test_all_is_every_extra_for_use():
 
 def test_the_scripts_are_on_their_pages():
     for page, word in SCRIPTS.values():
-        assert word in python_block(page, word)
+        assert word in python_code(page, word)
+    assert python_code("README.md", "solve_step").count("solve_step(") == 2  # all of its Python
     assert {"bunny_grasp", "door"} <= {*OWN}
     assert "panda_push" not in OWN  # its robot is in an extra
 

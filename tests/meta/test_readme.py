@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from validation.installs import shell_lines
+from validation.installs import COMMANDS, shell_lines
 
 ROOT = Path(__file__).parents[2]
 
@@ -41,3 +41,16 @@ def test_the_tests_command_is_the_one_that_ci_runs():
     assert len(testing) == 1
     lines = [line.strip() for line in (ROOT / ".ci" / "run").read_text().splitlines()]
     assert without_quiet(testing[0]) in [without_quiet(line) for line in lines]
+
+
+def test_every_command_that_it_lists_is_tried_from_an_installed_wheel():
+    text = (ROOT / "README.md").read_text("utf-8")
+    listed = re.search(r"` lists the commands:(.*?)\. The$", text, re.MULTILINE | re.DOTALL)[1]
+    names = set()
+    for one in re.findall(r"`([a-z][^`]*)`", listed):
+        name, _, rest = one.partition(" ")
+        actions = re.match(r"[a-z|]+", rest)
+        names |= {f"{name} {action}" for action in actions[0].split("|")} if actions else {name}
+    assert {"demo", "run", "vectors check", "study run", "study pack", "bench"} <= names
+    tried = "\n".join(line for lines in COMMANDS.values() for line in lines)
+    assert {name for name in names if not re.search(rf"quasistatic-ref {name}\b", tried)} == set()

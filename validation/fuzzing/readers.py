@@ -266,4 +266,4 @@ def kept(name: str, inputs: str, out: str) -> None:
         reader = readers(Path(folder))[name]
     for i in json.loads(inputs):
         file = f"{name.replace('/', ' ')} {i}{Path(reader.file).suffix}"
-        (Path(out) / file).write_bytes(content_of(name, reader, i))
+        (Path(out) / file).write_bytes(content_of(reader, i))

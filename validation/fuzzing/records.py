@@ -73,7 +73,8 @@ def _other_value(rng: Rng, old: Any) -> Any:
         return _any_value(rng, old)
     if isinstance(old, int | float):
         size = 10.0 ** rng.randint(-20, 20)
-        near = (-old, old * size, float(np.nextafter(old, np.inf)), old + 1, int(old), str(old), 0)
+        whole = int(old) if abs(old) < 1e300 else 0
+        near = (-old, old * size, float(np.nextafter(old, np.inf)), old + 1, whole, str(old), 0)
         return rng.choice((*near, any_number(rng)))
     if isinstance(old, str):
         return rng.choice((old + "x", old[:-1], old.upper(), old * 50, rng.choice(WORDS)))

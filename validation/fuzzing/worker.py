@@ -33,7 +33,7 @@ class Reader:
     form : callable
         How they are made wrong.
     read : callable
-        Given the path of the file.
+        Given the path of the file; what it returns is noted.
     """
 
     file: str
@@ -57,9 +57,9 @@ ENDED = {signal.SIGPROF: "hang", signal.SIGALRM: "hang", signal.SIGKILL: "memory
 """What the signal says that ended a process; all others are crashes."""
 
 
-def content_of(name: str, reader: Reader, i: int) -> bytes:
-    """The i-th input of a reader."""
-    rng = random.Random(f"{name}/{i}")
+def content_of(reader: Reader, i: int) -> bytes:
+    """The i-th input of a reader: the same for all readers of files of that name."""
+    rng = random.Random(f"{reader.file}/{i}")
     return reader.form(rng, rng.choice(reader.good))
 
 
@@ -68,13 +68,13 @@ def outcome_of(read: Callable[[Path], object], path: Path) -> tuple[str, str]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            read(path)
+            said = read(path)
     except QuasistaticError as refusal:
         sentence = str(refusal)
         if "bad_alloc" in sentence:
             return "memory", sentence
         if not sentence or "\n" in sentence or len(sentence) > LONGEST:
-            return "traceback", f"no sentence: {sentence[:LONGEST]}"
+            return "traceback", f"no sentence: {sentence[:200]}"
         return "refused", sentence
     except MemoryError as error:
         return "memory", repr(error)
@@ -82,7 +82,7 @@ def outcome_of(read: Callable[[Path], object], path: Path) -> tuple[str, str]:
         last = traceback.extract_tb(error.__traceback__)[-1]
         where = f"{Path(last.filename).name}:{last.lineno}"
         return "traceback", f"{type(error).__name__} in {where}: {str(error)[:200]}"
-    return "accepted", ""
+    return "accepted", str(said or "")
 
 
 def peak() -> float:
@@ -124,7 +124,7 @@ def findings(
                 raise AssertionError(f"{name}: a good file is not accepted: {said}")
         peak()
         for i in range(start, start + count):
-            path.write_bytes(content_of(name, reader, i))
+            path.write_bytes(content_of(reader, i))
             signal.setitimer(signal.ITIMER_PROF, seconds)
             signal.setitimer(signal.ITIMER_REAL, WAITED)
             begun = time.process_time()

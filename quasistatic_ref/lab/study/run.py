@@ -70,21 +70,15 @@ def run_study(
 def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     """What ``study.json`` holds: the study as it was resolved, machine and versions."""
     parts = [
-        {
-            "solvers": [s.label for s in part.solvers],
-            "settings": [s.name for s in part.settings],
-            "units": list(part.units),
-            "warm": list(part.warm),
-            "repetitions": part.repetitions,
-            "every": part.every,
-        }
+        asdict(part)
+        | {"solvers": [s.label for s in part.solvers], "settings": [s.name for s in part.settings]}
         for part in study.parts
     ]
     solvers = [
         {
             "name": s.name,
             "road": s.road,
-            "target": s.target if isinstance(s.target, str) else list(s.target),
+            "target": s.target,
             "options": {
                 t.name: s.settings_of(t, study.time_limit)
                 for t in study.settings

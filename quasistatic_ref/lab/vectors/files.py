@@ -124,20 +124,14 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     return dict(zip(ids, records, strict=True))
 
 
-def answers_text(layer: str, implementation: str, outputs: dict[str, Json]) -> str:
-    """The file of an implementation's answers, in the conventions of the package."""
-    record = {"format": ANSWERS, "version": VERSION, "layer": layer}
-    record |= {"implementation": implementation, "tangent": "body", "quaternion": "xyzw"}
-    answers = [{"id": name, "output": output} for name, output in outputs.items()]
-    return lines({**record, "answers": answers})
-
-
 def answers_written(
     folder: str | Path, layer: str, implementation: str, outputs: dict[str, Json]
 ) -> Path:
-    """Write the answers of one layer to a folder of answers, whole or not at all."""
-    text = answers_text(layer, implementation, outputs)
-    return text_written(Path(folder) / f"{layer}.json", text)
+    """Write the answers of one layer, in our conventions, to a folder: whole or not at all."""
+    record = {"format": ANSWERS, "version": VERSION, "layer": layer}
+    record |= {"implementation": implementation, "tangent": "body", "quaternion": "xyzw"}
+    answers = [{"id": name, "output": output} for name, output in outputs.items()]
+    return text_written(Path(folder) / f"{layer}.json", lines({**record, "answers": answers}))
 
 
 def check_layer(name: str) -> str:

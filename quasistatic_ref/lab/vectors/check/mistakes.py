@@ -139,11 +139,11 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
     if field not in given:
         return False
     ours, theirs = prediction, given[field]
-    if field == "lam" and not one.record["flags"].get("unique_multipliers", True):
-        ours, theirs = _images(one, ours), _images(one, theirs)
-    if [path for path, _ in leaves(ours)] != [path for path, _ in leaves(theirs)]:
-        return False
     try:
+        if field == "lam" and not one.record["flags"].get("unique_multipliers", True):
+            ours, theirs = _images(one, ours), _images(one, theirs)
+        if [path for path, _ in leaves(ours)] != [path for path, _ in leaves(theirs)]:
+            return False
         found = difference(field, ours, theirs, 0.0)
     except (TypeError, ValueError, OverflowError):
         return False

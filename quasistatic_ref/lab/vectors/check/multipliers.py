@@ -51,7 +51,7 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
     largest = float(np.abs(multipliers).max(initial=0.0))
     sums = EPS * (len(A) + 2) * float((np.abs(A).T @ np.abs(multipliers)).max(initial=0.0))
     off = float(np.abs(A.T @ multipliers - A_lam).max(initial=0.0))
-    if off > tolerance_of(tolerance, "A_lam") + 2 * sums:
+    if not off <= tolerance_of(tolerance, "A_lam") + 2 * sums < np.inf:
         return f"A'lam is off by {off:.2g}"
     small = NEGLIGIBLE * largest
     slack = _slack(A, output)
@@ -79,7 +79,7 @@ def _slack(A: Array, output: Json) -> Array:
 
 def _conic_problem(lam: Array, z: Array, small: float) -> str | None:
     outside = np.linalg.norm(lam[:, 1:], axis=1) - lam[:, 0]
-    if (outside > small).any():
+    if not (outside <= small).all():
         return f"lam of block {int(outside.argmax())} is outside its cone"
     product = np.abs(np.einsum("ji,ji->j", lam, z))
     size = np.linalg.norm(lam, axis=1) * np.linalg.norm(z, axis=1)
@@ -103,7 +103,7 @@ def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
             wrench = (part @ cone_matrix(case["cone"])[: len(part)] * mu)[[1, 2, 0, 3]]
         off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
         room = tolerance_of(record["tolerance"], "wrench")
-        if off > room + 16 * EPS * float(np.abs(part).sum()):
+        if not off <= room + 16 * EPS * float(np.abs(part).sum()) < np.inf:
             return f"wrench[{j}] is not what its lam makes: it is off by {off:.2g}"
     return None
 
