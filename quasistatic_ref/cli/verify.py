@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
 def refutation(step: StepData, solution: SolutionFile) -> str | None:
     """What is wrong with a solution; None if all that it claims is proved.
 
-    What :attr:`SolutionFile.unchecked` names, in files of version 1, is not looked at.
+    What ``SolutionFile.unchecked`` names, in files of version 1, is not looked at.
     """
     if solution.farkas is not None:
         return farkas_refutation(step, solution.farkas)
