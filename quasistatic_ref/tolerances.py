@@ -55,10 +55,9 @@ PROVED: Final = 1e-13
 coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
 another feature misses by the size of the shapes, or is as good."""
 
-WITNESS: Final = 1e-6
-"""Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
-
-coal's own solvers stop at 1e-6; a wrong normal disagrees by the size of the shapes."""
+WITNESS: Final = 1e-10
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""
 
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.
@@ -89,6 +88,10 @@ LARGE: Final = 1e15
 """Largest number in a scenario, a URDF or a point cloud, in whatever unit.
 
 Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
+
+SHORT: Final = 1e-15
+"""Smallest length of a shape [m], about a proton's; quotients of lengths stay in float64's range.
+"""
 
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the

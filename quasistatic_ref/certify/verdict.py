@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.errors import clipped
 from quasistatic_ref.step.data import Array
 
 
@@ -60,4 +61,4 @@ def wrong_claim(name: str, claimed: Any, right: Any) -> str:
     signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
     if claimed == right and len(signs) < 2:
         return ""
-    return f"{name} is claimed to be {claimed!r}; it is {right!r}"
+    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"

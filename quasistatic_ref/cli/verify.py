@@ -18,8 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument("step", type=Path, help="a step file (quasistatic-ref/step)")
     parser.add_argument("solution", type=Path, help="a solution file (quasistatic-ref/solution)")
-    shared.add_cone(parser)
-    shared.add_json(parser)
+    shared.add(parser, "--cone", "--json")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -19,6 +19,8 @@ PER_STEP = (
 )  # fmt: skip
 PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
 """What a full record adds, step by step."""
+EXTRA = ("lam_extra", "extra_A", "extra_b")
+"""What the rows of an extension add: the multipliers, and to a full record the rows."""
 
 
 def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
@@ -41,9 +43,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.number("h", above=0.0)
     if not top.is_null("failed"):
         top.text("failed")
+    extra = top.sequence("extra", [])
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
-        needed = (*PER_STEP, *PROGRAM) if full else PER_STEP
+        needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         _check_present(arrays, needed)
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):

@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.files import check_format, step_sha256
+from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
@@ -121,10 +121,8 @@ def solution_read(path: str | Path, step: StepData) -> SolutionFile:
     InputError
         Naming the file, the field and the value.
     """
-    try:
+    with about_file(path):
         return _solution(Fields(json_read(path), error=StepDataError), step)
-    except InputError as error:
-        raise error.in_file(path) from None
 
 
 def _head(step: StepData, status: str) -> dict[str, Any]:
@@ -138,7 +136,7 @@ def _head(step: StepData, status: str) -> dict[str, Any]:
 
 
 def _solution(top: Fields, step: StepData) -> SolutionFile:
-    first = check_format(top, SOLUTION_FORMAT, (1, VERSION)) == 1
+    first = top.check_format(SOLUTION_FORMAT, 1, VERSION) == 1
     status = top.text("status", choices=("optimal", "infeasible"))
     named = top.text("cone", PYRAMID) if first else top.text("cone")
     if named != step.cone:
@@ -171,10 +169,8 @@ def _nested(top: Fields, step: StepData) -> Array:
     value = top.sequence("lam")
     if len(value) != step.contacts.n_c:
         raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
-    parts = [
-        Fields({f"lam[{j}]": part}, error=StepDataError).array(f"lam[{j}]", (int(rows),))
-        for j, (part, rows) in enumerate(zip(value, step.counts, strict=True))
-    ]
+    each = Fields({f"lam[{j}]": part for j, part in enumerate(value)}, error=StepDataError)
+    parts = [each.array(f"lam[{j}]", (int(rows),)) for j, rows in enumerate(step.counts)]
     return np.concatenate([np.zeros(0), *parts])
 
 

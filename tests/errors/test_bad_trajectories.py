@@ -157,6 +157,12 @@ CAUSES = {
         "contacts.name: must be a sequence of strings",
     ),
     "an array missing": (lambda run: rewritten(run, {"J": None}), "holds no array named 'J'"),
+    "rows of an extension that are not there": (
+        lambda run: rewritten(run, header={"extra": ["a"]}), "holds no array named 'extra_A'",
+    ),
+    "names of an extension that are none": (
+        lambda run: rewritten(run, header={"extra": 3}), "extra: must be a list",
+    ),
     "an array of words": (
         lambda run: rewritten(run, {"phi": npy(np.array(["a"] * 3))}), "phi: must hold numbers",
     ),

@@ -126,6 +126,13 @@ def test_a_row_of_a_sweep_that_is_none_is_refused(sweep, refused, change, says):
     assert says in refused(sweep)
 
 
+def test_a_row_that_stands_twice_is_refused(folder, sweep, refused):
+    for store in (folder, sweep):
+        lines = (store / "rows.jsonl").read_text().splitlines(keepends=True)
+        (store / "rows.jsonl").write_text("".join([*lines[:2], lines[0], *lines[2:]]))
+        assert "line 3: is a measurement that stands before it already" in refused(store)
+
+
 def test_rows_of_another_kind_of_study_are_refused(folder, sweep, refused):
     (folder / "rows.jsonl").write_bytes((sweep / "rows.jsonl").read_bytes())
     assert "its rows: are of another kind of study" in refused(folder)

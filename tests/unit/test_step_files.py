@@ -179,7 +179,7 @@ REFUSED = {
     "n not a unit vector": (["contacts", 0, "n"], [0.0, 0.0, 2.0], "contacts[c0]: d1, d2, n must"),
     "J too narrow": (["contacts", 0, "J"], [[0.0] * 4] * 4, "contacts[0].J: must be 4 x 5"),
     "extra a list": (["extra"], [1], "extra: must be a table"),
-    "extra names a number": (["extra", "names"], [1, 2], "extra.names: must be strings (got 1)"),
+    "extra names a number": (["extra", "names"], [1, 2], "extra.names: must be a list of strings"),
     "extra A too narrow": (["extra", "A"], [[0.0] * 4] * 2, "extra.A: must be 2 x 5"),
     "extra b too short": (["extra", "b"], [0.0], "extra.b: must be 2 numbers"),
 }

@@ -2,11 +2,14 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.folder import check_answers
-from tests.vectors.material import VECTORS, cases, right_answers
+from quasistatic_ref.lab.vectors.check.verdict import DIGITS, correct_digits
+from tests.tolerances import ROUNDING
+from tests.vectors.material import VECTORS, cases, expected, report_on, right_answers
 
 LIGHT = ("selection", "rows", "wrench")
 
@@ -273,3 +276,38 @@ def test_what_is_no_folder_of_answers_or_vectors_is_refused(tmp_path, arguments,
         given += ["--vectors", str(VECTORS)]
     assert main(["vectors", "check", *given]) == 2
     assert says in capsys.readouterr().err
+
+
+def test_an_error_that_underflows_beside_its_field_is_no_warning():
+    # 5e-324 / 2 is 0 in float64, whose logarithm there is none of: all digits are right.
+    assert correct_digits(5e-324, 2.0, 0.0) == DIGITS
+    assert correct_digits(1.0, 1e-3, 0.0) == correct_digits(1.0, 0.0, 0.0) == 0.0
+    np.testing.assert_allclose(correct_digits(1e-5, 1.0, 0.0), 5.0, rtol=ROUNDING)
+
+
+HOSTILE = {
+    # name: (case of qp, field, value from the right answer, words of the reason)
+    "lists in lam": ("qp/ellipsoid/flat", "lam", lambda lam: [*lam[:-1], [[]]], "must be a number"),
+    "a word in lam": ("qp/ellipsoid/flat", "lam", lambda lam: [*lam[:-1], "x"], "must be a number"),
+    "A_lam cut off": ("qp/ellipsoid/flat", "A_lam", lambda A_lam: A_lam[:1], "must have 6 entries"),
+    "a lam beyond its cone": (
+        "qp/ellipsoid/flat", "lam", lambda lam: [1e308] * len(lam), "lam is another one, and ",
+    ),
+    "a lam beyond float64": (
+        "qp/grasp/0", "lam", lambda lam: [1e308] * len(lam), "A'lam is off by nan",
+    ),
+    "a list for a claim": (
+        "qp/random/2", "certificate",
+        lambda certificate: {**certificate, "multipliers_unique": [0.0] * 1000},
+        "certificate: multipliers_unique is claimed to be [0.0, 0.0",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("case", "field", "change", "says"), HOSTILE.values(), ids=HOSTILE)
+def test_a_hostile_answer_fails_in_one_sentence(case, field, change, says):
+    output = expected("qp")[case]["output"]
+    verdict = report_on("qp", {case: {**output, field: change(output[field])}}).first
+    assert verdict is not None
+    assert says in verdict.reason
+    assert len(verdict.reason) < 400

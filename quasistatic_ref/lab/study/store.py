@@ -222,12 +222,13 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
     """Return the rows of a file, and the length of what parses [bytes]."""
     content = _unpacked(path) if path.name == PACKED else bytes_read(path)
     rows: list[Row] = []
+    keys: set[str] = set()
     whole = 0
     lines = content.split(b"\n")
     for number, line in enumerate(lines[:-1], start=1):
         try:
             row = json.loads(text_of(line, path))
-            key_of(row)
+            key = key_of(row)
         except (ValueError, InputError, KeyError, TypeError, RecursionError):
             if number == len(lines) - 1:
                 break  # the last line, torn
@@ -238,6 +239,10 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
             ) from None
         shape = SOLVER_ROW if "problem" in row else SWEEP_ROW
         rows.append(_checked(row, shape, path, number))
+        if key in keys:
+            problem = "is a measurement that stands before it already; remove one of the two"
+            raise InputError(problem, file=path, field=f"line {number}")
+        keys.add(key)
         whole += len(line) + 1
     return rows, whole
 

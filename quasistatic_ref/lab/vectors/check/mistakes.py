@@ -16,6 +16,7 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES, Hypothesis
+from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.expected import Json
@@ -138,11 +139,11 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
     if field not in given:
         return False
     ours, theirs = prediction, given[field]
-    if field == "lam" and not one.record["flags"].get("unique_multipliers", True):
-        ours, theirs = _images(one, ours), _images(one, theirs)
-    if [path for path, _ in leaves(ours)] != [path for path, _ in leaves(theirs)]:
-        return False
     try:
+        if field == "lam" and not one.record["flags"].get("unique_multipliers", True):
+            ours, theirs = _images(one, ours), _images(one, theirs)
+        if [path for path, _ in leaves(ours)] != [path for path, _ in leaves(theirs)]:
+            return False
         found = difference(field, ours, theirs, 0.0)
     except (TypeError, ValueError, OverflowError):
         return False
@@ -153,11 +154,7 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
 
 def _images(one: Failed, lam: Json) -> Json:
     """A'lam in the place of a lam that is not unique."""
-    case, output = one.case, one.record["output"]
-    if "second_order" in case:
-        A = [row for block in case["second_order"] for row in block["F"]]
-    else:
-        A = case.get("A", output.get("A"))
+    A = program_rows(one.case, one.record["output"])
     if len(lam) != len(A):
         return lam
     return list(np.array(lam, dtype=np.float64) @ np.array(A).reshape(len(lam), -1))

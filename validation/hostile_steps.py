@@ -1,0 +1,107 @@
+"""Random valid steps at scales of 1e-12 to 1e12: no backend holds one up.
+
+``python -m validation.hostile_steps --steps 5000`` asks every backend by every interface for each
+step, certified in full, each call in a process with limits (see ``validation/fuzz.py``). A step
+ends exact, with the same bits by all paths, or refused in a sentence; never later than 10 s.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import random
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.solve.backends import NONE, QPSOLVERS, installed, installed_backends
+from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.step.files import step_read, step_text
+from validation.fuzzing.worker import Reader
+from validation.random_steps import any_step
+
+SCALES = 12.0
+"""Largest power of ten by which a number of a step is multiplied."""
+
+
+def hostile_step(rng: random.Random) -> StepData:
+    """A step of :func:`any_step` whose numbers are multiplied by powers of ten, one to all of them.
+
+    Raises
+    ------
+    InputError
+        If the numbers are no step.
+    """
+    draw = np.random.default_rng(rng.getrandbits(64))
+    n_a, n_u, n_c = draw.integers(0, 7), draw.integers(0, 7), draw.integers(1, 9)
+    n_u += n_a + n_u == 0
+    step = any_step(draw, int(n_a), int(n_u), int(n_c), draw.choice([1.0, 1e4, 1e9]))
+    often = draw.choice([0.15, 0.5, 1.0])
+
+    def scale(*shape: int) -> np.ndarray:
+        """Powers of ten, of shape `shape`, most of them 1."""
+        powers = draw.uniform(-SCALES, SCALES, shape) * (draw.random(shape) < often)
+        return np.asarray(10.0 ** (powers if draw.random() < 0.5 else powers.round()))
+
+    c = step.contacts
+    S = scale(n_a + n_u) if draw.random() < 0.3 else scale()  # one for each coordinate, or for all
+    S = np.broadcast_to(S, n_a + n_u)
+    contacts = Contacts(
+        c.name, c.phi * scale(n_c) * scale(), c.n, c.d1, c.d2,
+        c.J * S * (scale(n_c)[:, None, None] if draw.random() < 0.3 else scale()),
+        np.minimum(c.mu_v * scale(n_c), 1e12), c.mu_omega * scale(), c.rows,
+    )  # fmt: skip
+    return step.replace(
+        h=step.h * float(scale()),
+        K_q=step.K_q * scale() * np.outer(S[:n_a], S[:n_a]),
+        M_u=step.M_u * scale() * np.outer(S[n_a:], S[n_a:]),
+        tau_a=step.tau_a * scale() * S[:n_a],
+        tau_u=step.tau_u * scale() * S[n_a:],
+        delta_q_bar_a=step.delta_q_bar_a * scale() / S[:n_a],
+        contacts=contacts,
+    )
+
+
+def hostile_text(rng: random.Random, good: bytes) -> bytes:
+    """A step that can be read, as a file."""
+    while True:
+        try:
+            return step_text(hostile_step(rng)).encode()
+        except InputError:
+            continue
+
+
+def paths() -> list[tuple[str, str]]:
+    """Every backend that is here by every interface: (engine, name)."""
+    through = [(CVXPY, name) for name in (NONE, *installed_backends())]
+    return through + [(NATIVE, name) for name in installed(NATIVE)]
+
+
+def readers(folder: Path) -> dict[str, Reader]:
+    """One for each path; see :mod:`validation.fuzz`."""
+    good = step_text(grasp_step(np.random.default_rng(0))).encode()
+    return {
+        label(engine, name): Reader("step.json", (good,), hostile_text, solved_by(engine, name))
+        for engine, name in paths()
+    }
+
+
+def label(engine: str, name: str) -> str:
+    """E.g. ``native daqp``, ``qpsolvers daqp``."""
+    return f"{engine} {name}" if not name.startswith(QPSOLVERS) else name.replace(":", " ")
+
+
+def solved_by(engine: str, name: str) -> Callable[[Path], str]:
+    """What solves a file: it returns the bits of the answer, and what became of the backend."""
+
+    def read(path: Path) -> str:
+        step = step_read(path)
+        solution = solve_step(step, solver_for(step, name, engine))
+        bits = hashlib.sha256(solution.delta_q.tobytes()).hexdigest()[:16]
+        return f"{bits} {solution.statistics.status}"
+
+    return read
