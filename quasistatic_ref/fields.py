@@ -130,7 +130,9 @@ class Fields:
         if not isinstance(value, str):
             raise self.fail(field, "must be a string", value)
         if choices is not None and value not in choices:
-            raise self.fail(field, f"is not a choice{suggestion(value, choices)}", value)
+            one = f"must be {choices[0]!r}"  # the format of a file, which is then another kind
+            wrong = one if len(choices) == 1 else f"is not a choice{suggestion(value, choices)}"
+            raise self.fail(field, wrong, value)
         return value
 
     def array(
@@ -141,6 +143,9 @@ class Fields:
         if value is default and default is not REQUIRED:
             return value  # type: ignore[no-any-return]  # the caller's own default
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
+        if isinstance(value, str):
+            problem = f"must be {wanted} numbers, with commas between them and brackets around them"
+            raise self.fail(field, problem, value)
         try:
             array = np.array(value, dtype=object)
             if any(isinstance(v, list) for v in array.flat):

@@ -123,12 +123,15 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 
 def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:
-    """Write what a failed run left: its steps so far, and the failing step; return the status."""
+    """Write what a failed run left, its steps and the failing one; say why, return the status."""
     trajectory: Trajectory = failure.trajectory
+    interrupted = isinstance(failure.__cause__, KeyboardInterrupt)
+    for sentence in () if interrupted else trajectory.warnings:
+        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     path = trajectory.save(folder / f"{stem}.npz")
     kept = f"the first {trajectory.steps} steps are in {path}"
     if failure.step is not None:
         step = step_written(folder / f"{stem}_failed_step.json", failure.step)
         kept += f", the failing step in {step}"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
-    return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3
+    return 130 if interrupted else 3

@@ -17,7 +17,7 @@ from quasistatic_ref.simulate.artifacts import (
 )
 from quasistatic_ref.simulate.record import CONSTANT, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.simulate.watch import watched
+from quasistatic_ref.simulate.watch import doubtful_units, watched
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
@@ -145,6 +145,8 @@ class Recorder:
         header["warnings"] = [] if drags is None else [drags]
         if self.rows:
             header["warnings"] += watched(self.scene, arrays, np.array(self.gap))
+        else:  # it failed in its first step, for which a unit may be the reason
+            header["warnings"] += doubtful_units(self.scene)
         return Trajectory(header, arrays, seconds, self.scene)
 
 
