@@ -22,9 +22,6 @@ project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
 version = release = __version__
 
-# Under the GPL, and nothing that a page shows needs it but the name of its adapter.
-autodoc_mock_imports = [] if find_spec("quadprog") else ["quadprog"]
-
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
@@ -68,8 +65,9 @@ napoleon_use_ivar = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_default_options = {"members": True, "show-inheritance": True}
-# Engines that are optional and differ in what they run on; only `validate` talks to them.
-autodoc_mock_imports = ["mujoco", "pydrake"]
+# Engines that are optional and differ in what they run on; only `validate` talks to them. And a
+# solver under the GPL, of which a page shows no more than its adapter's name.
+autodoc_mock_imports = ["mujoco", "pydrake", *([] if find_spec("quadprog") else ["quadprog"])]
 # There is no network at build time, hence no inventory to look third-party names up in.
 nitpick_ignore_regex = [
     (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -167,10 +168,9 @@ class StepInfeasible(StepNotSolved):
     """
 
     def __init__(self, step: StepData, farkas: FarkasVector) -> None:
-        self.backend, self.status, self.step = "exact", "infeasible", step
-        self.accuracy, self.residuals, self.farkas = 0.0, None, farkas
-        QuasistaticError.__init__(
-            self,
+        super().__init__("exact", "infeasible", step, 0.0)
+        self.farkas = farkas
+        self.args = (
             f"the step has no solution: {farkas.in_words} (proved without rounding); "
             "widen these gaps, or let one of the bodies give way",
         )
@@ -190,11 +190,9 @@ class StepIllPosed(StepNotSolved):
     """
 
     def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
-        self.backend, self.status, self.step = "exact", "ill-posed", step
-        self.accuracy, self.residuals = 0.0, None
+        super().__init__("exact", "ill-posed", step, 0.0)
         self.delta_q, self.length = delta_q, length
-        QuasistaticError.__init__(
-            self,
+        self.args = (
             f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
             "its contacts contradict each other but for rounding; look for opposite normals",
         )
@@ -212,9 +210,8 @@ class LimitExceeded(StepNotSolved):
     """
 
     def __init__(self, problem: str, step: StepData) -> None:
-        self.backend, self.status, self.step = "none", "limit exceeded", step
-        self.accuracy, self.residuals = 0.0, None
-        QuasistaticError.__init__(self, problem)
+        super().__init__("none", "limit exceeded", step, 0.0)
+        self.args = (problem,)
 
 
 class RunFailed(QuasistaticError):
@@ -233,6 +230,25 @@ class RunFailed(QuasistaticError):
     def __init__(self, reason: str, trajectory: Any, step: StepData | None = None) -> None:
         self.reason, self.trajectory, self.step = reason, trajectory, step
         super().__init__(reason)
+
+
+@contextmanager
+def about_file(file: str | Path) -> Iterator[None]:
+    """Make an InputError of this block say which file it is about, unless it says so already."""
+    try:
+        yield
+    except InputError as error:
+        raise error.in_file(file) from None
+
+
+@contextmanager
+def about_field(field: str) -> Iterator[None]:
+    """Make an InputError of this block name that field of a file, and not what it was read into."""
+    try:
+        yield
+    except InputError as error:
+        error.field = field
+        raise
 
 
 def one_line(text: str) -> str:

@@ -65,6 +65,14 @@ class Fields:
         """Return the names of the fields not yet taken, in file order."""
         return list(self._left)
 
+    def _typed(self, field: str, kind: Any, words: str, default: Any) -> Any:
+        """Return a field of one kind, of which booleans are no numbers; None if that is default."""
+        value = self.take(field, default)
+        fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
+        if not fits and (value is not None or default is not None):
+            raise self.fail(field, f"must be {words}", value)
+        return value
+
     def number(
         self,
         field: str,
@@ -74,11 +82,9 @@ class Fields:
         least: float | None = None,
     ) -> float:
         """Return a finite number, greater than `above` and at least `least` [the field's unit]."""
-        value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise self.fail(field, "must be a number", value)
+        value = self._typed(field, int | float, "a number", default)
+        if value is None:
+            return None  # type: ignore[return-value]  # the caller's own default
         try:
             number = float(value)
         except OverflowError:
@@ -98,13 +104,14 @@ class Fields:
         *,
         least: int | None = None,
         most: int | None = None,
+        choices: tuple[int, ...] | None = None,
     ) -> int:
-        """Return a whole number, at least `least` and at most `most`."""
-        value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
-        if isinstance(value, bool) or not isinstance(value, int):
-            raise self.fail(field, "must be a whole number", value)
+        """Return a whole number, at least `least` and at most `most`, or one of `choices`."""
+        value: int = self._typed(field, int, "a whole number", default)
+        if value is None:
+            return value
+        if choices is not None and value not in choices:
+            raise self.fail(field, f"must be {' or '.join(map(str, choices))}", value)
         if least is not None and value < least:
             raise self.fail(field, f"must be at least {least}", value)
         if most is not None and value > most:
@@ -113,23 +120,15 @@ class Fields:
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
         """Return true or false."""
-        value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
-        if not isinstance(value, bool):
-            raise self.fail(field, "must be true or false", value)
+        value: bool = self._typed(field, bool, "true or false", default)
         return value
 
     def text(
         self, field: str, default: Any = REQUIRED, choices: tuple[str, ...] | None = None
     ) -> str:
         """Return a string, one of `choices` where they are given."""
-        value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
-        if not isinstance(value, str):
-            raise self.fail(field, "must be a string", value)
-        if choices is not None and value not in choices:
+        value: str = self._typed(field, str, "a string", default)
+        if value is not None and choices is not None and value not in choices:
             one = f"must be {choices[0]!r}"  # the format of a file, which is then another kind
             wrong = one if len(choices) == 1 else f"is not a choice{suggestion(value, choices)}"
             raise self.fail(field, wrong, value)
@@ -140,8 +139,6 @@ class Fields:
     ) -> np.ndarray:
         """Return finite numbers of the given shape (None: any length) as float64."""
         value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
         if isinstance(value, str):
             problem = f"must be {wanted} numbers, with commas between them and brackets around them"
@@ -155,7 +152,7 @@ class Fields:
             numbers = array.astype(np.float64)
         except (ValueError, OverflowError, TypeError):
             raise self.fail(field, f"must be {wanted} finite numbers", value) from None
-        if numbers.size == 0 and 0 in shape:
+        if numbers.shape == (0,) and 0 in shape:
             numbers = numbers.reshape([s or 0 for s in shape])
         if numbers.ndim != len(shape) or any(
             s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
@@ -167,23 +164,28 @@ class Fields:
 
     def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
         """Return a list."""
-        value = self.take(field, default)
-        if value is default and default is not REQUIRED:
-            return value  # type: ignore[no-any-return]  # the caller's own default
-        if not isinstance(value, list):
-            raise self.fail(field, "must be a list", value)
+        value: list[Any] = self._typed(field, list, "a list", default)
         return value
 
     def words(self, field: str, default: Any = REQUIRED) -> list[str]:
         """Return a list of strings."""
         value = self.sequence(field, default)
-        if value is not default and not all(isinstance(word, str) for word in value):
+        if not all(isinstance(word, str) for word in value):
             raise self.fail(field, "must be a list of strings", value)
         return value
 
     def table(self, field: str, default: Any = REQUIRED) -> Fields:
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)
+
+    def check_format(self, name: str, *versions: int) -> int:
+        """Take ``format`` and ``version`` of a file, refuse others than these: the version."""
+        self.text("format", choices=(name,))
+        version = self.integer("version")
+        if version not in versions:
+            known = " and ".join(map(str, versions))
+            raise self.fail("version", f"is not known here; this program reads {known}", version)
+        return version
 
     def only(self, known: Iterable[str]) -> None:
         """Refuse every field but these: before any of them is found missing."""
@@ -194,5 +196,4 @@ class Fields:
 
     def close(self) -> None:
         """Refuse every field that was never asked for."""
-        for field, value in self._left.items():
-            raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)
+        self.only(())

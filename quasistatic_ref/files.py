@@ -12,7 +12,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, about_file
 
 LARGEST = 512 * 2**20
 """Largest file that is read [bytes]."""
@@ -20,7 +20,7 @@ LARGEST_TEXT = 64 * 2**20
 """Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
 
 
-def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
+def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Path:
     """Write a file under a temporary name in the same folder, then rename it.
 
     Parameters
@@ -56,7 +56,7 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
         os.umask(umask)
         os.chmod(temporary, 0o666 & ~umask)
         os.replace(temporary, target)
-    except (OSError, _BadPath) as error:
+    except OSError as error:
         raise _unwritable(error, path) from None
     finally:
         if temporary and os.path.exists(temporary):
@@ -64,15 +64,11 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], None]) -> Path:
     return path
 
 
-class _BadPath(Exception):
-    """A path that can never be one."""
-
-
 def _resolved(path: Path) -> Path:
     try:
         return path.resolve()
     except (ValueError, RuntimeError) as error:  # a NUL character; links in a circle
-        raise _BadPath(str(error)) from None
+        raise _unwritable(error, path) from None
 
 
 def writable_folder(folder: str | Path) -> Path:
@@ -88,7 +84,7 @@ def writable_folder(folder: str | Path) -> Path:
         _resolved(folder).mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder) as file:
             file.write(b"?")
-    except (OSError, _BadPath) as error:
+    except OSError as error:
         raise _unwritable(error, folder) from None
     return folder
 
@@ -105,11 +101,7 @@ def text_written(path: str | Path, text: str) -> Path:
 
 def bytes_written(path: str | Path, content: bytes) -> Path:
     """Write a file whole."""
-    return written_whole(path, lambda file: _write(file, content))
-
-
-def _write(file: IO[bytes], content: bytes) -> None:
-    file.write(content)
+    return written_whole(path, lambda file: file.write(content))
 
 
 def bytes_read(
@@ -159,11 +151,10 @@ def text_of(content: bytes, path: str | Path, error: type[InputError] = InputErr
 def json_read(path: str | Path) -> Any:
     """The value in a JSON file; InputError if it does not parse, or names a field twice."""
     try:
-        text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
-        value = json.loads(text, object_pairs_hook=unique_fields)
-        _check_characters(text, value)
-    except InputError as error:
-        raise error.in_file(path) from None
+        with about_file(path):
+            text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
+            value = json.loads(text, object_pairs_hook=unique_fields)
+            _check_characters(text, value)
     except json.JSONDecodeError as error:
         raise InputError(f"is not JSON: {error}", file=path) from None
     except (RecursionError, ValueError):  # nested too deeply, or an integer of too many digits

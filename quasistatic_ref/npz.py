@@ -8,16 +8,19 @@ unpacked.
 from __future__ import annotations
 
 import io
+import math
 import tokenize
 import zipfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.files import bytes_read
 
 LARGEST_UNPACKED = 2 * 2**30
@@ -30,7 +33,6 @@ UNREADABLE: tuple[type[Exception], ...] = (
     OSError,
     EOFError,
     RuntimeError,
-    NotImplementedError,
     SyntaxError,
     tokenize.TokenError,  # an array's header with an open bracket
     zipfile.BadZipFile,
@@ -57,15 +59,9 @@ def npz_arrays(
     """
     content = bytes_read(path)
     problem = f"is not {what}"
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            members = _checked_sizes(archive)
-            return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
-    except InputError as error:
-        raise error.in_file(path) from None
-    except UNREADABLE as error:
-        reason = " ".join(str(error).split())[:80]
-        raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
+    with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
+        members = _checked_sizes(archive)
+        return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
 
 
 def npy_array(path: str | Path) -> NDArray[Any]:
@@ -85,13 +81,19 @@ def npy_array(path: str | Path) -> NDArray[Any]:
     InputError
         If it is no such file, is spoilt, or holds a pickle.
     """
-    try:
+    with _readable(path, "is not an array of NumPy"):
         return _array(bytes_read(path), "it")
-    except InputError as error:
-        raise error.in_file(path) from None
+
+
+@contextmanager
+def _readable(path: str | Path, problem: str) -> Iterator[None]:
+    """Say `problem` of a file where what is done in this block fails."""
+    try:
+        with about_file(path):
+            yield
     except UNREADABLE as error:
         reason = " ".join(str(error).split())[:80]
-        raise InputError(f"is not an array of NumPy: {reason}", file=path) from None
+        raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
 
 
 def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
@@ -123,9 +125,7 @@ def _array(content: bytes, name: str) -> NDArray[Any]:
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
         raise ValueError(f"{name} is a pickle, which is never opened")
-    size = kind.itemsize
-    for n in shape:  # in Python's own numbers, which do not overflow
-        size *= n
+    size = math.prod(shape, start=kind.itemsize)  # of Python's own numbers: it does not overflow
     if min(shape, default=0) < 0 or size != len(content) - file.tell():
         raise ValueError(f"{name} does not have the size that it says")
     file.seek(0)

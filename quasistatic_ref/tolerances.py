@@ -31,21 +31,18 @@ Rounding the answer to float64 alone costs 1e-16; a bound that ends between is t
 problem almost without interior."""
 
 IMPULSES: Final = 1e-9
-"""How far the multipliers of an answer in the ellipsoid may be from its balance and their cone,
-relative to the step and to the largest of them.
+"""Largest duality gap of the multipliers of an answer in the ellipsoid, relative to the energies
+1/2 ||H^-1 g||_H^2 and 1/2 ||delta_q||_H^2 of its step; and how far they may be outside of their
+cone, relative to the largest of them, where no gap is claimed.
 
-They are not unique and not what is certified; rounded to float64 they are off by 1e-15."""
+They are not unique. Rounding to float64 alone leaves a gap of 1e-16; a force where nothing touches
+leaves one of the size of its work."""
 
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
 
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
-
-WRENCH: Final = 1e-12
-"""Largest difference of a contact wrench from its formula, relative to the largest of the step.
-
-Six products and five sums in float64, in whatever order, differ by 1e-15."""
 
 FAR: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
@@ -58,10 +55,9 @@ PROVED: Final = 1e-13
 coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
 another feature misses by the size of the shapes, or is as good."""
 
-WITNESS: Final = 1e-6
-"""Largest disagreement of a convex pair's closest points with its distance and normal [m], [-].
-
-coal's own solvers stop at 1e-6; a wrong normal disagrees by the size of the shapes."""
+WITNESS: Final = 1e-10
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""
 
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.
@@ -92,6 +88,10 @@ LARGE: Final = 1e15
 """Largest number in a scenario, a URDF or a point cloud, in whatever unit.
 
 Nothing that is simulated is larger; squares and fourth powers of it stay in float64's range."""
+
+SHORT: Final = 1e-15
+"""Smallest length of a shape [m], about a proton's; quotients of lengths stay in float64's range.
+"""
 
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the

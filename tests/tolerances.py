@@ -58,13 +58,6 @@ SIGNED_DISTANCE: Final = 1e-12
 NORMAL_NEAR_AXIS: Final = 1e-9
 """Normals [-] of points as near as 1e-3 to where the normal turns: 1e-12 m over that distance."""
 
-COAL: Final = 1e-6
-"""Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
-
-COAL_NORMAL: Final = 1e-4
-"""Normals [-] of convex pairs by coal where faces touch: its witnesses coincide there, and what
-is left of their difference has a direction good to 2e-5 (measured); a wrong face is off by 1."""
-
 BRUTE_FORCE: Final = 2e-3
 """A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
 above it by at most the spacing."""
@@ -83,8 +76,15 @@ system behind a derivative is solved by iteration."""
 CLOSED_FORM: Final = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
 
-CURVED_PAIR: Final = 1e-6
-"""Distances [m] of curved pairs: coal's answers are taken when they prove themselves to 1e-6."""
+CURVED_PAIR: Final = 1e-12
+"""Convex pairs, whatever way leads to their answer [m], [-]: Newton's method and the closed forms
+end at rounding, 1e-15 of the sizes, which are below 1 m."""
+
+CONE_PROGRAM: Final = 1e-8
+"""Distances [m] of curved pairs by a second-order cone program, which its solver ends at 1e-9."""
+
+COAL: Final = 1e-6
+"""Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
 
 WAY_OUT: Final = 1e-8
 """Distance of witness points from the surfaces [m] where two polytopes are parallel but for 1e-6:

@@ -6,9 +6,10 @@ folder; those that start with ``checkout:`` run in the checkout, whose programs 
 Each must end with status 0. What the extra does not bring must be refused by one sentence that
 names the extra that does (``REFUSED``). The README's own lines are taken from the README.
 
-``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared
-(with uv, which is installed for that), ``--out`` writes the table and keeps what other runs wrote
-there. An environment takes about a gigabyte and is removed. Exit status 1 if a command fails.
+``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
+``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
+README says; else uv takes the same wheels in less time, and can take the lowest. An environment
+takes one or two gigabytes and is removed. Exit status 1 if a command fails.
 """
 
 from __future__ import annotations
@@ -23,10 +24,13 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib.metadata import distributions
 from pathlib import Path
+from textwrap import dedent
 
-from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS
+from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
 
 ROOT = Path(__file__).parent.parent
 DEMO_SECONDS = 60.0  # for both runs on 2 cores
@@ -37,7 +41,9 @@ HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
     "| verdict |"
 )
-PARTS = 6
+LOWEST = ("--resolution", "lowest-direct", "--only-binary", ":all:")
+"""Options of uv: of what the package itself asks for, the lowest versions; of the rest, newest."""
+PARTS = 8
 """Packages that are named for their size."""
 PAGE = """# What an installation holds, and that it works
 
@@ -83,44 +89,53 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     empty.mkdir()
     subprocess.run([python, "-m", "venv", str(home)], check=True)
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
-    if lowest:
-        uv = folder / "uv"
-        subprocess.run([python, "-m", "venv", str(uv)], check=True)
-        subprocess.run([str(uv / "bin" / "pip"), "install", "-q", "uv"], check=True)
-        command = [uv / "bin" / "uv", "pip", "install", "-q", "--python", home / "bin" / "python"]
-        command += ["--resolution", "lowest-direct", "--only-binary", ":all:", what]
-    else:
-        command = [home / "bin" / "pip", "install", "-q", what]
+    command = [home / "bin" / "pip", "install", "-q", what]
+    if lowest or extra != "base":
+        command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
+        command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)
     return Environment(home, empty)
 
 
-def mebibytes(*folders: Path) -> float:
-    """What folders take on the disk; a file with two names once."""
-    files = (path.lstat() for folder in folders for path in folder.rglob("*"))
-    return sum({(s.st_dev, s.st_ino): 512 * s.st_blocks for s in files}.values()) / 2**20
+def _uv(folder: Path) -> Path:
+    """The program uv, installed into an environment of its own once a run."""
+    home = folder / "uv"
+    if not home.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
+        subprocess.run([str(home / "bin" / "pip"), "install", "-q", "uv"], check=True)
+    return home / "bin" / "uv"
+
+
+def mebibytes(files: Iterable[Path]) -> float:
+    """What files take on the disk; one with two names counts once."""
+    found = (path.lstat() for path in files if path.is_symlink() or path.exists())
+    return sum({(s.st_dev, s.st_ino): 512 * s.st_blocks for s in found}.values()) / 2**20
 
 
 def largest(home: Path) -> str:
-    """The largest packages of an environment; what a wheel keeps in ``NAME.libs`` is NAME's."""
+    """The largest packages of an environment, by the files that each one's record lists."""
     (packages,) = home.glob("lib/python*/site-packages")
-    folders = [path for path in packages.iterdir() if path.is_dir() and path.suffix != ".libs"]
-    sizes = {path.name: mebibytes(path, packages / f"{path.name}.libs") for path in folders}
+    sizes = {
+        package.name: mebibytes(Path(str(package.locate_file(file))) for file in package.files)
+        for package in distributions(path=[str(packages)])
+        if package.files is not None
+    }
     named = sorted(sizes.items(), key=lambda item: -item[1])[:PARTS]
     return ", ".join(f"{name} {size:.0f}" for name, size in named)
 
 
-def python_block(page: str, word: str) -> str:
-    """The first fenced block of Python on a page of the checkout that holds a word."""
+def python_code(page: str, word: str) -> str:
+    """The fenced blocks of Python on a page of the checkout that hold a word, one after another."""
     text = (ROOT / page).read_text("utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    return next(str(block) for block in blocks if word in block)
+    blocks = re.findall(r"^( *)```python\n(.*?)^\1```", text, re.MULTILINE | re.DOTALL)
+    return "\n".join(dedent(block) for _, block in blocks if word in block)
 
 
 def faults(at: Environment, extra: str) -> list[str]:
     """What is wrong with the commands of an extra, each told as it runs."""
-    for name, (page, word) in SCRIPTS.items():
-        (at.folder / name).write_text(python_block(page, word), "utf-8")
+    scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
+    for name, text in (scripts | WALK_FILES).items():
+        (at.folder / name).write_text(text, "utf-8")
     wrong = []
     for line in COMMANDS[extra]:
         start = time.perf_counter()
@@ -133,11 +148,13 @@ def faults(at: Environment, extra: str) -> list[str]:
             if report["certified"] != f"{report['steps']} of {report['steps']} steps exact":
                 fault = report["certified"]
         print(f"  {time.perf_counter() - start:6.1f} s  {line}", flush=True)
-        wrong += [f"{line}: {fault}"] if fault else []
+        if fault:
+            wrong.append(f"{line}: {fault}")
+            print(fault, flush=True)
     for line, names in REFUSED.get(extra, {}).items():
         done = at.run(line)
         print(f"  refused: {line}: {done.stderr.strip().splitlines()[-1:]}", flush=True)
-        traced = "Traceback" in done.stderr and line.startswith("quasistatic-ref")
+        traced = "Traceback" in done.stderr and not line.startswith("python")
         if names not in done.stderr or traced:
             wrong.append(f"{line}: does not name {names}: {done.stderr}")
     return wrong
@@ -164,7 +181,11 @@ def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], 
     try:
         start = time.perf_counter()
         at = installed(wheel, extra, python, lowest, folder)
-        took, size, parts = time.perf_counter() - start, mebibytes(at.home), largest(at.home)
+        took, size, parts = (
+            time.perf_counter() - start,
+            mebibytes(at.home.rglob("*")),
+            largest(at.home),
+        )
         version = at.run("python -V").stdout.removeprefix("Python ").strip()
         print(f"{extra}, Python {version}: {size:.0f} MB in {took:.0f} s", flush=True)
         start = time.perf_counter()

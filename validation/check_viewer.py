@@ -17,8 +17,8 @@ import numpy as np
 from PIL import Image
 
 from quasistatic_ref.cli.main import main as command
-from quasistatic_ref.figures.moments import Moment, extent
-from quasistatic_ref.figures.viewer import frames, metres_per_newton
+from quasistatic_ref.figures.moments import Moment, extent, frames
+from quasistatic_ref.figures.viewer import FRAMES_PER_SECOND, metres_per_newton
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from validation.browser import Browser
@@ -66,7 +66,7 @@ def check_scene(name: str, settings: list[str], folder: Path) -> None:
     check(status != 0, f"run {name} --view ended with status {status}")
     scenario = load_scenario(name, settings)
     run = trajectory_read(folder / f"{name}.npz")
-    moments, fps = frames(scenario, run)
+    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
     half = float(np.ptp(extent(moments[0]), axis=0).max()) / 2
     scale = metres_per_newton(moments, half)
     with Browser() as browser:

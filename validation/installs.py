@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Final
 
 CHECKOUT: Final = "checkout:"
 """In front of commands whose programs or pages are in the checkout and not in the wheel."""
 
-MODELS: Final = Path(__file__).parent.parent / "models"
+ROOT: Final = Path(__file__).parent.parent
+MODELS: Final = ROOT / "models"
 OWN: Final = tuple(
     sorted(
         path.stem for path in MODELS.glob("*/*.toml") if "package://" not in path.read_text("utf-8")
     )
 )
 """Scenarios whose robots come along."""
+
+SHELL: Final = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+FILE: Final = re.compile(
+    r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)^```", re.MULTILINE | re.DOTALL
+)
+
+
+def shell_lines(markdown: str) -> tuple[str, ...]:
+    """Every command line in the fenced shell blocks of a text, without prompts and comments."""
+    lines = [line for block in SHELL.findall(markdown) for line in block.splitlines()]
+    stripped = [line.removeprefix("$ ").partition(" #")[0].strip() for line in lines]
+    return tuple(line for line in stripped if line and not line.startswith("#"))
+
+
+WALK: Final = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
+"""From a URDF to a picture: the page of which a newcomer types every command."""
+WALK_FILES: Final = dict(FILE.findall(WALK))
+"""Its files, by the captions that name them."""
 
 ROBOTS: Final = (
     "quasistatic-ref run panda_push --set steps=20 --json",
@@ -30,6 +50,7 @@ PANDAS: Final = (
 STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
+    "quasistatic-ref study pack study",
     "quasistatic-ref study export study --every 20 --out qpbenchmark",
 )
 
@@ -38,6 +59,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref --help",
         "quasistatic-ref demo --out demo --json",
         "python readme.py",
+        *shell_lines(WALK),
         *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
         "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
         "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --engine cvxpy --json",
@@ -47,6 +69,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref verify step.json solution.json",
         "quasistatic-ref inspect bunny_grasp",
         "quasistatic-ref backends",
+        "quasistatic-ref completion bash",
         "quasistatic-ref vectors own --layer qp --out answers",
         "quasistatic-ref vectors check answers",
         "quasistatic-ref validate incline_sliding",
@@ -66,15 +89,21 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
+    "fuzz": ("checkout:python -m validation.fuzz --inputs 600 --out {out}/fuzz",),
+    "test": (
+        "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
+        "checkout:ruff check .",
+        "checkout:mypy",
+    ),
     "all": (*ROBOTS, *VIEW, *ENGINES, *PARQUET, *PANDAS),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
 SCRIPTS: Final = {
-    "readme.py": ("README.md", "load_scenario"),
+    "readme.py": ("README.md", "solve_step"),
     "diff.py": ("docs/sensitivity.md", "DIFFCP"),
 }
-"""Script in the empty folder -> the page that it stands on, and a word of its block there."""
+"""Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
 
 REFUSED: Final = {
     "base": {
@@ -83,7 +112,10 @@ REFUSED: Final = {
         "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
         "quasistatic-ref study run default --quick": "quasistatic-ref[robots]",
         "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
+        "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
         "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",
+        "quasistatic-ref validate drake": "quasistatic-ref[drake]",
+        "checkout:python -m validation.notebooks": "quasistatic-ref[notebooks]",
         PANDAS[0]: "quasistatic-ref[pandas]",
     }
 }

@@ -1,6 +1,7 @@
 """Make a Jupyter notebook of every example, and run it.
 
-Run ``python -m validation.notebooks [--out FOLDER] [--only NAME ...] [--no-run]`` (extra ``docs``).
+Run ``python -m validation.notebooks [--out FOLDER] [--only NAME ...] [--no-run]``, with the extra
+``notebooks``.
 Exit status 1 if a notebook fails, or ends without its numbers or its figure.
 """
 
@@ -14,12 +15,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import nbformat
-from nbclient import NotebookClient
-from nbclient.exceptions import CellExecutionError
-from traitlets.config import Config
-
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
+
+try:
+    import nbformat
+    from nbclient import NotebookClient
+    from nbclient.exceptions import CellExecutionError
+    from traitlets.config import Config
+except ModuleNotFoundError as error:
+    sys.exit(f"needs {error.name}: pip install 'quasistatic-ref[notebooks]'")
 
 KERNELS = 2
 """Notebooks that run at the same time."""

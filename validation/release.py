@@ -92,6 +92,11 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "curved_pairs",
+        ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
+        ("validation/results/curved_pairs.md",),
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),
@@ -115,9 +120,20 @@ RESULTS = (
         ("validation/results/exact_everywhere.txt",),
     ),
     Result(
+        "forgeries",
+        ("validation.forgeries", "--out", "validation/forgeries.md"),
+        ("validation/forgeries.md",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),
+    ),
+    Result(
+        "bench_exact",
+        ("validation.bench_exact", "200"),
+        ("validation/results/bench_exact.txt",),
+        output="validation/results/bench_exact.txt",
     ),
     Result(
         "fuzzing",

@@ -16,9 +16,37 @@ from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat, fmpz_mat
 
+from quasistatic_ref.certify.dependence import independent_rows
+from quasistatic_ref.certify.gap import fractions
+from quasistatic_ref.certify.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.step.data import Array, StepData
+
+
+def apex_rows(step: StepData, form: ExactForm, lam: Array) -> tuple[int, ...]:
+    """The first independent rows among all of those contacts that bear load.
+
+    Parameters
+    ----------
+    step : StepData
+    form : ExactForm
+        That of the step.
+    lam : ndarray, shape (m,)
+
+    Returns
+    -------
+    tuple of int
+        In increasing order. Directions without friction are left out: they bear nothing.
+    """
+    rows = [
+        i
+        for _, block, c in cone_blocks(step)
+        if lam[block[0]] > 0
+        for i, mu in zip(block, [ONE, *c], strict=True)
+        if mu > 0
+    ]
+    return independent_rows(form, rows)
 
 
 def apex_refutation(
@@ -46,24 +74,15 @@ def apex_refutation(
         return "the rows of the working set are not independent"
     slack = [fmpq(s) / solution.denominator for s in solution.slack]
     net = [fmpq(v) / solution.denominator for v in solution.net]
-    impulse = _balanced(form, working, [_fraction(v) / form.lam_unit for v in lam.tolist()], net)
+    impulse = _balanced(form, working, fractions(lam, form.lam_unit), net)
     if impulse is None:
         return "no multipliers on the working set balance the step"
-    names = [*step.contacts.name, *step.extra.names]
-    mu = [[_fraction(v) for v in row] for row in step.contacts.mu.tolist()]
-    mu += [[] for _ in step.extra.names]
-    work, start = fmpq(0), 0
-    for name, c in zip(names, mu, strict=True):
-        rows = range(start, start + 1 + len(c))
-        start = rows.stop
-        s, f = [slack[i] for i in rows], [impulse[i] for i in rows]
-        if not _holds(s[0], [m * v for m, v in zip(c, s[1:], strict=True)]):
+    for name, rows, c in cone_blocks(step):
+        if not inside(slack[rows[0]], [m * slack[i] for m, i in zip(c, rows[1:], strict=True)]):
             return f"{name} is violated by the minimiser on the working set"
-        if any(v and not m for m, v in zip(c, f[1:], strict=True)) or not _holds(
-            f[0], [v / m for m, v in zip(c, f[1:], strict=True) if m]
-        ):
-            return f"the force at {name} is outside of its cone"
-        work += sum((a * b for a, b in zip(s, f, strict=True)), fmpq(0))
+    if name := outside_of_cones(step, impulse):
+        return f"the force at {name} is outside of its cone"
+    work = sum((s * f for s, f in zip(slack, impulse, strict=True)), fmpq(0))
     return "a contact that is open bears load" if work else None
 
 
@@ -83,12 +102,3 @@ def _balanced(
     for i, d in zip(working, change.entries(), strict=True):
         changed[i] += d
     return changed
-
-
-def _holds(first: fmpq, rest: list[fmpq]) -> bool:
-    """Whether first >= ||rest||, without rounding."""
-    return first >= 0 and first * first >= sum((v * v for v in rest), fmpq(0))
-
-
-def _fraction(x: float) -> fmpq:
-    return fmpq(*x.as_integer_ratio())

@@ -17,11 +17,11 @@ from quasistatic_ref.certify.degeneracy import differentiable, multipliers_uniqu
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.ellipsoid import ellipsoid_verdict
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.judged import bound_verdict
 from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits
-from quasistatic_ref.errors import clipped
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
@@ -59,9 +59,11 @@ def exact_certificate(
 def in_words(step: StepData, certificate: Certificate) -> str:
     """What a certificate claims, in a sentence or two."""
     if certificate.kind == "residual":
-        worst = max(certificate.residuals.values(), default=float("nan"))
         known = certificate.error_bound is not None
         bound = f"its error is at most {certificate.error_bound:.1e}" if known else "no error bound"
+        if not certificate.residuals:
+            return f"not exact: {bound}"
+        worst = max(certificate.residuals.values())
         return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
     if certificate.kind == "enclosure":
         return f"enclosed: its error is at most {certificate.error_bound:.1e}, proved in balls"
@@ -92,7 +94,7 @@ def verify(
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
-    In the ellipsoid: or whether it is as near to the optimum as it is claimed to be.
+    Or, where a certificate of another kind claims less, whether that is so.
 
     Parameters
     ----------
@@ -104,15 +106,19 @@ def verify(
     lam : ndarray, shape (m,), optional
         The claimed multipliers on that working set, the user's own rows last.
     claims : Certificate, optional
-        Its margins and its statements on uniqueness and differentiability are checked as well;
-        in the ellipsoid, its kind and bound are what is checked.
+        All of it is checked but the residuals, which are what a solver left behind. Kind
+        ``"none"`` claims nothing and is refused, and so is ``"residual"`` without a bound.
 
     Returns
     -------
     Verdict
     """
+    if claims is not None and claims.kind == "residual":
+        return bound_verdict(step, delta_q, lam, claims.error_bound)
     if step.cone == ELLIPSOID:
         return ellipsoid_verdict(step, delta_q, active, lam, claims)
+    if claims is not None and claims.kind != "exact":
+        return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     form = exact_form(step)
     try:
         working = flat_rows(step, active)
@@ -137,8 +143,9 @@ def verify(
 
 def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> str:
     for i, lam_i in zip(working, solution.lam, strict=True):
-        if lam_i < 0:
-            return f"the multiplier of {_row_name(step, i)} is negative"
+        if lam_i <= 0:
+            sign = "negative" if lam_i < 0 else "zero"
+            return f"the multiplier of {_row_name(step, i)} is {sign}"
     for i, slack_i in enumerate(solution.slack):
         if slack_i < 0:
             return f"{_row_name(step, i)} is violated by the minimiser on the working set"
@@ -153,25 +160,22 @@ def _wrong_claim(
     lam_w: Array,
     slack: Array,
 ) -> str:
-    pressed = [i for i, lam_i in zip(working, solution.lam, strict=True) if lam_i > 0]
-    idle = [i for i, s in enumerate(solution.slack) if not s and i not in pressed]
+    idle = [i for i, s in enumerate(solution.slack) if not s and i not in working]
     equations = [[*form.row(i), form.b[i, 0]] for i in idle]
-    spans = dict(zip(idle, implied(form, pressed, equations), strict=True))
+    spans = dict(zip(idle, implied(form, working, equations), strict=True))
     spanned, free = [i for i in idle if spans[i]], [i for i in idle if not spans[i]]
-    smooth = differentiable(form, pressed, free)
+    smooth = differentiable(form, working, free)
     open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
     right = {
-        "kind": "exact",
         "error_bound": 0.0,
-        "multipliers_unique": multipliers_unique(form, pressed, spanned, free),
+        "gap": None,
+        "multipliers_unique": multipliers_unique(form, working, spanned, free),
         "differentiable": smooth,
         "smallest_inactive_slack": min(open_, default=None) if smooth else 0.0,
         "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),
     }
-    for name, value in right.items():
-        if (claimed := getattr(claims, name)) != value:
-            return f"{name} is claimed to be {clipped(repr(claimed))}; it is {value!r}"
-    return ""
+    wrong = (wrong_claim(name, getattr(claims, name), value) for name, value in right.items())
+    return next(filter(None, wrong), "")
 
 
 def _row_name(step: StepData, i: int) -> str:

@@ -5,20 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from flint import ctx
+from flint import ctx, fmpq
 
-from quasistatic_ref.certify.apex import apex_refutation
-from quasistatic_ref.certify.enclosure import BITS, Enclosure, checked_pair, enclosed_error
+from quasistatic_ref.certify.apex import apex_refutation, apex_rows
+from quasistatic_ref.certify.enclosure import (
+    BITS,
+    Enclosure,
+    checked_pair,
+    enclosed_error,
+    point,
+)
+from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.impulses import outside_of_cones, raised
 from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
-from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.optimality import ellipsoid_residuals
-from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rows import contact_rows
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
-from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.tolerances import IMPULSES
+from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
+
+LARGEST = float(np.finfo(np.float64).max)
+UNSTATED = Certificate("exact", error_bound=0.0)
+"""What an answer without a certificate counts as."""
 
 
 def enclosure_certificate(
@@ -44,6 +54,7 @@ def enclosure_certificate(
         residuals=dict(residuals or {}),
         active=contact_rows(step, found.working_set or ()),
         error_bound=found.error,
+        gap=found.gap,
     )
 
 
@@ -56,15 +67,17 @@ def ellipsoid_verdict(
 ) -> Verdict:
     """Whether an answer in the ellipsoid is what it is claimed to be.
 
-    An exact one is checked in rational numbers, given lam. Of an enclosure, a feasible pair is
-    found anew and checked in balls: delta_q must be within the claimed error of it.
+    delta_q of an exact answer is held against the rational optimum, bit for bit. Of an enclosure, a
+    feasible pair is found again and checked in balls: delta_q must be within the claimed error of
+    it. lam must be in its cones, and its duality gap no more than claimed; where none is
+    claimed, both are held to rounding alone.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
     active : sequence of (int, int)
-        Of an exact answer, the rows that it follows from.
+        Of an exact answer: the first independent rows of the contacts that bear load.
     lam : ndarray, shape (m,), optional
     claims : Certificate, optional
         Without one, the answer counts as exact.
@@ -73,53 +86,88 @@ def ellipsoid_verdict(
     -------
     Verdict
     """
-    kind = "exact" if claims is None else claims.kind
-    claimed = 0.0 if claims is None or claims.error_bound is None else claims.error_bound
+    claims = UNSTATED if claims is None else claims
+    if claims.kind not in ("exact", "enclosure"):
+        return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing")
     if lam is None:
         return Verdict(False, "in the ellipsoid nothing is proved without lam")
-    reason = _far_from_balance(step, delta_q, lam)
-    if kind == "exact" and not reason:
-        reason = _not_exact(step, delta_q, active, lam)
-    elif kind == "enclosure" and not reason:
-        form = exact_form(step)
-        found = checked_pair(step)
-        if found is None:
-            return Verdict(False, "no displacement strictly inside of all cones was found")
-        with ctx.workprec(BITS):
-            error = enclosed_error(form, found, delta_q)
-        if not error <= claimed:
-            reason = f"error_bound is claimed to be {claimed!r}; {error!r} is proved"
-    elif not reason:
-        reason = f"a certificate of kind {kind!r} proves nothing"
+    form = exact_form(step)
+    if delta_q.shape != (form.n,) or lam.shape != (form.m,):
+        return Verdict(False, "delta_q or lam has another shape than the step wants")
+    if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
+        return Verdict(False, "delta_q or lam is not finite")
+    judge = _not_exact if claims.kind == "exact" else _not_enclosed
+    x, reason = judge(step, form, delta_q, tuple(active), lam, claims)
+    reason = reason or _not_multipliers(step, form, x, lam, claims.gap)
     return Verdict(not reason, reason)
 
 
 def _not_exact(
-    step: StepData, delta_q: Array, active: Sequence[tuple[int, int]], lam: Array
-) -> str:
-    form = exact_form(step)
-    try:
-        working = flat_rows(step, active)
-    except IndexError as error:
-        return str(error)
-    reason = apex_refutation(step, form, working, lam)
+    step: StepData,
+    form: ExactForm,
+    delta_q: Array,
+    active: tuple[tuple[int, int], ...],
+    lam: Array,
+    claims: Certificate,
+) -> tuple[list[fmpq], str]:
+    """Return the rational optimum in the form's units, and what is wrong with the claim of it."""
+    working = apex_rows(step, form, lam)
+    reason = apex_refutation(step, form, working, lam) or ""
     if reason:
-        return reason
-    return wrong_bits(
-        "delta_q", delta_q, rounded_solution(form, rational_solution(form, working))[0]
+        return [], reason
+    solution = rational_solution(form, working)
+    reason = (
+        wrong_bits("delta_q", delta_q, rounded_solution(form, solution)[0])
+        or wrong_claim("active", active, contact_rows(step, working))
+        or wrong_claim("error_bound", claims.error_bound, 0.0)
     )
+    return [fmpq(v) / solution.denominator for v in solution.x], reason
 
 
-def _far_from_balance(step: StepData, delta_q: Array, lam: Array) -> str:
-    """Return what is wrong with lam: outside of its cone, or not what delta_q needs."""
-    form = standard_form(step)
-    if delta_q.shape != form.g.shape or lam.shape != form.b.shape:
-        return "delta_q or lam has another shape than the step wants"
-    norm = energy_norm(form)
-    impulses = norm.impulses(np.stack([form.H @ delta_q - form.g - form.A.T @ lam, form.g]))
-    largest = float(np.abs(lam).max(initial=0.0))
-    if not impulses[0] <= IMPULSES * max(impulses[1], norm.displacement(delta_q)):
-        return "lam does not balance the step"
-    if not ellipsoid_residuals(step, delta_q, lam).dual <= IMPULSES * largest:
-        return "lam is outside of its cone"
+def _not_enclosed(
+    step: StepData,
+    form: ExactForm,
+    delta_q: Array,
+    active: tuple[tuple[int, int], ...],
+    lam: Array,
+    claims: Certificate,
+) -> tuple[list[fmpq], str]:
+    """Return a point next to the optimum in the form's units, and what is wrong with the claim."""
+    found = checked_pair(step)
+    if found is None:
+        return [], "no displacement strictly inside of all cones was found"
+    with ctx.workprec(BITS):
+        error, claimed = enclosed_error(form, found, delta_q), claims.error_bound
+    reason = wrong_claim("active", active, ())
+    if claimed is None or not error <= claimed:
+        reason = f"error_bound is claimed to be {claimed!r}; {error!r} is proved"
+    elif not claimed <= ENCLOSED:
+        reason = f"error_bound is {claimed!r}; an enclosure has {ENCLOSED!r} at most"
+    return point(found), reason
+
+
+def _not_multipliers(
+    step: StepData, form: ExactForm, x: Sequence[fmpq], lam: Array, claimed: float | None
+) -> str:
+    """Return what is wrong with lam: outside of its cones, or not what holds x."""
+    if claimed is None:
+        dual = ellipsoid_residuals(step, np.zeros(form.n), lam).dual
+        outside = "its cone" if not dual <= IMPULSES * float(np.abs(lam).max(initial=0.0)) else ""
+        lam = raised(step, lam)
+    else:
+        outside = outside_of_cones(step, fractions(lam, form.lam_unit))
+    if outside:
+        return f"lam is outside of its cone at {outside}"
+    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
+    if not negligible(form, x, gap):
+        return (
+            "lam does not hold the step: it does not balance it, or presses where nothing touches"
+        )
+    if claimed is None:
+        return ""
+    if not (proved := in_joules(form, gap)) <= claimed:
+        return f"gap is claimed to be {claimed!r}; {proved!r} is proved"
+    stated = fractions(np.array([min(claimed, LARGEST)]), form.net_unit * form.x_unit)
+    if not negligible(form, x, *stated):
+        return f"gap is {claimed!r}, which is more than rounding"
     return ""

@@ -16,11 +16,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.apex import apex_refutation
+from quasistatic_ref.certify.apex import apex_refutation, apex_rows
 from quasistatic_ref.certify.balls import BallForm, ball_form
-from quasistatic_ref.certify.dependence import independent_rows
+from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.impulses import ONE, cone_blocks, raised
 from quasistatic_ref.certify.interior import Blocks, Pair, interior_point
 from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -49,7 +50,8 @@ class Enclosure:
     delta_q : ndarray, shape (n_v,)
         [m, rad]; what may be zero is zero.
     lam : ndarray, shape (m,)
-        Impulses (n, d1, d2, spin) of each contact [N s, N m s], the user's own rows last.
+        Impulses (n, d1, d2, spin) of each contact [N s, N m s], each inside of its cone as it
+        stands, the user's own rows last.
     net : ndarray, shape (n_v,)
         H delta_q - g [N s, N m s].
     working_set : tuple of int or None
@@ -58,6 +60,8 @@ class Enclosure:
     error : float
         ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where delta_q is exact but
         for the correct rounding of each entry.
+    gap : float
+        f(delta_q*) - d(lam) is at most that [N m s].
     """
 
     delta_q: Array
@@ -65,6 +69,7 @@ class Enclosure:
     net: Array
     working_set: tuple[int, ...] | None
     error: float
+    gap: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +129,7 @@ def enclosure(step: StepData) -> Enclosure | None:
     nothing = np.zeros(form.m)
     if apex_refutation(step, form, (), nothing) is None:  # no contact bears load
         delta_q, _, net, _ = rounded_solution(form, rational_solution(form, ()))
-        return Enclosure(delta_q, nothing, net, (), 0.0)
+        return Enclosure(delta_q, nothing, net, (), 0.0, 0.0)
     with ctx.workprec(BITS):
         mu = _coefficients(step)
         guess = _interior(step, form, balls, mu)
@@ -133,12 +138,17 @@ def enclosure(step: StepData) -> Enclosure | None:
             return None
         lam = _impulses(step, form, found, guess)
         exact = _at_apex(step, form, guess, lam)
+        net = _net(form, found)
         if exact is not None:
-            delta_q, working = exact
-            return Enclosure(delta_q, lam, _net(form, found), working, 0.0)
-        delta_q = _rounded(form, balls, found)
-        error = enclosed_error(form, found, delta_q)
-        return Enclosure(delta_q, lam, _net(form, found), None, error) if error < ENCLOSED else None
+            working, x, delta_q = exact
+            error = 0.0
+        else:
+            working, x, delta_q = None, point(found), _rounded(form, balls, found)
+            error = enclosed_error(form, found, delta_q)
+    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
+    if not (error < ENCLOSED and negligible(form, x, gap)):
+        return None
+    return Enclosure(delta_q, lam, net, working, error, in_joules(form, gap))
 
 
 def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | None:
@@ -167,17 +177,18 @@ def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
     return nearest_above(length / found.free) if found.free > 0 else float("inf")
 
 
+def point(found: Checked) -> list[fmpq]:
+    """The x of a checked pair, without rounding, in the units of its form [-]."""
+    return [m * fmpq(2) ** int(e) for m, e in (v.man_exp() for v in found.x.entries())]
+
+
 def _coefficients(step: StepData) -> list[arb]:
     """Return what each row of A is multiplied by: 1, mu_v, mu_v, mu_omega; 1 for own rows."""
-    mu = step.contacts.mu
-    rows = np.column_stack([np.ones(len(mu)), mu]).ravel()
-    return [arb(float(v)) for v in (*rows, *np.ones(len(step.extra.names)))]
+    return [arb(v) for _, _, mu in cone_blocks(step) for v in (ONE, *mu)]
 
 
 def _blocks(step: StepData) -> list[range]:
-    n_c, own = step.contacts.n_c, len(step.extra.names)
-    contacts = [range(4 * j, 4 * j + 4) for j in range(n_c)]
-    return contacts + [range(4 * n_c + i, 4 * n_c + i + 1) for i in range(own)]
+    return [rows for _, rows, _ in cone_blocks(step)]
 
 
 def _interior(
@@ -241,11 +252,11 @@ def _checked(
 
 
 def _impulses(step: StepData, form: ExactForm, found: Checked, guess: Guess) -> Array:
-    """Return lam in float64, zero for contacts that hardly bear load."""
+    """Return lam in float64, zero where a contact hardly bears load, inside of its cones."""
     lam = np.array([float(v * form.lam_unit) for v in found.lam])
     for block, loaded in zip(_blocks(step), guess.loaded, strict=True):
         lam[list(block)] *= loaded
-    return lam + 0.0
+    return raised(step, lam + 0.0)
 
 
 def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
@@ -262,17 +273,19 @@ def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
 
 def _at_apex(
     step: StepData, form: ExactForm, guess: Guess, lam: Array
-) -> tuple[Array, tuple[int, ...]] | None:
-    """Return the rational optimum where every contact that bears load is at its apex."""
-    state = list(zip(_blocks(step), guess.loaded, guess.held, strict=True))
-    if any(loaded and not held for _, loaded, held in state):
+) -> tuple[tuple[int, ...], list[fmpq], Array] | None:
+    """Return the rational optimum where every contact that bears load is at its apex.
+
+    Its working set, the point itself in the form's units, and that rounded.
+    """
+    if any(loaded and not held for loaded, held in zip(guess.loaded, guess.held, strict=True)):
         return None
-    mu = _coefficients(step)
-    rows = [i for block, loaded, _ in state if loaded for i in block if mu[i] > 0]
-    working = independent_rows(form, rows)
+    working = apex_rows(step, form, lam)
     if apex_refutation(step, form, working, lam):
         return None
-    return rounded_solution(form, rational_solution(form, working))[0], working
+    solution = rational_solution(form, working)
+    x = [fmpq(v) / solution.denominator for v in solution.x]
+    return working, x, rounded_solution(form, solution)[0]
 
 
 def _net(form: ExactForm, found: Checked) -> Array:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.errors import clipped
 from quasistatic_ref.step.data import Array
 
 
@@ -44,3 +47,18 @@ def wrong_bits(name: str, given: Array, right: Array) -> str:
         return ""
     at = int(wrong[0])
     return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
+
+
+def wrong_claim(name: str, claimed: Any, right: Any) -> str:
+    """What is wrong with a claim that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    claimed, right : object
+        What is said, and what is true; -0.0 is not 0.0.
+    """
+    signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
+    if claimed == right and len(signs) < 2:
+        return ""
+    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"

@@ -20,7 +20,7 @@ DEFAULTS = {DEFAULT: " (default of solve)", DEFAULT_OF_RUNS: " (default of run)"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    shared.add_json(parser)
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

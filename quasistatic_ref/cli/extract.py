@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import about_file
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_text, step_written
 
@@ -23,10 +23,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the step, bit for bit as it was solved."""
     trajectory = trajectory_read(options.trajectory)
-    try:
+    with about_file(options.trajectory):
         step = trajectory.step_data(options.step)
-    except InputError as error:
-        raise error.in_file(options.trajectory) from None
     if options.output is None:
         sys.stdout.write(step_text(step))
     else:

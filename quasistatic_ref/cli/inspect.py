@@ -15,15 +15,17 @@ from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.cli.shape_words import shape_words
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.step.cones import cone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
+    file = parser.add_argument(
         "file", help="a URDF, a scenario (TOML), or the name of a scenario that comes along"
     )
+    shared.completed(file, scenario_names, ".toml", ".urdf")
     parser.add_argument(
         "--package-dir",
         action="append",
@@ -31,8 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="where package://NAME/ is looked for as FOLDER/NAME/ (of a URDF; may be repeated)",
     )
-    shared.add_set(parser)
-    shared.add_json(parser)
+    shared.add(parser, "--set", "--json")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -10,7 +10,7 @@ import io
 import os
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -31,6 +31,7 @@ COMMANDS = {
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
+    "completion": "print a script by which bash, zsh or fish complete these commands",
 }
 LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
 """Commands that do something with the core rather than are part of it."""
@@ -72,21 +73,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
             stream.reconfigure(errors="backslashreplace")
-    parser = Parser(
-        prog="quasistatic-ref",
-        description="Convex quasi-dynamic simulation with torsional friction: the reference.",
-    )
-    parser.add_argument("--version", action="version", version=__version__)
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     asked = next((argument for argument in given if not argument.startswith("-")), None)
-    for name, summary in COMMANDS.items():
-        command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
-        # Only the command that is used declares its options: their modules may be heavy.
-        if name == asked:
-            _module(name).add_options(command)
+    # Only the command that is used declares its options: their modules may be heavy.
+    parser, commands = command_parser([asked])
     options, unknown = parser.parse_known_args(given)
     if unknown:  # in the words of the command, whose usage is printed
-        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
+        commands[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
     try:
         return _status(options)
     except InputError as error:
@@ -106,6 +98,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _failed(f"{clipped(str(error.filename))}: cannot be used: {reason}", 2)
         _discard_output()
         return _failed(f"standard output: cannot be written: {reason}", 2)
+
+
+def command_parser(asked: Container[str | None]) -> tuple[Parser, Mapping[str, Parser]]:
+    """The parser of all commands, and that of each; those that are asked for have options."""
+    parser = Parser(
+        prog="quasistatic-ref",
+        description="Convex quasi-dynamic simulation with torsional friction: the reference.",
+    )
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+        if name in asked:
+            _module(name).add_options(command)
+    return parser, commands.choices
 
 
 def _module(command: str) -> Any:

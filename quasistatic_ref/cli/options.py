@@ -5,49 +5,94 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import json_text
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
+from quasistatic_ref.step.show import aligned
+
+OPTIONS: Final[dict[str, dict[str, Any]]] = {
+    "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
+    "--backend": {"metavar": "NAME", "help": "solver; see 'quasistatic-ref backends'"},
+    "--engine": {"metavar": "NAME", "help": "native or cvxpy: how it is asked"},
+    "--cone": {
+        "metavar": "NAME",
+        "help": f"friction cone in place of the file's: {', '.join(CONES)}",
+    },
+    "--certify": {"metavar": "KIND", "help": "full (default), residual or off"},
+    "--set": {
+        "action": "append",
+        "default": [],
+        "metavar": "KEY=VALUE",
+        "dest": "settings",
+        "help": "change a field of the scenario, e.g. contacts.grip.mu_omega=0",
+    },
+    "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
+    "--quiet": {"action": "store_true", "help": "show no progress"},
+}
+SOLVER: Final = ("--backend", "--engine", "--cone", "--certify")
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.trajectory import Trajectory
 
 
-def add_out(parser: argparse.ArgumentParser, default: str) -> None:
-    """``--out FOLDER``."""
+COMPLETED = "completed"
+"""The attribute of an argument by which ``completion`` knows what it may be."""
+ENGINES, CERTIFY = ("cvxpy", "native"), ("full", "residual", "off")
+"""As in ``solve``, which takes a second to import; a test holds them equal."""
+
+
+def _backends() -> Sequence[str]:
+    from quasistatic_ref.solve.backends import installed_backends
+
+    return installed_backends()
+
+
+WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
+    "--backend": _backends,
+    "--engine": lambda: ENGINES,
+    "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
+    "--certify": lambda: CERTIFY,
+}
+"""What a shell completes an option by."""
+
+
+def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
+    """Declare some of `OPTIONS`, perhaps with a default."""
+    for name in names:
+        argument = parser.add_argument(name, **OPTIONS[name], **more)
+        if name in WORDS:
+            completed(argument, WORDS[name])
+
+
+def completed(
+    argument: argparse.Action, words: Callable[[], Iterable[str]], *files: str
+) -> argparse.Action:
+    """An argument that a shell completes by words, and by files of these endings."""
+    setattr(argument, COMPLETED, (words, files))
+    return argument
+
+
+def add_resume(parser: argparse.ArgumentParser) -> None:
+    """``--resume`` and ``--save-every SECONDS``."""
+    from quasistatic_ref.simulate.saved import EVERY
+
     parser.add_argument(
-        "--out", type=Path, default=Path(default), metavar="FOLDER", help="folder for the results"
+        "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
     )
-
-
-def add_solver(parser: argparse.ArgumentParser) -> None:
-    """``--backend``, ``--engine``, ``--cone`` and ``--certify``."""
-    parser.add_argument("--backend", metavar="NAME", help="solver; see 'quasistatic-ref backends'")
-    parser.add_argument("--engine", metavar="NAME", help="native or cvxpy: how it is asked")
-    add_cone(parser)
-    parser.add_argument("--certify", metavar="KIND", help="full (default), residual or off")
-
-
-def add_cone(parser: argparse.ArgumentParser) -> None:
-    """``--cone``."""
     parser.add_argument(
-        "--cone", metavar="NAME", help=f"friction cone in place of the file's: {', '.join(CONES)}"
+        "--save-every",
+        type=float,
+        default=EVERY,
+        metavar="SECONDS",
+        help=f"time between two saves of the steps so far ({EVERY:g} by default)",
     )
-
-
-def add_json(parser: argparse.ArgumentParser) -> None:
-    """``--json``."""
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
-
-
-def add_quiet(parser: argparse.ArgumentParser) -> None:
-    """``--quiet``."""
-    parser.add_argument("--quiet", action="store_true", help="show no progress")
 
 
 def progress_line(options: argparse.Namespace, line: str) -> None:
@@ -56,20 +101,8 @@ def progress_line(options: argparse.Namespace, line: str) -> None:
         print(line, file=sys.stderr)
 
 
-def add_set(parser: argparse.ArgumentParser) -> None:
-    """``--set key=value``."""
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        dest="settings",
-        help="change a field of the scenario, e.g. contacts.grip.mu_omega=0",
-    )
-
-
 def scenario_settings(options: argparse.Namespace) -> list[str]:
-    """``--set`` and the options of :func:`add_solver` as changes of a scenario."""
+    """``--set`` and the options of ``SOLVER`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
     for key in ("backend", "engine", "certify"):
         value = getattr(options, key, None)
@@ -105,11 +138,8 @@ def print_rows(rows: list[tuple[str, ...]], notes: Sequence[str] = ()) -> None:
     notes : sequence of str, optional
         Words below each row after the first, such as are too long for a column.
     """
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    for row, note in zip_longest(rows, ["", *notes], fillvalue=""):
-        first, *rest = (cell.ljust(w) if i == 0 else cell.rjust(w)
-                        for i, (cell, w) in enumerate(zip(row, widths, strict=True)))  # fmt: skip
-        print("  ".join([first, *rest]).rstrip())
+    for line, note in zip_longest(aligned(rows), ["", *notes], fillvalue=""):
+        print(line)
         print_wrapped(note, "    ")
 
 
@@ -122,16 +152,16 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
         print(line)
 
 
-def failed_run_saved(failure: RunFailed, folder: Path, stem: str) -> int:
-    """Write what a failed run left, its steps and the failing one; say why, return the status."""
+def failed_run(failure: RunFailed, path: Path) -> int:
+    """Say what a failed run left in its trajectory's file; write its failing step; its status."""
+    from quasistatic_ref.simulate.saved import saved_steps
+
     trajectory: Trajectory = failure.trajectory
-    interrupted = isinstance(failure.__cause__, KeyboardInterrupt)
-    for sentence in () if interrupted else trajectory.warnings:
-        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
-    path = trajectory.save(folder / f"{stem}.npz")
     kept = f"the first {trajectory.steps} steps are in {path}"
     if failure.step is not None:
-        step = step_written(folder / f"{stem}_failed_step.json", failure.step)
+        step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
+    if saved_steps(path):
+        kept += "; --resume goes on from there"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
-    return 130 if interrupted else 3
+    return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

@@ -12,9 +12,11 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.files import writable_folder
+from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.measures import free_body_motions
+from quasistatic_ref.simulate.saved import saved_steps
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import certified, worst_residual
+from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
 from quasistatic_ref.step.cones import cone
 
 TOLD = 4
@@ -23,15 +25,14 @@ TOLD = 4
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
+    scenario = parser.add_argument(
         "scenario",
         help="a TOML file, or the name of a scenario that comes along (bunny_grasp, ...)",
     )
-    shared.add_out(parser, "results")
-    shared.add_solver(parser)
-    shared.add_set(parser)
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.completed(scenario, scenario_names, ".toml")
+    shared.add(parser, "--out", default="results")
+    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
+    shared.add_resume(parser)
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"
     )
@@ -53,15 +54,22 @@ def run(options: argparse.Namespace) -> int:
         from quasistatic_ref.figures.viewer import view_written, viewer_script
 
         viewer_script()  # so that a missing extra is known before the work, too
-    stem = scenario.path.stem
+    path = options.out / f"{scenario.path.stem}.npz"
+    if options.resume:
+        first = saved_steps(path)
+        said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
+        shared.progress_line(options, said)
+    saving = {"save": path, "save_every": options.save_every, "resume": options.resume}
+    failure: RunFailed | None = None
     try:
-        trajectory = scenario.run(progress=not options.quiet)
-    except RunFailed as failure:
-        return shared.failed_run_saved(failure, options.out, stem)
+        trajectory: Trajectory = scenario.run(progress=not options.quiet, **saving)
+    except RunFailed as error:
+        failure, trajectory = error, error.trajectory
     if options.quiet:  # of progress; a warning is said all the same
         for sentence in trajectory.warnings:
             print(f"quasistatic-ref: {sentence}", file=sys.stderr)
-    path = trajectory.save(options.out / f"{stem}.npz")
+    if failure is not None:
+        return shared.failed_run(failure, path)
     view = view_written(scenario, trajectory, path.with_suffix(".html")) if options.view else None
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {

@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="print delta_q in N decimal digits; the solution file is then written with -o only",
     )
-    shared.add_solver(parser)
+    shared.add(parser, *shared.SOLVER)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -47,24 +47,16 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If files or options do not go together.
     """
-    certify = options.certify or CERTIFY[0]
-    if options.digits is not None:
-        if options.digits < 1:
-            raise InputError("must be at least 1", field="--digits", value=options.digits)
-        if certify != CERTIFY[0]:
-            remedy = f"needs the exact optimum; leave out --certify {certify}"
-            raise InputError(remedy, field="--digits", value=options.digits)
-    step = shared.step_given(options)
-    if options.digits is not None and not cone(step.cone).polyhedral:
-        remedy = "needs a polyhedral cone: the optimum in the ellipsoid is no fraction"
-        raise InputError(remedy, field="--digits", value=options.digits)
     backend = DEFAULT if options.backend is None else options.backend
     certify = CERTIFY[0] if options.certify is None else options.certify
+    step = shared.step_given(options)
+    if options.digits is not None:
+        _check_digits(options.digits, certify, step)
     try:
         solver = solver_for(step, backend, options.engine or CVXPY)
         solution = solve_step(step, solver, certify=certify)
     except StepInfeasible as proof:
-        _write(options.output, infeasible_text(step, backend, proof.farkas.exact))
+        _write(options.output, infeasible_text(step, proof.farkas.exact))
         raise
     if options.digits is not None:
         shared.print_rows(decimals(step, solution, options.digits))
@@ -74,6 +66,18 @@ def run(options: argparse.Namespace) -> int:
     told = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
     print(f"{in_words(step, solution.certificate)}{told}", file=sys.stderr)
     return 0
+
+
+def _check_digits(digits: int, certify: str, step: StepData) -> None:
+    if digits < 1:
+        problem = "must be at least 1"
+    elif certify != CERTIFY[0]:
+        problem = f"needs the exact optimum; leave out --certify {certify}"
+    elif not cone(step.cone).polyhedral:
+        problem = "needs a polyhedral cone: the optimum in the ellipsoid is no fraction"
+    else:
+        return
+    raise InputError(problem, field="--digits", value=digits)
 
 
 def decimals(step: StepData, solution: StepSolution, digits: int) -> list[tuple[str, ...]]:

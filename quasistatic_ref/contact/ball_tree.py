@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices, Mask
 
-Indices = NDArray[np.int64]
 LEAF = 32
 """Most points of a leaf, and children of a ball."""
 SMALL = 1024
@@ -93,7 +91,7 @@ def ball_tree(points: Array) -> BallTree:
     return BallTree(tuple(levels), np.where(real, order, -1), box)
 
 
-def _balls(nodes: Array, real: NDArray[np.bool_]) -> Balls:
+def _balls(nodes: Array, real: Mask) -> Balls:
     """A ball about each node's points, shape (B, n, 3), of which some are real."""
     low, high = nodes.min(axis=1), nodes.max(axis=1)
     centre = (low + high) / 2

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import methodcaller
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.contact.poses import PairPoses
 from quasistatic_ref.contact.shortlist import Shortlist
 from quasistatic_ref.contact.solid_rows import SolidRows
 from quasistatic_ref.model.shapes import Shape
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import UNSEEN
 
 CORNERS = 8
@@ -40,18 +40,13 @@ class Nearest(NamedTuple):
     phi: Array
     normal: Array
     local: Array
-    point: NDArray[np.int64]
-    proved: NDArray[np.bool_]
+    point: Indices
+    proved: Mask
 
-    def chosen(self, order: NDArray[np.int64]) -> Nearest:
+    def chosen(self, order: Indices) -> Nearest:
         """The same contacts in another order, shape (k,)."""
-        return Nearest(
-            self.phi.take(order),
-            self.normal.take(order, axis=1),
-            self.local.take(order, axis=1),
-            self.point.take(order),
-            self.proved,
-        )
+        phi, normal, local, point = map(methodcaller("take", order, axis=-1), self[:-1])
+        return Nearest(phi, normal, local, point, self.proved)
 
 
 class Batch:
@@ -140,15 +135,10 @@ class Batch:
             found = order.ravel().take(self.ranked) + self.start
         distance = phi.take(found)
         proved = distance.take(self.furthest) < limit
-        return Nearest(
-            distance,
-            normal.T.take(found, axis=1),
-            self.local.take(found, axis=1),
-            self.index.take(found),
-            proved,
-        )
+        n, local = normal.T.take(found, axis=1), self.local.take(found, axis=1)
+        return Nearest(distance, n, local, self.index.take(found), proved)
 
-    def reorder(self, order: NDArray[np.int64]) -> None:
+    def reorder(self, order: Indices) -> None:
         """Give the contacts in another order (r,) from now on: entry i was number order[i]."""
         self.ranked, self.start = self.ranked[order], self.start[order]
         self.furthest = np.argsort(order)[self.furthest]
@@ -176,12 +166,10 @@ def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
     box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
     """
     ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
+    here = np.column_stack([box, np.ones(CORNERS)])
+    by_height = made.n + UNSEEN * ways, made.by_height
     slopes, offsets = [], []
-    for directions, bound in (
-        (made.n + UNSEEN * ways, made.by_height),
-        ((1 + UNSEEN) * ways, made.by_distance),
-    ):
-        here = np.column_stack([box, np.ones(CORNERS)])
+    for directions, bound in (by_height, ((1 + UNSEEN) * ways, made.by_distance)):
         slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
         offsets.append(bound - (directions @ made.corners.T).ravel())
     return np.concatenate(slopes), np.concatenate(offsets)

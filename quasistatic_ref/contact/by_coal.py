@@ -1,59 +1,61 @@
-"""Closest points by coal, for pairs without a closed form, believed only with a proof.
+"""Closest points of pairs without a closed form: coal's answers, refined, believed with a proof.
 
 For any unit vector n, the gap s(n) between two convex solids along n is at most their signed
 distance. So points on both that are phi n apart, with s(n) = phi, prove themselves: apart, phi
-is the distance; in penetration, n parts the solids after a translation by -phi. coal's answers
-are held against that with closed-form support points, which never share its mistakes.
+is the distance; in penetration, n parts the solids after a translation by -phi. Answers are held
+against that with closed-form support points, which never share coal's mistakes.
+
+coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two, which rounds
+nothing, until its size is about one; every number below is relative to that size.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
 
 import coal
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.settle import settled
+from quasistatic_ref.contact.support import extent
 from quasistatic_ref.contact.ways_out import gaps, rival_directions
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import PointCloud
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.model.shapes import Box, Ellipsoid, PointCloud, Round, Shape, Solid
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUPPORT, WITNESS
 
-ACCURACIES = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6)
+ACCURACIES = (1e-10, 1e-8, 1e-6)
 """Tolerances asked of coal in turn: the tighter ones sometimes end without an answer."""
 
 CLEARANCE = 0.02
 """How far apart, relative to the depth, the solids are put to have a normal computed."""
 
 LEAST = 1e-3
-"""Added to that, relative to the solids' extent: where they just touch, their depth is nothing."""
+"""Added to that: where they just touch, their depth is nothing."""
 
 SAME = 1 - 1e-4
 """Cosine above which two refined normals are the same way out."""
 
-ENOUGH = 1e-11
-"""Defect [m] at which refining ends."""
+ENOUGH = 1e-14
+"""Defect at which refining ends: rounding of the farthest points."""
 
 ROUNDS = 30
 """Refinements of a normal in penetration; shallow ones settle in two or three."""
 
 
 class Judged(NamedTuple):
-    """coal's answer, and what is wrong with it.
-
-    Attributes
-    ----------
-    defect : float
-        By how much it is wrong [m].
-    """
+    """An answer, and by how much it is wrong."""
 
     phi: float
     alpha: Array
     beta: Array
     n: Array
     defect: float
-    """|s(n) - phi| or the disagreement of the points, the larger [m]."""
+    """|s(n) - phi| or the disagreement of the points, the larger."""
 
 
 def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
@@ -64,21 +66,61 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     ContactError
         If coal has no answer that proves itself.
     """
-    best = _asked(a, b)
-    if not best.phi > 0:
-        best = _shallowest(a, b, best)
+    size = extent(a.shape) + extent(b.shape) + float(np.abs(b.t - a.t).max())
+    scale = 2.0 ** -np.round(np.log2(size))
+    here = Placed(_resized(a.shape, scale), a.R, np.zeros(3))
+    there = Placed(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
+    best = _best(here, there, _asked(here, there))
+    # Where they just touch, what is proved is right: no gap is wider than that of a contact.
+    touching = best.phi >= -ENOUGH and best.defect <= WITNESS
+    if not (best.phi > 0 or touching):
+        best = _shallowest(here, there, best)
     if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
         raise ContactError(
             "no trustworthy contact normal at this pose: move the bodies apart, or use a box, "
             "a capsule, a convex mesh or a cloud",
             field=name,
-            value={"phi": best.phi, "n": best.n.tolist()},
+            value={"phi": best.phi / scale, "n": best.n.tolist()},
         )
-    return Witness(best.phi, best.alpha, best.beta, best.n)
+    alpha, phi = best.alpha / scale + a.t, float(best.phi / scale)
+    return Witness(phi, alpha, alpha + phi * best.n, best.n)
+
+
+@lru_cache(maxsize=256)
+def _resized(shape: Shape, scale: float) -> Solid:
+    """The shape with all lengths multiplied."""
+    match shape:
+        case Round():
+            return type(shape)(scale * shape.radius, scale * shape.half_length)
+        case Box():
+            return Box(scale * shape.half_extents)
+        case Ellipsoid():
+            return Ellipsoid(scale * shape.half_axes)
+        case ConvexMesh():
+            return replace(
+                shape,
+                vertices=scale * shape.vertices,
+                offsets=scale * shape.offsets,
+                volume=scale**3 * shape.volume,
+            )
+        case _:
+            raise ContactError("has no coal object of another size", field="shape")
+
+
+def _best(a: Placed, b: Placed, start: Judged) -> Judged:
+    """Of an answer and the maxima near it, the widest gap that is proved, or the least defect."""
+    every = [start]
+    if np.isfinite(start.n).all():
+        every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
+    widest = max((found.phi for found in every if found.defect <= WITNESS), default=-np.inf)
+    level = [found for found in every if found.phi >= widest - WITNESS]
+    return min(level, key=lambda found: found.defect)
 
 
 def _asked(a: Placed, b: Placed) -> Judged:
     """The best of coal's answers, with its defect."""
+    assert not isinstance(a.shape, PointCloud)
+    assert not isinstance(b.shape, PointCloud)
     best: Judged | None = None
     for accuracy in ACCURACIES:
         request, result = coal.DistanceRequest(), coal.DistanceResult()
@@ -86,11 +128,11 @@ def _asked(a: Placed, b: Placed) -> Judged:
         request.gjk_tolerance = request.epa_tolerance = accuracy
         request.gjk_max_iterations = request.epa_max_iterations = 1000
         phi = coal.distance(
-            _geometry(a), coal.Transform3s(a.R, a.t), _geometry(b), coal.Transform3s(b.R, b.t),
+            a.shape.coal, coal.Transform3s(a.R, a.t), b.shape.coal, coal.Transform3s(b.R, b.t),
             request, result,
         )  # fmt: skip
         alpha, beta = np.array(result.getNearestPoint1()), np.array(result.getNearestPoint2())
-        found = _judged(a, b, phi, alpha, beta, np.array(result.normal))
+        found = judged(a, b, phi, alpha, beta, np.array(result.normal))
         # NaN compares as false: it never becomes the best unless there is nothing else.
         if best is None or not np.isfinite(best.defect) or found.defect < best.defect:
             best = found
@@ -100,7 +142,8 @@ def _asked(a: Placed, b: Placed) -> Judged:
     return best
 
 
-def _judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Array) -> Judged:
+def judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Array) -> Judged:
+    """An answer, with what it misses the gap along n and its points' distance by."""
     if not (np.isfinite(phi) and np.isfinite(n).all() and abs(n @ n - 1) <= WITNESS):
         return Judged(phi, alpha, beta, n, np.inf)
     gap = n @ (b.farthest(-n) - a.farthest(n))
@@ -131,10 +174,10 @@ def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
 
 
 def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
-    """A normal in penetration, made as good as one apart.
+    """A maximum of the gap, followed from a direction.
 
     Parted along n by a little more than the depth, the solids have a distance and a normal that
-    coal is good at; that normal is the next n, until it stays.
+    coal is good at; that normal is the next n, until the gap's own maximum is near.
     """
     best = Judged(-np.inf, a.t, b.t, n, np.inf)
     for k in range(ROUNDS):
@@ -147,10 +190,7 @@ def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
             break
         before, n = n, parted.n
         phi = float(n @ (b.farthest(-n) - a.farthest(n)))
-        alpha = parted.alpha
-        found = _judged(a, b, phi, alpha, alpha + phi * n, n)
-        drift = float(np.abs(parted.beta - shift - found.beta).max())
-        found = found._replace(defect=max(found.defect, drift))
+        found = _best(a, b, judged(a, b, phi, parted.alpha, parted.beta - shift, n))
         if found.defect < best.defect:
             best = found
         if best.defect <= ENOUGH:
@@ -159,9 +199,3 @@ def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
         n = n + (n - before)
         n = n / np.sqrt(n @ n)
     return best
-
-
-def _geometry(solid: Placed) -> Any:
-    if isinstance(solid.shape, PointCloud):
-        raise ContactError("a cloud has no coal object", field="shape")
-    return solid.shape.coal

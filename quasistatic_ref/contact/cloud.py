@@ -12,10 +12,9 @@ with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, our
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.curved import distance_to_cone, distance_to_ellipsoid
-from quasistatic_ref.contact.hull import distance_to_hull
+from quasistatic_ref.contact.hull import distance_to_hull, dot, norm
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import (
@@ -28,9 +27,11 @@ from quasistatic_ref.model.shapes import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 Distance = tuple[Array, Array]
+Rounded = Sphere | Capsule | Box
+"""A point, segment or cuboid with a ball about each of its points."""
 _AXES = np.eye(3)
 
 
@@ -61,7 +62,7 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
         case Cylinder():
             return distance_to_cylinder(points, shape.radius, shape.half_length)
         case HalfSpace():
-            phi = _dot(points, shape.normal) - shape.offset
+            phi = dot(points, shape.normal) - shape.offset
             return phi, np.broadcast_to(shape.normal, points.shape)
         case Ellipsoid():
             return distance_to_ellipsoid(points, shape.half_axes)
@@ -74,7 +75,7 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
             raise ContactError("a cloud touches solid shapes only", field="shape", value=kind)
 
 
-def closest(phi: Array, k: int) -> NDArray[np.int64]:
+def closest(phi: Array, k: int) -> Indices:
     """Indices of the k smallest signed distances in ascending order, ties broken by index.
 
     Parameters
@@ -95,7 +96,7 @@ def closest(phi: Array, k: int) -> NDArray[np.int64]:
     return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
 
 
-def rounded_box(shape: Sphere | Capsule | Box) -> tuple[Array, float]:
+def rounded_box(shape: Rounded) -> tuple[Array, float]:
     """Half extents (3,) of a shape's core, a point, segment or cuboid, and the ball's radius."""
     if isinstance(shape, Box):
         return shape.half_extents, 0.0
@@ -119,7 +120,7 @@ def distance_to_rounded_box(
     """
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
-    outside = _norm(beyond)
+    outside = norm(beyond)
     inside = np.maximum.reduce(excess, axis=-1)
     is_inside = outside == 0
     nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
@@ -134,7 +135,7 @@ def distance_to_cylinder(points: Array, radius: float, half_length: float) -> Di
     """In the half-plane (r, |z|) a cylinder is a rectangle."""
     radial = points.copy()
     radial[:, 2] = 0.0
-    r = _norm(radial)
+    r = norm(radial)
     outward = _unit(radial, r)
     excess = np.stack([r - radius, np.abs(points[:, 2]) - half_length], axis=1)
     beyond = np.maximum(excess, 0.0)
@@ -147,17 +148,6 @@ def distance_to_cylinder(points: Array, radius: float, half_length: float) -> Di
     normal = weight[:, :1] * outward
     normal[:, 2] = weight[:, 1] * np.where(points[:, 2] < 0, -1.0, 1.0)
     return np.where(is_outside, outside, excess.max(axis=1)), normal
-
-
-def _dot(points: Array, vector: Array) -> Array:
-    # Not `@`: BLAS may sum in another order for another number of points.
-    x, y, z = points.T
-    return np.asarray(x * vector[0] + y * vector[1] + z * vector[2])
-
-
-def _norm(vectors: Array) -> Array:
-    squares = vectors * vectors
-    return np.asarray(np.sqrt(squares[..., 0] + squares[..., 1] + squares[..., 2]))
 
 
 def _unit(vectors: Array, norms: Array) -> Array:

@@ -117,16 +117,8 @@ class CloudTracker:
         """A list of one pair at these poses; n and phi_k as :func:`shortlist` wants them."""
         self.lists_made += 1
         self.made_at[row] = self.steps
-        return shortlist(
-            self.trees[row],
-            self.solids[row],
-            poses.R_rel[row],
-            poses.t_rel[row],
-            n,
-            phi_k,
-            self.n_c[row],
-            width,
-        )
+        tree, R, t = self.trees[row], poses.R_rel[row], poses.t_rel[row]
+        return shortlist(tree, self.solids[row], R, t, n, phi_k, self.n_c[row], width)
 
     def _arrange(self) -> None:
         """Batches of the lists: the short ones together, each long one by itself."""
@@ -151,15 +143,10 @@ class CloudTracker:
             self.last, self.best = at[self.last], at[self.best]
 
     def _batch(self, rows: list[int]) -> Batch:
-        lists = [self.lists[row] for row in rows]
-        return Batch(
-            rows,
-            [self.solids[row] for row in rows],
-            lists,
-            [self.clouds[row].points[made.index] for row, made in zip(rows, lists, strict=True)],
-            [self.trees[row].box for row in rows],
-            [self.n_c[row] for row in rows],
-        )
+        solids, lists = [self.solids[row] for row in rows], [self.lists[row] for row in rows]
+        points = [self.clouds[row].points[self.lists[row].index] for row in rows]
+        boxes, n_c = [self.trees[row].box for row in rows], [self.n_c[row] for row in rows]
+        return Batch(rows, solids, lists, points, boxes, n_c)
 
     def _contacts(self, poses: PairPoses, nearest: Nearest) -> ClosestPoints:
         if len(self.batches) > 1:

@@ -15,19 +15,7 @@ QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 
 def corner_count(shape: Shape) -> int:
     """How many corners a shape has, whatever its pose."""
-    match shape:
-        case Box():
-            return 8
-        case ConvexMesh():
-            return len(shape.vertices)
-        case Capsule():
-            return 2
-        case Cylinder():
-            return 8
-        case Cone():
-            return 5
-        case _:
-            return 0
+    return len(corners(shape, np.array([1.0, 0.0, 0.0]))[0])
 
 
 def corners(shape: Shape, towards: Array) -> tuple[Array, float]:
@@ -60,10 +48,8 @@ def corners(shape: Shape, towards: Array) -> tuple[Array, float]:
         case Capsule():
             return np.array([[0, 0, -shape.half_length], [0, 0, shape.half_length]]), shape.radius
         case Cylinder():
-            lower, upper = (
-                _rim(shape.radius, z, towards) for z in (-shape.half_length, shape.half_length)
-            )
-            return np.concatenate([lower, upper]), 0.0
+            ends = (-shape.half_length, shape.half_length)
+            return np.concatenate([_rim(shape.radius, z, towards) for z in ends]), 0.0
         case Cone():
             tip = np.array([[0, 0, shape.half_length]])
             return np.concatenate([tip, _rim(shape.radius, -shape.half_length, towards)]), 0.0

@@ -9,10 +9,10 @@ k corners are as near. None is nearer than the closest pair, so k = 1 asks for t
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.corners import corners
@@ -23,7 +23,7 @@ from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import REPEATED
 
 
@@ -46,17 +46,15 @@ class ClosestPoints(NamedTuple):
     alpha: Array
     beta: Array
     n: Array
-    point: NDArray[np.int64]
+    point: Indices
 
     def swapped(self) -> ClosestPoints:
         """The same contacts with alpha's and beta's bodies exchanged."""
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
-    def chosen(self, index: NDArray[np.int64]) -> ClosestPoints:
+    def chosen(self, index: Indices) -> ClosestPoints:
         """The contacts of an `index` of shape (k,), in its order."""
-        return ClosestPoints(
-            self.phi[index], self.alpha[index], self.beta[index], self.n[index], self.point[index]
-        )
+        return ClosestPoints(*map(itemgetter(index), self))
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
@@ -97,29 +95,20 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     if isinstance(a.shape, PointCloud):
         return _points_on_solid(b, a, a.shape.points, 0.0, pair.k).swapped()
     found = solid_pair(pair.name, a, b)
-    nearest = ClosestPoints(
-        phi=np.array([found.phi]),
-        alpha=found.alpha[None],
-        beta=found.beta[None],
-        n=found.n[None],
-        point=np.array([pair.corners if pair.n_c > 1 else 0]),
-    )
+    phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
+    nearest = ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
     if pair.n_c == 1:
         return nearest
     corners_a, radius_a = corners(a.shape, a.R.T @ found.n)
     corners_b, radius_b = corners(b.shape, -b.R.T @ found.n)
-    candidates = joined(
-        [
-            _points_on_solid(b, a, corners_a, radius_a).swapped(),
-            _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a)),
-            nearest,
-        ]
-    )
+    on_b = _points_on_solid(b, a, corners_a, radius_a).swapped()
+    on_a = _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a))
+    candidates = joined([on_b, on_a, nearest])
     order = closest(np.where(_late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
 
 
-def _late(candidates: ClosestPoints, k: int) -> NDArray[np.bool_]:
+def _late(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
 
     The closest pair mostly is a corner, and on parallel faces anything between corners that are

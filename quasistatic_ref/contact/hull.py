@@ -42,7 +42,7 @@ def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
     outside = np.flatnonzero(phi > 0)
     if len(outside):
         away = nearest_offsets(points[outside], hull)
-        distance = _norm(away)
+        distance = norm(away)
         # Near the surface p - x is all rounding; the face's normal is right to that distance.
         size = np.abs(hull.vertices).max()
         edge = distance - phi[outside] > ON_SURFACE * size
@@ -61,9 +61,9 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
         # The nearest point of an edge, clamped to its ends.
         tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
         arm = points[:, None] - tail
-        s = np.clip(_dot(arm, along) / _dot(along, along), 0.0, 1.0)
+        s = np.clip(dot(arm, along) / dot(along, along), 0.0, 1.0)
         away = arm - s[..., None] * along
-        square = _dot(away, away)
+        square = dot(away, away)
         i = square.argmin(axis=1)
         nearer = square[rows, i] < best
         best = np.where(nearer, square[rows, i], best)
@@ -73,18 +73,20 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
     within = np.ones((len(points), len(n)), dtype=bool)
     for k in range(3):
         tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
-        within &= _dot(points[:, None] - tail, np.cross(n, along)) >= 0
-    level = _dot(points[:, None] - corners[:, 0], n)
+        within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
+    level = dot(points[:, None] - corners[:, 0], n)
     square = np.where(within, level * level, np.inf)
     i = square.argmin(axis=1)
     nearer = square[rows, i] < best
     return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
 
 
-def _dot(a: Array, b: Array) -> Array:
+def dot(a: Array, b: Array) -> Array:
+    """Scalar products [any unit] of vectors (..., 3)."""
     # Not `@` or einsum: the order of the sum must not depend on the number of points.
     return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
 
 
-def _norm(vectors: Array) -> Array:
-    return np.sqrt(_dot(vectors, vectors))
+def norm(vectors: Array) -> Array:
+    """Lengths [their unit] of vectors (..., 3), summed as :func:`dot` does."""
+    return np.sqrt(dot(vectors, vectors))

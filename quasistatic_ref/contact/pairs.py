@@ -6,14 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.corners import corner_count
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,10 +53,10 @@ class ContactPair(Plain):
     def __post_init__(self) -> None:
         clouds = [isinstance(s.shape, PointCloud) for s in (self.alpha, self.beta)]
         if all(clouds):
-            raise ContactError(
-                "two clouds cannot touch: a point has no surface; give one of the bodies a shape",
-                field=self.name,
+            problem = (
+                "two clouds cannot touch: a point has no surface; give one of the bodies a shape"
             )
+            raise ContactError(problem, field=self.name)
         if self.alpha.link == self.beta.link:
             raise ContactError("both shapes are fixed to the same link", field=self.name)
         if all(isinstance(s.shape, HalfSpace) for s in (self.alpha, self.beta)):
@@ -82,12 +81,17 @@ class ContactPair(Plain):
         return corner_count(self.alpha.shape) + corner_count(self.beta.shape)
 
     @property
-    def n_c(self) -> int:
-        """Number of contacts that this pair makes at every step."""
+    def candidates(self) -> int:
+        """Number of points that its contacts are chosen from."""
         for shape in (self.alpha.shape, self.beta.shape):
             if isinstance(shape, PointCloud):
-                return min(self.k, len(shape.points))
-        return min(self.k, self.corners + 1)
+                return len(shape.points)
+        return self.corners + 1
+
+    @property
+    def n_c(self) -> int:
+        """Number of contacts that this pair makes at every step."""
+        return min(self.k, self.candidates)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,17 +109,17 @@ class ContactLayout(Plain):
     """
 
     names: tuple[str, ...]
-    link_alpha: NDArray[np.int64]
-    link_beta: NDArray[np.int64]
+    link_alpha: Indices
+    link_beta: Indices
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
 
     def __post_init__(self) -> None:
         for array in (self.mu_v, self.mu_omega, self.rows):
             array.setflags(write=False)  # one array for all steps
 
-    def contact_names(self, point: NDArray[np.int64]) -> tuple[str, ...]:
+    def contact_names(self, point: Indices) -> tuple[str, ...]:
         """A name for each contact: its pair, and its point's number, of shape (n_c,)."""
         numbered = zip(self.names, point.tolist(), strict=True)
         return tuple([f"{pair}/{i}" for pair, i in numbered])

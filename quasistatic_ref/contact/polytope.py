@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.cloud import distance_to_rounded_box, rounded_box, signed_distance
+from quasistatic_ref.contact.corners import corners
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
-Indices = NDArray[np.int64]
+UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,12 +67,12 @@ def polytope(shape: Shape) -> Polytope | None:
     """The polytope that a shape is, in its own frame; None where it is none."""
     match shape:
         case Capsule():
-            ends = np.array([[0, 0, -shape.half_length], [0, 0, shape.half_length]])
+            ends, radius = corners(shape, UP)
             angle = 2 * np.pi / 3 * np.arange(3)
             around = np.stack([np.cos(angle), np.sin(angle), np.zeros(3)], axis=1)
             sides = np.array([[0, 1], [1, 2], [2, 0]])
             edges = np.array([[0, 1]] * 3)
-            return Polytope(shape, shape.radius, ends, around, np.zeros(3), edges, sides)
+            return Polytope(shape, radius, ends, around, np.zeros(3), edges, sides)
         case Box():
             return _box(shape)
         case ConvexMesh():
@@ -90,22 +90,15 @@ def _box(box: Box) -> Polytope:
         for corner in np.flatnonzero(bits[:, axis] == 0):
             edges.append((corner, corner | 1 << axis))
             sides.append([a if bits[corner, a] else a + 3 for a in (first, second)])
-    return Polytope(
-        box,
-        0.0,
-        (2 * bits - 1) * box.half_extents,
-        normals,
-        np.tile(box.half_extents, 2),
-        np.array(edges),
-        np.array(sides),
-    )
+    vertices, margin = corners(box, UP)
+    offsets = np.tile(box.half_extents, 2)
+    return Polytope(box, margin, vertices, normals, offsets, np.array(edges), np.array(sides))
 
 
 def _mesh(mesh: ConvexMesh) -> Polytope:
     """Coplanar triangles are one face, and what they share is no edge."""
-    planes, face = np.unique(
-        np.column_stack([mesh.normals, mesh.offsets]), axis=0, return_inverse=True
-    )
+    every = np.column_stack([mesh.normals, mesh.offsets])
+    planes, face = np.unique(every, axis=0, return_inverse=True)
     face = face.reshape(-1)
     pairs = np.concatenate([np.roll(mesh.triangles, -k, axis=1)[:, :2] for k in range(3)])
     owner = np.tile(face, 3)

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.contact.ball_tree import BallTree, Indices
+from quasistatic_ref.contact.ball_tree import BallTree
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.support import support_value
-from quasistatic_ref.model.shapes import HalfSpace, Shape, Sphere
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.model.shapes import HalfSpace, Shape
+from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.tolerances import UNSEEN
 
 RATIO = 16.0
@@ -57,13 +57,9 @@ def reach(shape: Shape, n: Array) -> float:
 
     A half-space has such a plane along its own normal only.
     """
-    match shape:
-        case Sphere():
-            return shape.radius
-        case HalfSpace():
-            return shape.offset
-        case _:
-            return float(support_value(shape, n[None])[0])
+    if isinstance(shape, HalfSpace):
+        return shape.offset
+    return float(support_value(shape, n[None])[0])
 
 
 def size(shape: Shape) -> float:
@@ -74,14 +70,7 @@ def size(shape: Shape) -> float:
 
 
 def shortlist(
-    tree: BallTree,
-    solid: Shape,
-    R: Array,
-    t: Array,
-    n: Array,
-    phi_k: float,
-    k: int,
-    width: int,
+    tree: BallTree, solid: Shape, R: Array, t: Array, n: Array, phi_k: float, k: int, width: int
 ) -> Shortlist:
     """The points that can be among the k closest at this pose, and as many as `width` in all.
 

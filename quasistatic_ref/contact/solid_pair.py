@@ -1,9 +1,9 @@
-"""Signed distance, closest points and normal of two solids, by the road that suits them.
+"""Signed distance, closest points and normal of two solids, by the method that suits them.
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
 have closed forms, right to rounding; so have a polytope or a cylinder and a cylinder, cone or
 ellipsoid that are apart. The others, curved solids that meet, and cones and ellipsoids among
-themselves, are asked of coal and proved.
+themselves, start from coal's answer, which is refined and proved.
 """
 
 from __future__ import annotations

@@ -6,8 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import distance_to_rounded_box, rounded_box, signed_distance
-from quasistatic_ref.model.shapes import Box, Capsule, HalfSpace, Shape, Sphere
+from quasistatic_ref.contact.cloud import (
+    Rounded,
+    distance_to_rounded_box,
+    rounded_box,
+    signed_distance,
+)
+from quasistatic_ref.model.shapes import HalfSpace, Shape
 from quasistatic_ref.step.data import Array
 
 
@@ -17,13 +22,9 @@ def kind_order(shapes: Sequence[Shape]) -> list[int]:
 
 
 def _rank(shape: Shape) -> int:
-    match shape:
-        case Sphere() | Capsule() | Box():
-            return 0
-        case HalfSpace():
-            return 1
-        case _:
-            return 2
+    if isinstance(shape, Rounded):
+        return 0
+    return 1 if isinstance(shape, HalfSpace) else 2
 
 
 class SolidRows:
@@ -39,7 +40,7 @@ class SolidRows:
 
     def __init__(self, shapes: Sequence[Shape], W: int) -> None:
         ranks = [_rank(shape) for shape in shapes]
-        cores = [rounded_box(s) for s in shapes if isinstance(s, Sphere | Capsule | Box)]
+        cores = [rounded_box(s) for s in shapes if isinstance(s, Rounded)]
         walls = [s for s in shapes if isinstance(s, HalfSpace)]
         first, second = len(cores) * W, (len(cores) + len(walls)) * W
         self.boxes, self.planes = slice(0, first), slice(first, second)

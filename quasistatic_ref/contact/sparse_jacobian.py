@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
@@ -11,10 +10,8 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.data import SparseContacts
+from quasistatic_ref.step.data import Indices, Mask, SparseContacts
 from quasistatic_ref.tolerances import SPARSE_FROM
-
-Indices = NDArray[np.int64]
 
 
 class BlockGeometry:
@@ -35,10 +32,7 @@ class BlockGeometry:
         a, b = moves[layout.link_alpha], moves[layout.link_beta]
         contact, rank, joint_column = _ragged(a | b)
         shape = (len(a), 1 + int(rank.max(initial=-1)))
-        self.joint_column, (self.alpha, self.beta) = (
-            np.zeros(shape, np.int64),
-            np.zeros((2, *shape)),
-        )
+        self.joint_column, (self.alpha, self.beta) = np.zeros(shape, int), np.zeros((2, *shape))
         self.joint_column[contact, rank] = by_coordinate[joint_column]
         self.alpha[contact, rank] = a[contact, joint_column]
         self.beta[contact, rank] = b[contact, joint_column]
@@ -93,7 +87,7 @@ def contact_geometry(
     return form(layout, motion)
 
 
-def _ragged(marked: NDArray[np.bool_]) -> tuple[Indices, Indices, Indices]:
+def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
     """Row, rank in the row and column of each mark."""
     row, column = np.nonzero(marked)
     count = marked.sum(axis=1)

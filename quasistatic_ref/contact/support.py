@@ -4,19 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from quasistatic_ref.contact.cloud import Rounded, rounded_box
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    PointCloud,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.model.shapes import Cone, Cylinder, Ellipsoid, HalfSpace, PointCloud, Shape
 from quasistatic_ref.step.data import Array
 
 
@@ -41,14 +32,10 @@ def support_point(shape: Shape, direction: Array) -> Array:
         If the shape is not bounded, or a cloud.
     """
     x, y, z = direction
+    if isinstance(shape, Rounded):
+        half_extents, radius = rounded_box(shape)
+        return np.asarray(radius * direction + half_extents * np.sign(direction))
     match shape:
-        case Sphere():
-            return shape.radius * direction
-        case Capsule():
-            cap = np.array([0.0, 0.0, shape.half_length * np.sign(z)])
-            return np.asarray(shape.radius * direction + cap)
-        case Box():
-            return np.asarray(shape.half_extents * np.sign(direction))
         case Cylinder():
             return np.array([*_rim(shape.radius, x, y), shape.half_length * np.sign(z)])
         case Cone():
@@ -66,7 +53,7 @@ def support_point(shape: Shape, direction: Array) -> Array:
 
 
 def support_value(shape: Shape, directions: Array) -> Array:
-    """How far the shape reaches along directions (N, 3) of its own frame: max n . x, shape (N,).
+    """How far the shape reaches along unit vectors (N, 3) of its own frame: max n . x, shape (N,).
 
     Raises
     ------
@@ -74,11 +61,10 @@ def support_value(shape: Shape, directions: Array) -> Array:
         If the shape is none of these.
     """
     radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+    if isinstance(shape, Rounded):
+        half_extents, radius = rounded_box(shape)
+        return np.asarray(radius + np.abs(directions) @ half_extents)
     match shape:
-        case Box():
-            return np.asarray(np.abs(directions) @ shape.half_extents)
-        case Capsule():
-            return shape.radius + shape.half_length * np.abs(axial)
         case Cylinder():
             return shape.radius * radial + shape.half_length * np.abs(axial)
         case Cone():
@@ -106,8 +92,6 @@ def extent(shape: Shape) -> float:
             return np.inf
         case PointCloud():
             return float(np.ptp(shape.points, axis=0).max())
-        case Sphere():
-            return 2 * shape.radius
         case _:
             reach = support_value(shape, np.concatenate([np.eye(3), -np.eye(3)]))
             return float((reach[:3] + reach[3:]).max())

@@ -7,11 +7,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Figure
+
     from quasistatic_ref.figures.animation import animate as animate
+    from quasistatic_ref.figures.camera import Camera as Camera
     from quasistatic_ref.figures.draw import draw_scene as draw_scene
     from quasistatic_ref.figures.legible import faults as faults
     from quasistatic_ref.figures.moments import moment as moment
-    from quasistatic_ref.figures.scene import Camera as Camera
     from quasistatic_ref.figures.style import figure_style as figure_style
     from quasistatic_ref.figures.style import figure_written as figure_written
     from quasistatic_ref.figures.style import panels as panels
@@ -19,7 +21,8 @@ if TYPE_CHECKING:
     from quasistatic_ref.figures.style import styled as styled
 
 _HOME = {
-    "Camera": "scene",
+    "Camera": "camera",
+    "Figure": "style",
     "animate": "animation",
     "draw_scene": "draw",
     "faults": "legible",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -13,11 +12,11 @@ from matplotlib import pyplot as plt
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.draw import draw_scene
-from quasistatic_ref.figures.moments import extent, moment
-from quasistatic_ref.figures.scene import Camera
+from quasistatic_ref.figures.moments import extent, frames
 from quasistatic_ref.figures.style import figure_style, sized
-from quasistatic_ref.files import written_whole
+from quasistatic_ref.files import bytes_written
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -62,10 +61,7 @@ def animate(
         If the ending is another one, the run has no steps, or ffmpeg is not there for MP4.
     """
     path = _with_ending(Path(path))
-    if not run.steps:
-        raise InputError("has no steps to show", field="trajectory")
-    every = max(round(1 / (fps * scenario.h)), 1)
-    moments = [moment(scenario, run, k) for k in range(0, run.steps, every)]
+    moments, fps_shown = frames(scenario, run, fps)
     boxes = np.array([extent(m) for m in moments])
     centre = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
     half = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) / 2
@@ -74,7 +70,7 @@ def animate(
         "view": view, "around": (centre, half), "legend": False, "parts": ("contacts", "forces"),
         "metres_per_newton": 0.5 * half / most if most > 0 else 0.0,
     } | options  # fmt: skip
-    writer: Any = WRITERS[path.suffix](fps=1 / (every * scenario.h))  # type: ignore[arg-type]  # of any number
+    writer: Any = WRITERS[path.suffix](fps=fps_shown)  # type: ignore[arg-type]  # of any number
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
         figure, axes = plt.subplots(figsize=sized(4.0, 4.0))
         film = Path(folder) / path.name
@@ -85,7 +81,7 @@ def animate(
                 axes.set_title(f"t = {m.t:.2f} s")
                 writer.grab_frame()
         plt.close(figure)
-        return written_whole(path, partial(_copied, film))
+        return bytes_written(path, film.read_bytes())
 
 
 def _with_ending(path: Path) -> Path:
@@ -97,7 +93,3 @@ def _with_ending(path: Path) -> Path:
     if path.suffix == ".mp4" and not ffmpeg:
         raise InputError("cannot be written without ffmpeg; install it, or write .gif", file=path)
     return path
-
-
-def _copied(film: Path, file: Any) -> None:
-    file.write(film.read_bytes())

@@ -33,8 +33,7 @@ def boundary_layer(scenario: Scenario, run: Trajectory, height_at_rest: float) -
         top.plot(1e3 * torque, spin)
         top.set_ylabel("spin rate [rad/s]")
         bottom.plot(1e3 * torque, 1e3 * lift)
-        bottom.set_ylabel("lift-off [mm]")
-        bottom.set_xlabel("applied torque [mN m]")
+        bottom.set(ylabel="lift-off [mm]", xlabel="applied torque [mN m]")
         for axes in (top, bottom):
             axes.axvline(1e3 * limit, color="black", linestyle=":", linewidth=1)
         top.annotate(

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any, Final
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-from numpy.typing import NDArray
 
 from quasistatic_ref.figures.style import figure_style, scaled, sized
 from quasistatic_ref.figures.surfaces import faces
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
+SURFACE: Final[dict[str, Any]] = {"alpha": 0.5, "edgecolor": "k"}
 COLOURS = {PYRAMID: "tab:blue", ELLIPSOID: "tab:orange", "product": "tab:green"}
 
 
@@ -30,21 +31,13 @@ def limit_surfaces() -> Figure:
             if name == ELLIPSOID:
                 u, v = np.mgrid[0 : 2 * np.pi : 33j, 0 : np.pi : 17j]
                 ball = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
-                axes.plot_surface(
-                    *ball, color=COLOURS[name], alpha=0.5, edgecolor="k", linewidth=0.15
-                )
+                axes.plot_surface(*ball, color=COLOURS[name], linewidth=0.15, **SURFACE)
             else:
-                axes.add_collection3d(
-                    Poly3DCollection(
-                        faces(cone_matrix(name)[:, 1:]),
-                        facecolor=COLOURS[name],
-                        edgecolor="k",
-                        linewidth=0.6,
-                        alpha=0.5,
-                    )
-                )
-            axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), box_aspect=(1, 1, 1))
-            axes.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zticks=(-1, 0, 1))
+                sides, style = faces(cone_matrix(name)[:, 1:]), SURFACE | {"linewidth": 0.6}
+                axes.add_collection3d(Poly3DCollection(sides, facecolor=COLOURS[name], **style))
+            for axis in "xyz":
+                axes.set(**{f"{axis}lim": (-1.3, 1.3), f"{axis}ticks": (-1, 0, 1)})
+            axes.set_box_aspect((1, 1, 1))
             axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=pad)
             axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=pad)
             axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=pad - 2)
@@ -55,7 +48,7 @@ def limit_surfaces() -> Figure:
 
 
 def pinch_thresholds(
-    d: Array, least: Mapping[str, Array], slips: Mapping[str, Mapping[float, NDArray[np.bool_]]]
+    d: Array, least: Mapping[str, Array], slips: Mapping[str, Mapping[float, Mask]]
 ) -> Figure:
     """The least squeeze that holds a bar off its axis: closed forms, and steps that slip or hold.
 
@@ -75,18 +68,12 @@ def pinch_thresholds(
             axes.plot(1e3 * d, least[name], color=COLOURS[name], label=name)
             for share, slipped in slips[name].items():
                 right = slipped == (share < 1)
-                axes.plot(
-                    1e3 * d[right],
-                    share * least[name][right],
-                    "v" if share < 1 else "^",
-                    markersize=scaled(4),
-                    color="black",
-                    markeredgewidth=0.6,
-                    markerfacecolor="none" if share < 1 else COLOURS[name],
-                    linestyle="none",
-                )
-        axes.set_xlabel("distance d of the centre of mass from the fingers' axis [mm]")
-        axes.set_ylabel("squeeze N [N]")
+                mark, face = ("v", "none") if share < 1 else ("^", COLOURS[name])
+                style: dict[str, Any] = {"markerfacecolor": face, "markeredgewidth": 0.6}
+                style |= {"color": "black", "linestyle": "none", "markersize": scaled(4)}
+                axes.plot(1e3 * d[right], share * least[name][right], mark, **style)
+        distance = "distance d of the centre of mass from the fingers' axis [mm]"
+        axes.set(xlabel=distance, ylabel="squeeze N [N]")
         axes.set_title("lines: (R21)-(R23); open: a step slips, filled: it holds", loc="left")
         axes.legend(loc="upper left", title="cone")
     return figure

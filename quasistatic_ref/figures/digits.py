@@ -9,11 +9,9 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from quasistatic_ref.figures.study_pens import COLOURS, DASHES, MARKS
 from quasistatic_ref.figures.style import figure_style, scaled, sized
 
-MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
-LINES = ("-", "--", "-.", ":")
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "black", "#CC79A7", "#56B4E9", "#E69F00", "0.5")
 SPREAD = 0.17
 """Distance between backends at the same setting, settings being one apart."""
 
@@ -70,13 +68,11 @@ def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure
                 own = [r for r in records if (r.units, r.backend) == (units, backend)]
                 aside = SPREAD * (k - (len(backends) - 1) / 2)
                 _draw(axes, own, [settings.index(r.accuracy) + aside for r in own], k)
-            axes.set_title(units)
-            axes.set_xlabel("accuracy asked of the backend [-]")
+            axes.set(title=units, xlabel="accuracy asked of the backend [-]")
             axes.set_xticks(range(len(settings)), settings)
             axes.grid(visible=False, axis="x")
-        grid[0].set_ylim(-0.6, 16.6)
-        grid[0].set_yticks(range(0, 17, 4))
-        grid[0].set_ylabel(r"correct digits of $\delta q$ [-]")
+        label = r"correct digits of $\delta q$ [-]"
+        grid[0].set(ylim=(-0.6, 16.6), yticks=range(0, 17, 4), ylabel=label)
         handles, labels = grid[0].get_legend_handles_labels()
         unsolved = any(r.unsolved for r in records)
         told = "some steps unsolved" if unsolved else "no step unsolved"
@@ -93,13 +89,13 @@ def _draw(axes: Axes, own: Sequence[BackendDigits], at: Sequence[float], k: int)
     """Draw one backend; where it left steps unsolved, their share stands at the bottom."""
     x = [p for p, r in zip(at, own, strict=True) if r.unsolved < r.steps]
     shown = [r for r in own if r.unsolved < r.steps]
-    colour, style = COLOURS[k], LINES[k % len(LINES)]
+    colour, style = COLOURS[k], DASHES[k % len(DASHES)]
     worst, best = [r.worst for r in shown], [r.best for r in shown]
     axes.vlines(x, worst, best, colors=colour, linewidth=scaled(1.0), linestyle=style)
     low = [r.low for r in shown]
     axes.plot(x, low, linestyle="none", marker="_", markersize=scaled(6), color="black")
     axes.plot(
-        x, [r.median for r in shown], linestyle="none", marker=MARKERS[k], markersize=scaled(5.5),
+        x, [r.median for r in shown], linestyle="none", marker=MARKS[k], markersize=scaled(5.5),
         color=colour, markeredgecolor="black", markeredgewidth=0.5, label=own[0].backend,
     )  # fmt: skip
     for p, r in zip(at, own, strict=True):

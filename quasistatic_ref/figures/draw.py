@@ -9,9 +9,18 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.moments import DrawnContact, Moment, extent
-from quasistatic_ref.figures.pens import CONE_EDGE, CONE_FACE, MILLI, PLANES, Pen2D, Pen3D
-from quasistatic_ref.figures.scene import CONTACT, Camera
+from quasistatic_ref.figures.pens import (
+    CONE_EDGE,
+    CONE_FACE,
+    CONTACT,
+    MILLI,
+    PLANES,
+    Pen,
+    Pen2D,
+    Pen3D,
+)
 from quasistatic_ref.figures.style import figure_style, scaled
 from quasistatic_ref.step.data import Array
 
@@ -66,8 +75,8 @@ def draw_scene(
     most = max((float(np.linalg.norm(c.force)) for c in of.contacts), default=0.0)
     if metres_per_newton is None:
         metres_per_newton = round_scale(2 * LONGEST * half / most) if most > 0 else 0.0
-    solid = axes.name == "3d"
-    pen = Pen3D(axes) if solid else Pen2D(axes, PLANES[view] if isinstance(view, str) else view)
+    camera = PLANES[view] if isinstance(view, str) else view
+    pen: Pen = Pen3D(axes) if axes.name == "3d" else Pen2D(axes, camera)
     pen.bodies(of, centre, half)
     for contact, bears in zip(of.contacts, of.bearing, strict=True):
         if "contacts" in parts:
@@ -81,7 +90,7 @@ def draw_scene(
 
 
 def _draw_contact(
-    pen: Pen2D | Pen3D, of: DrawnContact, parts: Collection[str], scale: float, size: float
+    pen: Pen, of: DrawnContact, parts: Collection[str], scale: float, size: float
 ) -> None:
     if "cones" in parts and of.mu_v > 0 and len(of.rim) > 2:
         pen.hull(np.vstack([of.beta, of.beta + scale * of.rim]))

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any, Final
 
 import numpy as np
 from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.scene import Camera, draw_contacts, draw_floor, draw_shapes
+from quasistatic_ref.figures.camera import Camera
+from quasistatic_ref.figures.draw import draw_scene
+from quasistatic_ref.figures.moments import moment
 from quasistatic_ref.figures.style import figure_style, sized
-from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 CAMERA = Camera(azimuth=-62, elevation=12)
-BEARING = 1e-3
-"""A contact is drawn as bearing load above this normal force [N]."""
+SHOWN: Final[dict[str, Any]] = {
+    "view": CAMERA,
+    "parts": ("contacts",),
+    "around": (np.array([0.0, 0.0, 0.115]), 0.085),
+    "legend": False,
+}
 
 
 def grasp_strip(
@@ -42,15 +47,15 @@ def grasp_strip(
         )  # fmt: skip
         for row, (title, run) in zip(grid, runs.items(), strict=True):
             for axes, instant in zip(row, instants, strict=True):
-                _draw_instant(axes, scenario, run, instant)
+                k = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
+                draw_scene(axes, moment(scenario, run, k), **SHOWN)
             row[0].set_ylabel(title.replace(" ", "\n"))
         for axes, instant in zip(grid[0], instants, strict=True):
             axes.set_title(f"t = {instant:g} s")
         figure.text(
             0.5, 0.03,
             f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}; "
-            "open dots: contacts considered, "
-            "filled dots: contacts that bear load",
+            "open dots: contacts considered, filled dots: contacts that bear load",
             ha="center", fontsize="small",
         )  # fmt: skip
     return figure
@@ -67,28 +72,8 @@ def rotation_plot(
             after = motion.index(since)
             angle = np.degrees(motion.rotation_since(since))
             axes.plot(motion.times[after:], angle[after:], label=title)
-        axes.set_xlabel("time t [s]")
-        axes.set_ylabel("rotation since the grip closed [deg]")
+        axes.set(xlabel="time t [s]", ylabel="rotation since the grip closed [deg]")
         axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
         axes.set_ylim(bottom=-1)
         axes.legend()
     return figure
-
-
-def _draw_instant(axes: Axes, scenario: Scenario, run: Trajectory, instant: float) -> None:
-    k = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
-    kinematics: Kinematics = scenario.system.kinematics(run["q"][k + 1])
-    shapes = [pair.beta for pair in scenario.pairs] + list(scenario.system.shapes)
-    unique = {id(shape): shape for shape in shapes}.values()
-    draw_floor(axes, CAMERA, 0.14)
-    draw_shapes(axes, CAMERA, unique, kinematics)
-    force = run["wrench"][k][:, 2]
-    draw_contacts(axes, CAMERA, run["beta"][k], force > BEARING)
-    axes.set_aspect("equal")
-    axes.set_xlim(-0.17, 0.17)
-    axes.set_ylim(-0.055, 0.305)
-    axes.grid(visible=False)
-    axes.set_xticks([])
-    axes.set_yticks([])
-    for spine in axes.spines.values():
-        spine.set_visible(False)

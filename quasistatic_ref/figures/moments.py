@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures.surfaces import surface_points
@@ -13,7 +12,7 @@ from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
 
 BEARING = 1e-3
@@ -81,7 +80,7 @@ class Moment:
         return np.asarray((points @ placed.R.T + placed.t) @ R.T + t)
 
     @property
-    def bearing(self) -> NDArray[np.bool_]:
+    def bearing(self) -> Mask:
         """Which contacts bear load, shape (n_c,)."""
         f_n = np.array([c.f_n for c in self.contacts])
         return np.asarray(f_n > BEARING * max(f_n.max(initial=0.0), 1e-12))
@@ -114,6 +113,27 @@ def moment(scenario: Scenario, run: Trajectory, k: int) -> Moment:
         t_links=kinematics.t,
         contacts=tuple(_contact(run, k, j) for j in range(run["phi"].shape[1])),
     )
+
+
+def frames(scenario: Scenario, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
+    """Moments of a film in real time, and how many of them a second.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    run : Trajectory
+    fps : float
+        Frames a second that are wanted [1/s]; there are no more than steps.
+
+    Raises
+    ------
+    InputError
+        If the run has no steps.
+    """
+    if not run.steps:
+        raise InputError("has no steps to show", field="trajectory")
+    every = max(round(1 / (fps * scenario.h)), 1)
+    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
 
 
 def drawn_shapes(scenario: Scenario) -> tuple[PlacedShape, ...]:

@@ -27,20 +27,16 @@ def profiles(data: Mapping[str, Any]) -> Figure:
     panels = data["panels"]
     names = list(dict.fromkeys(label for panel in panels for label in panel["labels"]))
     pen = pens(names)
-    figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(PAGE, 3.0), sharey=True, squeeze=False, layout="constrained"
-    )
+    figure, grid = _panels(len(panels), 3.0)
     taus = np.geomspace(1, FURTHEST, 400)
     for axes, panel in zip(grid, panels, strict=True):
         for k, (label, ratios) in enumerate(zip(panel["labels"], panel["ratios"], strict=True)):
             every = (20 + 4 * k, 75)  # marks of lines that run together stay apart
             dress = pen[label] | {"markerfacecolor": "white", "markevery": every}
             axes.plot(taus, profile(ratios, taus), **dress)
-        axes.set_xscale("log")
-        axes.set_xlabel(r"$\tau$: time / time of the fastest [-]")
-        axes.set_title(panel["title"])
-    grid[0].set_ylim(-3, 103)
-    grid[0].set_ylabel("problems right within that [%]")
+        label = r"$\tau$: time / time of the fastest [-]"
+        axes.set(xscale="log", xlabel=label, title=panel["title"])
+    grid[0].set(ylim=(-3, 103), ylabel="problems right within that [%]")
     _legend(figure, names)
     return figure
 
@@ -49,10 +45,7 @@ def success(data: Mapping[str, Any]) -> Figure:
     """Shares of problems solved to so many digits, a panel a setting."""
     panels, levels = data["panels"], data["levels"]
     names = list(dict.fromkeys(label for panel in panels for label in panel["labels"]))[::-1]
-    figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(PAGE, 0.8 + 0.23 * len(names)), sharey=True, squeeze=False,
-        layout="constrained",
-    )  # fmt: skip
+    figure, grid = _panels(len(panels), 0.8 + 0.23 * len(names))
     for axes, panel in zip(grid, panels, strict=True):
         at = [names.index(label) for label in panel["labels"]]
         for k, (least, mark) in enumerate(zip(levels, LEVEL_MARKS, strict=True)):
@@ -62,9 +55,7 @@ def success(data: Mapping[str, Any]) -> Figure:
                 markerfacecolor=face, markeredgecolor="black", label=rf"$\geq$ {least:g} digits",
                 clip_on=False, zorder=3,
             )  # fmt: skip
-        axes.set_xlim(0, 100)
-        axes.set_xlabel("problems [%]")
-        axes.set_title(f"setting {panel['title']}")
+        axes.set(xlim=(0, 100), xlabel="problems [%]", title=f"setting {panel['title']}")
     grid[0].set_yticks(range(len(names)), short(names).values())
     handles, labels = grid[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(levels))
@@ -76,10 +67,7 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
     panels = data["panels"]
     names = list(dict.fromkeys(label for panel in panels for label in panel["lines"]))
     pen = pens(names)
-    figure, (grid,) = plt.subplots(
-        1, len(panels), figsize=(PAGE, 3.4), sharey=True, sharex=True, squeeze=False,
-        layout="constrained",
-    )  # fmt: skip
+    figure, grid = _panels(len(panels), 3.4, sharex=True)
     for axes, panel in zip(grid, panels, strict=True):
         for label, points in panel["lines"].items():
             set_ = [(1e3 * t, right) for own, t, right in points if not own]
@@ -89,12 +77,9 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
             for part, fill, more in (kind for kind in kinds if kind[0]):
                 dress = pen[label] | more | {"fillstyle": fill, "clip_on": False}
                 axes.plot(*np.transpose(part), **dress)
-        axes.set_xscale("log")
-        axes.set_xlabel("median time of a call [ms]")
-        axes.set_title(panel["title"])
-    grid[0].set_ylim(0, 16.5)
-    grid[0].set_yticks(range(0, 17, 4))
-    grid[0].set_ylabel(r"median correct digits of $\delta q$ [-]")
+        axes.set(xscale="log", xlabel="median time of a call [ms]", title=panel["title"])
+    label = r"median correct digits of $\delta q$ [-]"
+    grid[0].set(ylim=(0, 16.5), yticks=range(0, 17, 4), ylabel=label)
     _legend(figure, names)
     return figure
 
@@ -119,6 +104,13 @@ def families(data: Mapping[str, Any]) -> Figure:
     bar = figure.colorbar(image, ax=grid[:, 0], shrink=0.6, pad=0.01, ticks=range(0, 17, 4))
     bar.set_label("median correct digits [-]")
     return figure
+
+
+def _panels(count: int, height: float, sharex: bool = False) -> tuple[Figure, Any]:
+    """Axes side by side that share the axis upwards; `height` [in]."""
+    options: dict[str, Any] = {"sharex": sharex, "sharey": True, "layout": "constrained"}
+    figure, grid = plt.subplots(1, count, figsize=(PAGE, height), squeeze=False, **options)
+    return figure, grid[0]
 
 
 def _numbers(axes: Axes, values: np.ndarray) -> None:

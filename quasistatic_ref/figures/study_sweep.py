@@ -29,9 +29,8 @@ def sweep(data: Mapping[str, Any]) -> Figure:
         if words:
             axes.set_xticks(range(len(words)), words)
             axes.set_xlim(-0.5, len(words) - 0.5)
-        axes.set_ylim(0, 1.08 * max(p[1 + k] for points in lines.values() for p in points) or 1)
-        axes.set_xlabel(data["axis"])
-        axes.set_ylabel(label)
+        top = 1.08 * max(p[1 + k] for points in lines.values() for p in points) or 1
+        axes.set(ylim=(0, top), xlabel=data["axis"], ylabel=label)
     if len(lines) > 1:
         grid[0].legend()
     return figure

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh
@@ -18,7 +17,7 @@ from quasistatic_ref.model.shapes import (
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 AROUND, UP = 48, 25
 """Corners of round shapes around their axis and along it."""
@@ -68,12 +67,11 @@ def patch(floor: HalfSpace, centre: Array, half_width: float) -> Array:
     one = np.eye(3)[np.abs(n).argmin()]
     one = half_width * (one - (one @ n) * n) / np.linalg.norm(one - (one @ n) * n)
     other = np.cross(n, one)
-    return np.array(
-        [foot - one - other, foot + one - other, foot + one + other, foot - one + other]
-    )
+    around = np.array([-one - other, one - other, one + other, other - one])
+    return np.asarray(foot + around)
 
 
-def triangles(points: Array) -> NDArray[np.int64]:
+def triangles(points: Array) -> Indices:
     """Triangles of the convex hull as indices, (T, 3), counter-clockwise from outside."""
     hull = ConvexHull(points)
     corners = points[hull.simplices]

@@ -9,10 +9,12 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
+from quasistatic_ref.figures.study_pens import MARKS
 from quasistatic_ref.figures.style import scaled, sized, styled
 
 Picture = Mapping[str, Any]
-MARKS = ("o", "s", "^", "D", "v", "P")
+THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}
+"""Lines of closed forms."""
 GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
 
 
@@ -58,9 +60,8 @@ def contact_geometry(picture: Picture) -> Figure:
     axes.set_aspect("equal")
     axes.set(xlabel="x [mm]", ylabel="z [mm]")
     gap = 1e3 * data["phi"][0]
-    axes.set_title(
-        rf"a capsule and a box, $\phi$ = {gap:.1f} mm; $d_1$ is normal to the page", loc="right"
-    )
+    title = rf"a capsule and a box, $\phi$ = {gap:.1f} mm; $d_1$ is normal to the page"
+    axes.set_title(title, loc="right")
     return figure
 
 
@@ -106,11 +107,8 @@ def step_time(picture: Picture) -> Figure:
     axes.grid(False)
     axes.set(xlabel="share of the time of a step, medians [%]", xlim=(0, 140))
     axes.set_xticks(range(0, 101, 25))
-    axes.set_title(
-        f"{_caption(picture['h'])}; {picture['all']} distances by brute force, "
-        f"{picture['tracked']:.0f} by the tracker",
-        loc="right",
-    )
+    counts = f"{picture['all']} distances by brute force, {picture['tracked']:.0f} by the tracker"
+    axes.set_title(f"{_caption(picture['h'])}; {counts}", loc="right")
     figure.legend(loc="outside upper center", ncols=len(GREYS))
     return figure
 
@@ -126,12 +124,11 @@ def sliding_threshold(picture: Picture) -> Figure:
     degrees = np.degrees(picture["angles"])
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
-    axes.plot(degrees, exact, color="black", linestyle="-", linewidth=1, label="(R7)")
+    axes.plot(degrees, exact, label="(R7)", **THIN)
     for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
         axes.plot(degrees, found, linestyle="", **_open(mark), label=rf"$\mu_v$ = {mu:g}")
-    axes.set(
-        xlabel="direction of the force from $d_1$ [deg]", ylabel=r"least force / ($\mu_v m g$) [-]"
-    )
+    axes.set_xlabel("direction of the force from $d_1$ [deg]")
+    axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
     axes.set_title(_caption(picture["h"]), loc="right")
     axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.62))
     return figure
@@ -143,17 +140,14 @@ def pushed_block(picture: Picture) -> Figure:
     friction = picture["mu"] * picture["m"] * 9.81
     pi = picture["v"] / (picture["mu"] * 9.81 * picture["h"])
     line = np.geomspace(0.8 * pi.min(), 1.2 * pi.max(), 100)
-    axes.plot(line, 1 + line, color="black", linewidth=1, linestyle="-", label=r"$1 + \Pi$, (R13)")
+    axes.plot(line, 1 + line, label=r"$1 + \Pi$, (R13)", **THIN)
     for h, mark in zip(np.unique(picture["h"]), MARKS, strict=False):
         at = picture["h"] == h
         force = picture["force"][at] / friction[at]
         axes.plot(pi[at], force, linestyle="", **_open(mark), label=f"h = {1e3 * h:g} ms")
     axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
-    axes.set(xscale="log", yscale="log")
-    axes.set(
-        xlabel=r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]",
-        ylabel=r"push / ($\mu_v m g$) [-]",
-    )
+    axes.set(xscale="log", yscale="log", ylabel=r"push / ($\mu_v m g$) [-]")
+    axes.set_xlabel(r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]")
     axes.set_title("friction pyramid", loc="right")
     axes.legend()
     return figure
@@ -165,18 +159,11 @@ def planar_push(picture: Picture) -> Figure:
     rho = picture["rho"]
     line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
-        axes.plot(
-            line,
-            (1 + line) / (1 + line * (rho / c) ** 2),
-            color="black",
-            linewidth=1,
-            linestyle="-",
-        )
+        axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), **THIN)
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
         axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
-    axes.set(
-        xscale="log", xlabel=r"quasi-dynamic number $\Pi$ [-]", ylabel="turn / Lynch's turn [-]"
-    )
+    axes.set(xscale="log", ylabel="turn / Lynch's turn [-]")
+    axes.set_xlabel(r"quasi-dynamic number $\Pi$ [-]")
     axes.set_title(f"h = {1e3 * picture['h']:g} ms, friction ellipsoid; lines: (R28)", loc="right")
     axes.legend()
     return figure
@@ -215,13 +202,11 @@ def peg_wedging(picture: Picture) -> Figure:
     """Depth at which a peg stops to wedge, against Whitney's line."""
     figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
     line = np.array([0, 0.9])
-    axes.plot(line, line, color="black", linewidth=1, linestyle="-", label=r"$l = \mu d$, (R17)")
+    axes.plot(line, line, label=r"$l = \mu d$, (R17)", **THIN)
     for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
         at = picture["width"] == width
-        ratio = picture["found"][at] / width
-        axes.plot(
-            picture["mu"][at], ratio, linestyle="", **_open(mark), label=f"d = {1e3 * width:g} mm"
-        )
+        ratio, label = picture["found"][at] / width, f"d = {1e3 * width:g} mm"
+        axes.plot(picture["mu"][at], ratio, linestyle="", **_open(mark), label=label)
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
     axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
@@ -239,9 +224,8 @@ def mujoco_friction(picture: Picture) -> Figure:
             if what == kind:
                 mark = MARKS[len(axes.lines)]
                 axes.plot(picture["shares"], np.abs(final), marker=mark, label=f"MuJoCo, {cone}")
-        axes.plot(
-            picture["shares"], picture["ours"][kind], marker="D", label="ours, pyramid, one step"
-        )
+        ours = picture["ours"][kind]
+        axes.plot(picture["shares"], ours, marker="D", label="ours, pyramid, one step")
         axes.set_yscale("symlog", linthresh=1e-5)
         axes.axvline(1, color="black", linestyle=":", linewidth=1)
         axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
@@ -254,8 +238,7 @@ PICTURES: Final[dict[str, Callable[[Picture], Figure]]] = {
     draw.__name__: styled(draw)
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
-        patch_torsion, flat_patch, peg_wedging, mujoco_friction,
-        planar_push,
+        patch_torsion, flat_patch, peg_wedging, mujoco_friction, planar_push,
     )
 }  # fmt: skip
 """Claim -> its figure."""

@@ -9,13 +9,14 @@ from __future__ import annotations
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
+from string import Template
 from typing import Any, Final
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures.draw import round_scale
-from quasistatic_ref.figures.moments import Moment, extent, moment
+from quasistatic_ref.figures.moments import Moment, extent, frames
 from quasistatic_ref.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.figures.three import clip, material, object_set, thing, transform_set, z_along
 from quasistatic_ref.files import json_text, text_written
@@ -38,34 +39,7 @@ REPETITIONS = 1000
 CLOUD, SOLID, FLOOR, FORCE = 0x0072B2, 0x9A9A9A, 0xE8E8E8, 0xD55E00
 HIDDEN: Final = ("/Grid", "/Axes")
 SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
-PAGE: Final = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<title>{title}</title>
-<style>
-body {{ margin: 0; font-family: sans-serif; }}
-#meshcat-pane {{ width: 100vw; height: 100vh; overflow: hidden; }}
-#caption {{ position: fixed; left: 1em; bottom: 1em; background: rgba(255, 255, 255, 0.8); }}
-</style>
-</head>
-<body>
-<div id="meshcat-pane"></div>
-<div id="caption">{caption}</div>
-<script>
-{viewer}
-</script>
-<script>
-const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
-const commands = {commands};
-commands.forEach(command => viewer.handle_command(command));
-viewer.camera.position.set({eye});
-viewer.controls.target.set({centre});
-viewer.controls.update();
-</script>
-</body>
-</html>
-"""
+PAGE: Final = Path(__file__).parent / "viewer.html"
 
 
 def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
@@ -90,7 +64,7 @@ def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
         If the extra ``view`` is not installed, or the run has no steps.
     """
     viewer = viewer_script()
-    moments, fps = frames(scenario, run)
+    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
     box = extent(moments[0])
     centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
     eye = centre + half * np.array([1.1, -2.2, 0.9])
@@ -99,7 +73,7 @@ def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
     caption = f"{name}, h = {1e3 * scenario.h:g} ms, friction {scenario.cone}"
     if scale:
         caption += f"; forces in orange, 1 N is {1e3 * scale:.3g} mm"
-    page = PAGE.format(
+    page = Template(PAGE.read_text("utf-8")).substitute(
         title=escape(name), caption=escape(caption), viewer=viewer,
         commands=json_text(scene_commands(moments, fps, half, scale)).replace("</", "<\\/"),
         eye=_y_up(eye), centre=_y_up(centre),
@@ -114,20 +88,6 @@ def viewer_script() -> str:
         problem = "needs meshcat: pip install 'quasistatic-ref[view]'"
         raise InputError(problem, field="--view")
     return (Path(found.origin).parent / "viewer" / "dist" / "main.min.js").read_text("utf-8")
-
-
-def frames(scenario: Scenario, run: Trajectory) -> tuple[list[Moment], float]:
-    """Moments that are shown, and how many of them a second, in real time.
-
-    Raises
-    ------
-    InputError
-        If the run has no steps.
-    """
-    if not run.steps:
-        raise InputError("has no steps to show", field="trajectory")
-    every = max(round(1 / (FRAMES_PER_SECOND * scenario.h)), 1)
-    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
 
 
 def metres_per_newton(moments: list[Moment], half: float) -> float:

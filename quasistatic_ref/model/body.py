@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError, suggestion
-from quasistatic_ref.model.frozen import finite
+from quasistatic_ref.errors import ModelError, about_field, suggestion
+from quasistatic_ref.model.frozen import finite, freeze_array
 from quasistatic_ref.model.solid import Homogeneous, solid_urdf
 from quasistatic_ref.plain import Plain
 
@@ -75,7 +75,8 @@ class Body(Plain):
         if not isinstance(self.actuated, str):
             object.__setattr__(self, "actuated", tuple(self.actuated))
         for key in ("xyz", "rpy"):
-            object.__setattr__(self, key, self._vector(key))
+            with about_field(f"{self.name}.{key}"):
+                freeze_array(self, key, (3,))
         if self.base == "planar" and np.any(np.asarray(self.rpy)[:2]):
             problem = "must be [0, 0, yaw]: a planar base stays upright"
             raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
@@ -110,15 +111,3 @@ class Body(Plain):
             If the shape is another one, or the mass not positive.
         """
         return cls(name, solid_urdf(shape, mass, name), **({"base": "floating"} | more))
-
-    def _vector(self, key: str) -> ArrayLike:
-        value = getattr(self, key)
-        try:
-            vector = np.array(value, dtype=np.float64) + 0.0
-        except (TypeError, ValueError):
-            vector = np.array([np.nan])
-        if vector.shape != (3,) or not np.isfinite(vector).all():
-            problem = "must be three finite numbers"
-            raise ModelError(problem, field=f"{self.name}.{key}", value=value)
-        vector.setflags(write=False)
-        return vector

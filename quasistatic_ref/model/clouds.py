@@ -6,21 +6,28 @@ written, in metres. A line or a vertex that cannot be read is an error, never le
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, ModelError, suggestion
+from quasistatic_ref.errors import InputError, ModelError, about_field, about_file, suggestion
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.pcd import pcd_points
 from quasistatic_ref.model.ply import ply_points
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.text import decimal
 from quasistatic_ref.npz import npy_array, npz_arrays
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
+
+Lines = Iterator[tuple[int, str]]
+"""Lines of a text with their numbers."""
+Point = tuple[int, Sequence[str]]
+"""The number of a point's line, and its words."""
 
 
 def point_cloud(path: str | Path) -> PointCloud:
@@ -46,44 +53,56 @@ def point_cloud(path: str | Path) -> PointCloud:
         file, the line or vertex, and the value.
     """
     path = Path(path)
-    points_of = _READERS.get(path.suffix.lower())
-    if points_of is None:
-        problem = f"is not a known kind of point cloud{suggestion(path.suffix.lower(), _READERS)}"
+    kind = path.suffix.lower()
+    if kind not in KINDS:
+        problem = f"is not a known kind of point cloud{suggestion(kind, KINDS)}"
         raise ModelError(problem, file=path, field="extension", value=path.suffix)
-    content = bytes_read(path, ModelError)
     try:
-        points = np.array(points_of(content, path), dtype=np.float64).reshape(-1, 3)
-        _check_size(points)
-        return PointCloud(points)
-    except ModelError as error:
-        raise error.in_file(path) from None
-    except InputError as error:  # of NumPy's files
-        raise ModelError(
-            error.problem, field=error.field, value=error.value, file=error.file or path
-        ) from None
+        with about_file(path):
+            return PointCloud(_checked(KINDS[kind](path)))
+    except InputError as error:  # NumPy's files raise others
+        given = {"field": error.field, "value": error.value, "file": error.file}
+        raise ModelError(error.problem, **given) from None
 
 
-def _check_size(points: NDArray[np.float64]) -> None:
-    far = np.flatnonzero((np.abs(points) > LARGE).any(axis=1))
-    if far.size:
-        problem = f"its coordinates must be at most {LARGE:g} m"
-        raise ModelError(problem, field=f"point {far[0]}", value=points[far[0]].tolist())
-
-
-def _xyz(content: bytes, path: Path) -> list[list[float]]:
-    points = []
-    for number, line in enumerate(text_of(content, path, ModelError).splitlines(), start=1):
-        words = line.split("#", 1)[0].split()
-        if words:
-            points.append(_point(words, number))
+def _checked(given: list[list[float]] | Array) -> Array:
+    points = np.array(given, dtype=np.float64).reshape(-1, 3)
+    for wrong, problem in (
+        (~np.isfinite(points), "must be finite numbers"),
+        (np.abs(points) > LARGE, f"its coordinates must be at most {LARGE:g} m"),
+    ):
+        bad = np.flatnonzero(wrong.any(axis=1))
+        if bad.size:
+            value = points[bad[0]].tolist()
+            raise ModelError(problem, field=f"point {bad[0]}", value=value)
     return points
 
 
-def _csv(content: bytes, path: Path) -> list[list[float]]:
-    points: list[list[float]] = []
+def _of_lines(words_of: Callable[[Lines], Iterator[Point]], path: Path) -> list[list[float]]:
+    """Points of a text: what the words of each are is a matter of its format."""
+    lines = text_of(bytes_read(path, ModelError), path, ModelError).splitlines()
+    return [_numbers(*point) for point in words_of(enumerate(lines, start=1))]
+
+
+def _numbers(number: int, words: Sequence[str]) -> list[float]:
+    if len(words) != 3:
+        problem = "must be three numbers, x y z"
+        raise ModelError(problem, field=f"line {number}", value=" ".join(words))
+    with about_field(f"line {number}"):
+        return [decimal(word) for word in words]
+
+
+def _xyz(lines: Lines) -> Iterator[Point]:
+    for number, line in lines:
+        words = line.split("#", 1)[0].split()
+        if words:
+            yield number, words
+
+
+def _csv(lines: Lines) -> Iterator[Point]:
     columns: list[int] | None = None
     width = 3
-    for number, line in enumerate(text_of(content, path, ModelError).splitlines(), start=1):
+    for number, line in lines:
         words = [word.strip().strip('"') for word in line.split(",")]
         if not line.strip() or line.lstrip().startswith("#"):
             continue
@@ -95,8 +114,7 @@ def _csv(content: bytes, path: Path) -> list[list[float]]:
                 continue
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
-        points.append(_point([words[c] for c in columns], number))
-    return points
+        yield number, [words[c] for c in columns]
 
 
 def _column(header: list[str], name: str, number: int) -> int:
@@ -106,64 +124,39 @@ def _column(header: list[str], name: str, number: int) -> int:
     return header.index(name)
 
 
-def _obj(content: bytes, path: Path) -> list[list[float]]:
-    points = []
-    for number, line in enumerate(text_of(content, path, ModelError).splitlines(), start=1):
+def _obj(lines: Lines) -> Iterator[Point]:
+    for number, line in lines:
         words = line.split("#", 1)[0].split()
         if words and words[0] == "v":
             # A vertex may carry a weight or a colour after its position.
             if len(words) not in (4, 5, 7, 8):
                 raise ModelError("must be v x y z", field=f"line {number}", value=line)
-            points.append(_point(words[1:4], number))
-    return points
+            yield number, words[1:4]
 
 
-def _ply(content: bytes, path: Path) -> NDArray[np.float64]:
-    return ply_points(content)
-
-
-def _pcd(content: bytes, path: Path) -> NDArray[np.float64]:
-    return pcd_points(content)
-
-
-def _npy(content: bytes, path: Path) -> NDArray[np.float64]:
-    return _numbers(npy_array(path), "its array")
-
-
-def _npz(content: bytes, path: Path) -> NDArray[np.float64]:
+def _npz(path: Path) -> Array:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
     if name != "points" and len(arrays) != 1:
         problem = "must hold one array, or one that is named points"
         raise ModelError(problem, field="its arrays", value=list(arrays))
-    return _numbers(arrays[name], name)
+    return _of_array(arrays[name], name)
 
 
-def _numbers(array: NDArray[Any], name: str) -> NDArray[np.float64]:
+def _of_array(array: NDArray[Any], name: str) -> Array:
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
         given = f"{array.dtype} of shape {array.shape}"
         raise ModelError("must hold numbers of shape (N, 3)", field=name, value=given)
-    points = array.astype(np.float64)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        value = points[bad[0]].tolist()
-        raise ModelError("must be finite numbers", field=f"point {bad[0]}", value=value)
-    return points
+    return array.astype(np.float64)
 
 
-def _point(words: Sequence[str], number: int) -> list[float]:
-    if len(words) != 3:
-        problem = "must be three numbers, x y z"
-        raise ModelError(problem, field=f"line {number}", value=" ".join(words))
-    try:
-        return [decimal(word) for word in words]
-    except ModelError as error:
-        error.field = f"line {number}"
-        raise
-
-
-_Reader = Callable[[bytes, Path], list[list[float]] | NDArray[np.float64]]
-_READERS: dict[str, _Reader] = {
-    ".xyz": _xyz, ".csv": _csv, ".ply": _ply, ".obj": _obj, ".pcd": _pcd, ".npy": _npy,
+KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
+    ".xyz": partial(_of_lines, _xyz),
+    ".csv": partial(_of_lines, _csv),
+    ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
+    ".obj": partial(_of_lines, _obj),
+    ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
+    ".npy": lambda path: _of_array(npy_array(path), "its array"),
     ".npz": _npz,
-}  # fmt: skip
+}
+"""Extension -> the points of such a file, x, y and z one after the other."""

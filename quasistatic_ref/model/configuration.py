@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, numbers
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
@@ -28,10 +28,7 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     ModelError
         If it is not a configuration; the message names the joint.
     """
-    try:
-        checked = np.array(q, dtype=np.float64) + 0.0
-    except (TypeError, ValueError):
-        raise ModelError("must be numbers", field="q", value=q) from None
+    checked = numbers(q, "q", ModelError) + 0.0
     if checked.shape != (n_q,):
         raise ModelError(f"must have shape ({n_q},)", field="q", value=checked.shape)
     for joint in joints:

@@ -8,16 +8,15 @@ from typing import Any
 
 import coal
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import freeze_array
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.tolerances import CONVEX
 
-Indices = NDArray[np.int64]
 BLOCK = 1 << 22
 """Points times planes handled at once: some tens of megabytes."""
 
@@ -51,12 +50,9 @@ class ConvexMesh(Plain):
 
     def __post_init__(self) -> None:
         T = len(self.triangles)
-        for key, shape in (
-            ("vertices", (len(self.vertices), 3)),
-            ("normals", (T, 3)),
-            ("offsets", (T,)),
-        ):
-            freeze_array(self, key, shape)
+        freeze_array(self, "vertices", (len(self.vertices), 3))
+        freeze_array(self, "normals", (T, 3))
+        freeze_array(self, "offsets", (T,))
         self.triangles.setflags(write=False)
 
     @property

@@ -7,16 +7,14 @@ Within each block the order is pinocchio's. Nothing outside
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
-Indices = NDArray[np.int64]
 _TWISTS = {
     "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),
     "planar": (("x", "m"), ("y", "m"), ("rz", "rad")),
@@ -94,28 +92,6 @@ class MimicJoint:
     offset: float
 
 
-@dataclass(frozen=True)
-class ModelJoint:
-    """A joint as pinocchio numbers it.
-
-    Parameters
-    ----------
-    name, kind, actuated
-        As in :class:`Joint`.
-    q, v : tuple of int
-        First entry, and number of entries.
-    limits : tuple of float, optional
-        As in :class:`Joint` [m, rad].
-    """
-
-    name: str
-    kind: str
-    actuated: bool
-    q: tuple[int, int]
-    v: tuple[int, int]
-    limits: tuple[float, float] | None
-
-
 @dataclass(frozen=True, eq=False)
 class Order:
     """The permutation between the two orders.
@@ -155,9 +131,7 @@ class Order:
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's; ValueError unless (n_q,)."""
-        q = np.asarray(q, dtype=np.float64)
-        if q.shape != self.q.shape:
-            raise ValueError(f"expected shape {self.q.shape}, not {q.shape}")
+        q = _of_shape(q, self.q.shape)
         return q if self.same else q.take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
@@ -166,10 +140,15 @@ class Order:
 
     def model_v(self, v: Array) -> Array:
         """Vector of delta_q in pinocchio's order, from the paper's; ValueError unless (n_v,)."""
-        v = np.asarray(v, dtype=np.float64)
-        if v.shape != self.v.shape:
-            raise ValueError(f"expected shape {self.v.shape}, not {v.shape}")
+        v = _of_shape(v, self.v.shape)
         return v if self.same else v.take(self.v_back)
+
+
+def _of_shape(x: Array, shape: tuple[int, ...]) -> Array:
+    x = np.asarray(x, dtype=np.float64)
+    if x.shape != shape:
+        raise ValueError(f"expected shape {shape}, not {x.shape}")
+    return x
 
 
 def joint_key(joint: str) -> str:
@@ -181,17 +160,22 @@ def joint_key(joint: str) -> str:
     return f"joint {joint}"
 
 
-def paper_order(joints: Sequence[ModelJoint]) -> Order:
-    """Actuated joints first, then the others, each block in pinocchio's order."""
+def paper_order(joints: Sequence[Joint]) -> Order:
+    """Actuated joints first, then the others, each block in pinocchio's order.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        Their entries of q and delta_q being pinocchio's.
+    """
     ordered: list[Joint] = []
     entries_q: list[int] = []
     entries_v: list[int] = []
-    for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v[0])):
-        q = slice(len(entries_q), len(entries_q) + joint.q[1])
-        v = slice(len(entries_v), len(entries_v) + joint.v[1])
-        ordered.append(Joint(joint.name, joint.kind, joint.actuated, q, v, joint.limits))
-        entries_q += range(joint.q[0], sum(joint.q))
-        entries_v += range(joint.v[0], sum(joint.v))
-    return Order(
-        tuple(ordered), np.array(entries_q, dtype=np.int64), np.array(entries_v, dtype=np.int64)
-    )
+    for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v.start)):
+        q, v = range(joint.q.start, joint.q.stop), range(joint.v.start, joint.v.stop)
+        own_q = slice(len(entries_q), len(entries_q) + len(q))
+        own_v = slice(len(entries_v), len(entries_v) + len(v))
+        ordered.append(replace(joint, q=own_q, v=own_v))
+        entries_q += q
+        entries_v += v
+    return Order(tuple(ordered), np.array(entries_q, np.int64), np.array(entries_v, np.int64))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.urdf_xml import xml_root
 
@@ -29,7 +29,7 @@ def check_dae(path: Path) -> None:
         whole file holds.
     """
     text = text_of(bytes_read(path, ModelError), path, ModelError)
-    try:
+    with about_file(path):
         root = xml_root(text)
         most = len(text.split())
         for element in root.iter():
@@ -40,14 +40,11 @@ def check_dae(path: Path) -> None:
             for name in COUNTS:
                 if name in element.attrib:
                     _check(element.attrib[name].strip(), most, f"<{tag} {name}>")
-    except ModelError as error:
-        raise error.in_file(path) from None
 
 
 def _check(word: str, most: int, where: str) -> None:
     if not (word.isascii() and word.isdecimal() and len(word) < 20):
         raise ModelError("must be a whole number, 0 or more", field=where, value=word)
     if int(word) > most:
-        raise ModelError(
-            f"is larger than {most}, which is all there can be", field=where, value=word
-        )
+        problem = f"is larger than {most}, which is all there can be"
+        raise ModelError(problem, field=where, value=word)

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.step.arrays import freeze
+from quasistatic_ref.tolerances import SHORT
 
 
 def finite(value: Any, key: str) -> float:
@@ -27,22 +29,14 @@ def freeze_size(owner: Any, key: str) -> None:
     # Twice the size is what coal is given.
     if not (number > 0 and np.isfinite(2 * number)):
         raise ModelError("must be a positive length", field=key, value=value)
+    if number < SHORT:
+        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=value)
     object.__setattr__(owner, key, number)
 
 
 def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
     """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
-    value = getattr(owner, key)
-    try:
-        array = np.array(value, dtype=np.float64) + 0.0
-    except (TypeError, ValueError):
-        raise ModelError("must be numbers", field=key, value=value) from None
-    if array.shape != shape:
-        raise ModelError(f"must have shape {shape}", field=key, value=array.shape)
-    if not np.isfinite(array).all():
-        raise ModelError("must hold finite numbers only", field=key, value=array.tolist())
-    array.setflags(write=False)
-    object.__setattr__(owner, key, array)
+    freeze(owner, {key: shape}, error=ModelError)
 
 
 def freeze_lengths(owner: Any, key: str) -> None:
@@ -51,3 +45,5 @@ def freeze_lengths(owner: Any, key: str) -> None:
     lengths = getattr(owner, key)
     if not ((lengths > 0).all() and np.isfinite(2 * lengths).all()):
         raise ModelError("must be three positive lengths", field=key, value=lengths.tolist())
+    if not (lengths >= SHORT).all():
+        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=lengths.tolist())

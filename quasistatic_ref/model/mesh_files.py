@@ -9,7 +9,7 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError, about_file, suggestion
 from quasistatic_ref.model.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.model.dae import check_dae
 from quasistatic_ref.step.arrays import Array
@@ -83,10 +83,8 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
         lines = [line.strip() for line in str(error).splitlines() if line.strip()]
         reason = lines[-2] if len(lines) > 1 else "".join(lines)
         raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
-    try:
+    with about_file(path):
         return hull_of_loaded(loaded)
-    except ModelError as error:
-        raise error.in_file(path) from None
 
 
 def hull_of_loaded(geometry: Any) -> ConvexMesh:

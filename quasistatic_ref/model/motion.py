@@ -10,14 +10,7 @@ import numpy as np
 from quasistatic_ref.model.coordinates import Joint, Order, joint_key
 from quasistatic_ref.step.arrays import Array
 
-CROSS = np.array(
-    [
-        [[0, 0, 0], [0, 0, -1], [0, 1, 0]],
-        [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
-        [[0, -1, 0], [1, 0, 0], [0, 0, 0]],
-    ],
-    dtype=np.float64,
-).reshape(3, 9)
+CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1).reshape(3, 9)
 """[x], [y] and [z] of the axes, each row by row."""
 
 

@@ -6,13 +6,10 @@ The viewpoint is where the sensor stood; the points are taken as written.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.text import ascii_points
+from quasistatic_ref.model.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.step.arrays import Array
 
 _TYPES = {
     ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
@@ -24,32 +21,7 @@ _WORDS = (
 MOST_COLUMNS = 1000
 
 
-@dataclass(frozen=True)
-class Header:
-    """What the header says of the points.
-
-    Parameters
-    ----------
-    columns : tuple of (str, str, int)
-        Name, NumPy type and number of entries of each field.
-    count : int
-        Number of points.
-    data : str
-        ``"ascii"`` or ``"binary"``.
-    body : bytes
-        What follows the header.
-    line : int
-        Line number at which the body starts.
-    """
-
-    columns: tuple[tuple[str, str, int], ...]
-    count: int
-    data: str
-    body: bytes
-    line: int
-
-
-def pcd_points(content: bytes) -> NDArray[np.float64]:
+def pcd_points(content: bytes) -> Array:
     """Point positions of a PCD file.
 
     Parameters
@@ -67,59 +39,30 @@ def pcd_points(content: bytes) -> NDArray[np.float64]:
     ModelError
         If the header or a point is malformed, not finite, or missing.
     """
-    header = _header(content)
-    names = [name for name, _, _ in header.columns]
+    table = _table(content)
+    names = table.names
     for name in "xyz":
-        if names.count(name) != 1 or header.columns[names.index(name)][2] != 1:
+        if names.count(name) != 1 or table.columns[names.index(name)][2] != 1:
             raise ModelError(f"must name {name} once, with one entry", field="FIELDS", value=names)
-    points = _ascii(header, names) if header.data == "ascii" else _binary(header, names)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        value = points[bad[0]].tolist()
-        raise ModelError("must be finite numbers", field=f"point {bad[0]}", value=value)
-    return points
+    return table_points(table, "DATA", "points")
 
 
-def _binary(header: Header, names: list[str]) -> NDArray[np.float64]:
-    # Names are not unique: PCL pads with fields that are all called "_".
-    point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(header.columns)])
-    held = len(header.body) // point.itemsize
-    if held < header.count:
-        raise ModelError(f"must hold {header.count} points", field="DATA", value=held)
-    table = np.frombuffer(header.body, dtype=point, count=header.count)
-    columns = [table[str(names.index(name))][:, 0] for name in "xyz"]
-    return np.stack([column.astype(np.float64) for column in columns], axis=1)
-
-
-def _ascii(header: Header, names: list[str]) -> NDArray[np.float64]:
-    starts = np.cumsum([0, *(n for _, _, n in header.columns)])
-    columns, width = [int(starts[names.index(name)]) for name in "xyz"], int(starts[-1])
-    points = ascii_points(header.body, header.line, columns, width, header.count)
-    if len(points) < header.count:
-        raise ModelError(f"must hold {header.count} points", field="DATA", value=len(points))
-    return points
-
-
-def _header(content: bytes) -> Header:
+def _table(content: bytes) -> PointTable:
     said: dict[str, list[str]] = {}
-    start, number = 0, 0
-    while "DATA" not in said:
-        end = content.find(b"\n", start)
-        if end < 0:
-            raise ModelError("must end with a line DATA", field="header")
-        words = content[start:end].decode("ascii", errors="replace").split()
-        start, number = end + 1, number + 1
+    for number, words, start in header_lines(content, "a line DATA"):
         if not words or words[0].startswith("#"):
             continue
         if words[0] not in _WORDS or words[0] in said:
             problem = f"must begin with one of {', '.join(_WORDS)}, each given once"
             raise ModelError(problem, field=f"line {number}", value=" ".join(words))
         said[words[0]] = words[1:]
+        if words[0] == "DATA":
+            body = content[start:]
+            break
     data = " ".join(said["DATA"])
     if data not in ("ascii", "binary"):
         raise ModelError("must be ascii or binary; convert the file", field="DATA", value=data)
-    columns = _columns(said)
-    return Header(columns, _count(said), data, content[start:], number + 1)
+    return PointTable(_columns(said), _count(said), data == "ascii", body, number + 1)
 
 
 def _columns(said: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:

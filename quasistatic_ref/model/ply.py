@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
-
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.text import ascii_points
+from quasistatic_ref.model.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.step.arrays import Array
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -19,32 +15,7 @@ _TYPES = {
 _FORMATS = ("ascii", "binary_little_endian")
 
 
-@dataclass(frozen=True)
-class Header:
-    """What the header says of the vertices.
-
-    Parameters
-    ----------
-    format : str
-        ``"ascii"`` or ``"binary_little_endian"``.
-    count : int
-        Number of vertices.
-    columns : tuple of (str, str)
-        Name and NumPy type of each property of a vertex.
-    body : bytes
-        What follows the header.
-    line : int
-        Line number at which the body starts.
-    """
-
-    format: str
-    count: int
-    columns: tuple[tuple[str, str], ...]
-    body: bytes
-    line: int
-
-
-def ply_points(content: bytes) -> NDArray[np.float64]:
+def ply_points(content: bytes) -> Array:
     """Vertex positions of a PLY file.
 
     Parameters
@@ -62,41 +33,18 @@ def ply_points(content: bytes) -> NDArray[np.float64]:
     ModelError
         If the header or a vertex is malformed, not finite, or missing.
     """
-    header = _header(content)
-    names = [name for name, _ in header.columns]
+    table = _table(content)
     for name in "xyz":
-        if names.count(name) != 1:
+        if table.names.count(name) != 1:
             problem = f"must have one property {name}"
-            raise ModelError(problem, field="element vertex", value=names)
-    if header.format == "ascii":
-        columns, width = [names.index(name) for name in "xyz"], len(names)
-        lines = ascii_points(header.body, header.line, columns, width, header.count)
-        if len(lines) < header.count:
-            raise ModelError(f"must hold {header.count} vertices", field="body", value=len(lines))
-        return lines
-    vertex = np.dtype(list(header.columns))
-    held = len(header.body) // vertex.itemsize
-    if held < header.count:
-        raise ModelError(f"must hold {header.count} vertices", field="body", value=held)
-    table = np.frombuffer(header.body, dtype=vertex, count=header.count)
-    points = np.stack([table[name].astype(np.float64) for name in "xyz"], axis=1)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        value = points[bad[0]].tolist()
-        raise ModelError("must be finite numbers", field=f"vertex {bad[0]}", value=value)
-    return points
+            raise ModelError(problem, field="element vertex", value=table.names)
+    return table_points(table, "body", "vertices")
 
 
-def _header(content: bytes) -> Header:
-    """Header of a PLY file; refuses what this reader cannot place."""
+def _table(content: bytes) -> PointTable:
+    """The vertices as the header describes them; refuses what this reader cannot place."""
     kind, count, columns, elements = "", 0, [], 0
-    start, number = 0, 0
-    while True:
-        end = content.find(b"\n", start)
-        if end < 0:
-            raise ModelError("must end with end_header", field="header")
-        words = content[start:end].decode("ascii", errors="replace").split()
-        start, number = end + 1, number + 1
+    for number, words, start in header_lines(content, "end_header"):
         where = f"line {number}"
         match words:
             case ["ply"] if number == 1:
@@ -104,6 +52,7 @@ def _header(content: bytes) -> Header:
             case _ if number == 1:
                 raise ModelError("must be the word ply", field=where, value=" ".join(words))
             case ["end_header"]:
+                body = content[start:]
                 break
             case ["format", name, "1.0"] if name in _FORMATS:
                 kind = name
@@ -119,7 +68,7 @@ def _header(content: bytes) -> Header:
                 pass
             case ["property", type_, name] if elements >= 1 and type_ in _TYPES:
                 if elements == 1:
-                    columns.append((name, _TYPES[type_]))
+                    columns.append((name, _TYPES[type_], 1))
             case _:
                 problem = f"is not understood (formats: {', '.join(_FORMATS)})"
                 raise ModelError(problem, field=where, value=" ".join(words))
@@ -127,6 +76,6 @@ def _header(content: bytes) -> Header:
         raise ModelError("must name a format", field="header")
     if not columns:
         raise ModelError("must have an element vertex with properties", field="header")
-    if len({name for name, _ in columns}) != len(columns):
+    if len({name for name, _, _ in columns}) != len(columns):
         raise ModelError("must name each property once", field="element vertex", value=columns)
-    return Header(kind, count, tuple(columns), content[start:], number + 1)
+    return PointTable(tuple(columns), count, kind == "ascii", body, number + 1)

@@ -150,11 +150,8 @@ class PointCloud(Plain):
     def __post_init__(self) -> None:
         points = np.asarray(self.points)
         if points.ndim != 2 or points.shape[0] < 1:
-            raise ModelError(
-                "must hold at least one point, as an array of shape (N, 3)",
-                field="points",
-                value=points.shape,
-            )
+            problem = "must hold at least one point, as an array of shape (N, 3)"
+            raise ModelError(problem, field="points", value=points.shape)
         freeze_array(self, "points", (points.shape[0], 3))
 
 

@@ -60,6 +60,8 @@ class System:
         About each link's centre of mass, along the axes of its frame [kg m^2].
     motion : Motion
         How links move with the coordinates.
+    texts : tuple of str
+        The URDF of each body.
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -94,13 +96,15 @@ class System:
         return hash(self.bodies)
 
     def _make(self, world: World) -> None:
-        self.bodies, self._world, self._model = world.bodies, world, world.model
-        self._workspace = Workspace(world.parts, world.part_frames)
+        self.bodies, self._world = world.bodies, world
+        self._model, parts, frames = world.models
+        self._workspace = Workspace(parts, frames)
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
         self._M_u: Array | None = None  # kept where it is the same at every q
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
+        self.texts = world.texts
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
         self.inertias = world.inertias
         for array in (self.masses, self.inertias):
@@ -112,7 +116,7 @@ class System:
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
-        self.n_q, self.n_v = int(world.model.nq), len(self.coordinates)
+        self.n_q, self.n_v = int(self._model.nq), len(self.coordinates)
         self.n_a = sum(coordinate.actuated for coordinate in self.coordinates)
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
@@ -120,8 +124,8 @@ class System:
         self.q_start.setflags(write=False)
         u = self._order.v[self.n_a :]
         self._un_actuated = np.ix_(u, u)
-        self.motion = Motion(world.model, world.frames, self._order)
-        self._M_u = self.M_u(self.q_start) if constant_mass(world.model, self.joints) else None
+        self.motion = Motion(self._model, world.frames, self._order)
+        self._M_u = self.M_u(self.q_start) if constant_mass(self._model, self.joints) else None
         self._check_inertia()
 
     @property

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf_file import UrdfFile, urdf_file
 from quasistatic_ref.model.urdf_inertia import checked_inertias, group_inertias
@@ -86,7 +86,7 @@ def loaded_urdf(
         If the file is not usable, or anything in it was not loaded as written.
     """
     file = urdf_file(path)
-    try:
+    with about_file(file.path):
         moving = _moving_joints(file, base)
         free = [] if actuated == "all" else [name for name in moving if name not in actuated]
         inertias = checked_inertias(file, free)
@@ -98,8 +98,6 @@ def loaded_urdf(
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
         shapes, meshes = checked_shapes(file, model, geometry, links, frames)
-    except ModelError as error:
-        raise error.in_file(file.path) from None
     return Urdf(file, text, base, model, links, shapes, (*inertias, *meshes))
 
 

@@ -8,20 +8,11 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError, about_file, suggestion
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
-from quasistatic_ref.model.urdf_xml import (
-    at_most_one,
-    attribute,
-    exactly_one,
-    frame,
-    ignored_children,
-    numbers,
-    only_attributes,
-    xml_root,
-)
+from quasistatic_ref.model.urdf_xml import Tag, xml_root
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
@@ -32,7 +23,14 @@ stack does."""
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _VERSIONS = ("1.0", "1.1", "1.2")
-_GEOMETRIES = ("box", "sphere", "cylinder", "capsule", "mesh")
+_GEOMETRIES = {
+    "box": ("size",),
+    "sphere": ("radius",),
+    "cylinder": ("radius", "length"),
+    "capsule": ("radius", "length"),
+    "mesh": ("filename", "scale"),
+}
+"""Shape -> its attributes."""
 
 
 Defect = tuple[str, str, object]
@@ -116,10 +114,8 @@ def urdf_file(given: str | Path) -> UrdfFile:
     else:
         path = Path(given)
         text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
-    try:
+    with about_file(path):
         return _content(path, text)
-    except ModelError as error:
-        raise error.in_file(path) from None
 
 
 def _content(path: Path, text: str) -> UrdfFile:
@@ -130,7 +126,7 @@ def _content(path: Path, text: str) -> UrdfFile:
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
-    ignored = ignored_children(robot, "robot", ("link", "joint"))
+    ignored = Tag(robot, "robot").ignored("link", "joint")
     links: dict[str, FileLink] = {}
     if len(robot.findall("link")) > MOST_LINKS:
         problem = f"holds more than {MOST_LINKS} links"
@@ -146,40 +142,32 @@ def _content(path: Path, text: str) -> UrdfFile:
 
 
 def _link(element: Element, ignored: list[str]) -> FileLink:
-    name = attribute(element, "link", "name")
-    where = f"link[{name}]"
-    ignored += ignored_children(element, where, ("inertial", "collision"))
-    mass, com, inertia, defect = _inertial(element, where, ignored)
+    name = Tag(element, "link").text("name")
+    link = Tag(element, f"link[{name}]")
+    ignored += link.ignored("inertial", "collision")
+    mass, com, inertia, defect = _inertial(link, ignored)
     collisions = []
-    for number, collision in enumerate(element.findall("collision")):
-        at = f"{where}.collision[{number}]"
-        ignored += ignored_children(collision, at, ("origin", "geometry"))
-        R, t = frame(collision, at)
-        collisions.append((_geometry(exactly_one(collision, at, "geometry"), at), R, t))
+    for number, each in enumerate(element.findall("collision")):
+        collision = Tag(each, f"{link.where}.collision[{number}]")
+        ignored += collision.ignored("origin", "geometry")
+        R, t = collision.frame()
+        collisions.append((_geometry(collision), R, t))
     return FileLink(name, mass, com, inertia, tuple(collisions), defect)
 
 
-def _inertial(
-    link: Element, where: str, ignored: list[str]
-) -> tuple[float, Array, Array, Defect | None]:
+def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None]:
     """Mass [kg], centre of mass (3,) [m], inertia (3, 3) [kg m^2] along the link's axes."""
-    element = at_most_one(link, where, "inertial")
-    if element is None:
+    inertial = link.perhaps("inertial")
+    if inertial is None:
         return 0.0, np.zeros(3), np.zeros((3, 3)), None
-    where = f"{where}.inertial"
-    ignored += ignored_children(element, where, ("origin", "mass", "inertia"))
-    R, com = frame(element, where)
-    child = exactly_one(element, where, "mass")
-    only_attributes(child, f"{where}.mass", ("value",))
-    mass = float(numbers(child, f"{where}.mass", "value", 1)[0])
+    ignored += inertial.ignored("origin", "mass", "inertia")
+    R, com = inertial.frame()
+    mass = inertial.child("mass", "value").number("value")
     if mass < 0:
-        raise ModelError("must not be negative", field=f"{where}.mass", value=mass)
-    child = exactly_one(element, where, "inertia")
+        raise ModelError("must not be negative", field=f"{inertial.where}.mass", value=mass)
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    only_attributes(child, f"{where}.inertia", names)
-    xx, yy, zz, xy, xz, yz = (
-        float(numbers(child, f"{where}.inertia", name, 1)[0]) for name in names
-    )
+    moments = inertial.child("inertia", *names)
+    xx, yy, zz, xy, xz, yz = (moments.number(name) for name in names)
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     defect = inertia_defect(inertia)
     if not mass > 0:
@@ -200,94 +188,78 @@ def inertia_defect(inertia: Array) -> Defect | None:
     return None
 
 
-def _geometry(element: Element, where: str) -> Solid | FileMesh:
-    if len(element) != 1:
-        tags = [child.tag for child in element]
-        raise ModelError("must hold exactly one shape", field=f"{where}.geometry", value=tags)
-    child = element[0]
-    where = f"{where}.{child.tag}"
-    if child.tag == "mesh":
-        only_attributes(child, where, ("filename", "scale"))
-        scale = numbers(child, where, "scale", 3, default=1.0)
+def _geometry(collision: Tag) -> Solid | FileMesh:
+    geometry = collision.child("geometry")
+    tags = [child.tag for child in geometry.element]
+    if len(tags) != 1:
+        raise ModelError("must hold exactly one shape", field=geometry.where, value=tags)
+    kind, shape = tags[0], Tag(geometry.element[0], f"{collision.where}.{tags[0]}")
+    if kind not in _GEOMETRIES:
+        raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
+    shape.only(*_GEOMETRIES[kind])
+    if kind == "mesh":
+        scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
-            raise ModelError("must not be zero", field=f"{where}.scale", value=scale.tolist())
-        return FileMesh(attribute(child, where, "filename").strip(), scale)
-    if child.tag not in _GEOMETRIES:
-        raise ModelError(f"is not a shape{suggestion(child.tag, _GEOMETRIES)}", field=where)
-    written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
+            raise ModelError("must not be zero", field=f"{shape.where}.scale", value=scale.tolist())
+        return FileMesh(shape.text("filename").strip(), scale)
     try:
-        if child.tag == "box":
-            only_attributes(child, where, ("size",))
-            return Box(numbers(child, where, "size", 3) / 2)
-        if child.tag == "sphere":
-            only_attributes(child, where, ("radius",))
-            return Sphere(float(numbers(child, where, "radius", 1)[0]))
-        only_attributes(child, where, ("radius", "length"))
-        kind = Capsule if child.tag == "capsule" else Cylinder
-        radius, length = (float(numbers(child, where, n, 1)[0]) for n in ("radius", "length"))
-        return kind(radius, length / 2)
+        if kind == "box":
+            return Box(shape.numbers("size", 3) / 2)
+        radius = shape.number("radius")
+        if kind == "sphere":
+            return Sphere(radius)
+        return (Capsule if kind == "capsule" else Cylinder)(radius, shape.number("length") / 2)
     except ModelError as error:
+        written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
         if error.field in written:  # about a size: name it as the file does
             name = written[error.field]
-            error.field, error.value = f"{where}.{name}", child.get(name)
+            error.field, error.value = f"{shape.where}.{name}", shape.element.get(name)
         raise
 
 
 def _joint(element: Element, ignored: list[str]) -> FileJoint:
-    name = attribute(element, "joint", "name")
-    where = f"joint[{name}]"
-    kind = attribute(element, where, "type")
+    name = Tag(element, "joint").text("name")
+    joint = Tag(element, f"joint[{name}]")
+    kind = joint.text("type")
     if kind != "fixed" and kind not in _MOVING:
         problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
         if kind == "floating":
             problem += ', or base = "floating" where the whole body floats'
-        raise ModelError(problem, field=f"{where}.type", value=kind)
-    read = ("origin", "parent", "child", "axis", "mimic")
-    ignored += ignored_children(element, where, read)
-    R, t = frame(element, where)
-    ends = []
-    for tag in ("parent", "child"):
-        end = exactly_one(element, where, tag)
-        only_attributes(end, f"{where}.{tag}", ("link",))
-        ends.append(attribute(end, f"{where}.{tag}", "link"))
+        raise ModelError(problem, field=f"{joint.where}.type", value=kind)
+    ignored += joint.ignored("origin", "parent", "child", "axis", "mimic")
+    R, t = joint.frame()
+    parent, child = (joint.child(end, "link").text("link") for end in ("parent", "child"))
     axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
-    child = at_most_one(element, where, "axis")
-    if child is not None and kind != "fixed":
-        only_attributes(child, f"{where}.axis", ("xyz",))
-        axis = numbers(child, f"{where}.axis", "xyz", 3)
+    written = joint.perhaps("axis")
+    if written is not None and kind != "fixed":
+        written.only("xyz")
+        axis = written.numbers("xyz", 3)
         length = float(np.hypot.reduce(axis))
         if not length > 0:
-            raise ModelError("must not be zero", field=f"{where}.axis.xyz", value=axis.tolist())
+            raise ModelError("must not be zero", field=f"{written.where}.xyz", value=axis.tolist())
         axis = axis / length
-    _check_limit(element, where, needed=kind in ("revolute", "prismatic"))
-    mimic = _mimic(element, where)
+    _check_limit(joint, needed=kind in ("revolute", "prismatic"))
+    mimic = _mimic(joint)
     if kind == "fixed" and mimic is not None:
-        ignored.append(f"{where}.mimic")
+        ignored.append(f"{joint.where}.mimic")
         mimic = None
-    return FileJoint(name, kind, ends[0], ends[1], R, t, axis, mimic)
+    return FileJoint(name, kind, parent, child, R, t, axis, mimic)
 
 
-def _check_limit(joint: Element, where: str, *, needed: bool) -> None:
+def _check_limit(joint: Tag, *, needed: bool) -> None:
     """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
-    limit = at_most_one(joint, where, "limit")
-    if limit is None:
-        if needed:
-            problem = (
-                "is missing: URDF asks for effort and velocity, though the model has no limits"
-            )
-            raise ModelError(problem, field=f"{where}.limit")
-        return
-    for name in ("effort", "velocity", "lower", "upper"):
-        default = 0.0 if name in ("lower", "upper") else None
-        numbers(limit, f"{where}.limit", name, 1, default, most=np.inf)
+    limit = joint.perhaps("limit")
+    if limit is None and needed:
+        problem = "is missing: URDF asks for effort and velocity, though the model has no limits"
+        raise ModelError(problem, field=f"{joint.where}.limit")
+    if limit is not None:
+        for name in ("effort", "velocity", "lower", "upper"):
+            limit.number(name, 0.0 if name in ("lower", "upper") else None, most=np.inf)
 
 
-def _mimic(joint: Element, where: str) -> Mimic | None:
-    child = at_most_one(joint, where, "mimic")
-    if child is None:
+def _mimic(joint: Tag) -> Mimic | None:
+    mimic = joint.perhaps("mimic", "joint", "multiplier", "offset")
+    if mimic is None:
         return None
-    where = f"{where}.mimic"
-    only_attributes(child, where, ("joint", "multiplier", "offset"))
-    multiplier = float(numbers(child, where, "multiplier", 1, default=1.0)[0])
-    offset = float(numbers(child, where, "offset", 1, default=0.0)[0])
-    return Mimic(attribute(child, where, "joint"), multiplier, offset)
+    multiplier, offset = mimic.number("multiplier", 1.0), mimic.number("offset", 0.0)
+    return Mimic(mimic.text("joint"), multiplier, offset)

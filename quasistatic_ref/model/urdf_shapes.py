@@ -9,7 +9,7 @@ from xml.etree.ElementTree import tostring
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.mesh_files import hull_note, hull_of_loaded, mesh_path
 from quasistatic_ref.model.shapes import PlacedShape, Solid
 from quasistatic_ref.model.urdf_file import FileMesh, UrdfFile
@@ -35,11 +35,8 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
             link.remove(ignored)
         for count, collision in enumerate(link.findall("collision")):
             for mesh in collision.findall("geometry/mesh"):
-                try:
+                with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
                     path = mesh_path(mesh.get("filename", ""), file.path.parent, package_dirs)
-                except ModelError as error:
-                    error.field = f"link[{link.get('name')}].collision[{count}].mesh.filename"
-                    raise
                 mesh.set("filename", str(path))
     return tostring(robot, encoding="unicode")
 
@@ -90,8 +87,5 @@ def _solid(shape: Solid | FileMesh, given: Any, where: str) -> Any:
         return shape if same else None
     if not hasattr(given.geometry, "tri_indices") or (given.meshScale != shape.scale).any():
         return None
-    try:
+    with about_field(f"{where}.mesh.vertices"):
         return hull_of_loaded(given.geometry)
-    except ModelError as error:
-        error.field = f"{where}.mesh.{error.field}"
-        raise

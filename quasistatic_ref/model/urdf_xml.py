@@ -7,13 +7,13 @@ attribute, a number with a tail.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Collection
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError, about_field, suggestion
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.text import decimal
 from quasistatic_ref.step.arrays import Array
@@ -66,111 +66,111 @@ def xml_root(text: str) -> Element:
     return builder.close()
 
 
-def only_attributes(element: Element, where: str, known: Collection[str]) -> None:
-    """Refuse an attribute that nothing would read, with a ModelError."""
-    for name in element.attrib:
-        if name not in known:
-            raise ModelError(f"is unknown{suggestion(name, known)}", field=f"{where}.{name}")
-
-
-def attribute(element: Element, where: str, name: str) -> str:
-    """Text of an attribute; ModelError unless it is there and not blank."""
-    value = element.get(name)
-    if value is None or not value.strip():
-        raise ModelError("is missing", field=f"{where}.{name}")
-    return value
-
-
-def numbers(
-    element: Element,
-    where: str,
-    name: str,
-    count: int,
-    default: float | None = None,
-    most: float = LARGE,
-) -> Array:
-    """Finite numbers in one attribute, shape (count,).
+@dataclass(frozen=True)
+class Tag:
+    """An element, with what it is called in messages.
 
     Parameters
     ----------
     element : Element
     where : str
-        Name of the element in messages.
-    name : str
-        The attribute.
-    count : int
-        How many numbers it must hold.
-    default : float, optional
-        Each number, where the attribute is missing; without it that is an error [its unit].
-    most : float
-        Largest absolute value: beyond it squares and products overflow [its unit].
-
-    Raises
-    ------
-    ModelError
-        If there are others, or they are no such numbers.
+        E.g. ``link[base].inertial``.
     """
-    if default is not None and name not in element.attrib:
-        return np.full(count, default)
-    words = attribute(element, where, name).split()
-    field = f"{where}.{name}"
-    if len(words) != count:
-        problem = f"must be {count} number{'s' if count > 1 else ''}"
-        raise ModelError(problem, field=field, value=element.get(name))
-    try:
-        values = np.array([decimal(word) for word in words])
-    except ModelError as error:
-        error.field = field
-        raise
-    if np.abs(values).max() > most:
-        raise ModelError(f"must be at most {most:g}", field=field, value=element.get(name))
-    return values
 
+    element: Element
+    where: str
 
-def at_most_one(element: Element, where: str, tag: str) -> Element | None:
-    """The child of that name, or None; two are a ModelError, since urdfdom reads the first only."""
-    found = element.findall(tag)
-    if len(found) > 1:
-        raise ModelError("is given more than once", field=f"{where}.{tag}", value=len(found))
-    return found[0] if found else None
+    def text(self, name: str) -> str:
+        """Text of an attribute; ModelError unless it is there and not blank."""
+        value = self.element.get(name)
+        if value is None or not value.strip():
+            raise ModelError("is missing", field=f"{self.where}.{name}")
+        return value
 
+    def numbers(
+        self, name: str, count: int, default: float | None = None, most: float = LARGE
+    ) -> Array:
+        """Finite numbers in one attribute, shape (count,).
 
-def exactly_one(element: Element, where: str, tag: str) -> Element:
-    """The only child of that name; a missing one is a ModelError."""
-    found = at_most_one(element, where, tag)
-    if found is None:
-        raise ModelError("is missing", field=f"{where}.{tag}")
-    return found
+        Parameters
+        ----------
+        name : str
+            The attribute.
+        count : int
+            How many numbers it must hold.
+        default : float, optional
+            Each number, where the attribute is missing; without it that is an error [its unit].
+        most : float
+            Largest absolute value: beyond it squares and products overflow [its unit].
 
+        Raises
+        ------
+        ModelError
+            If there are others, or they are no such numbers.
+        """
+        if default is not None and name not in self.element.attrib:
+            return np.full(count, default)
+        text, field = self.text(name), f"{self.where}.{name}"
+        if len(text.split()) != count:
+            problem = f"must be {count} number{'s' if count > 1 else ''}"
+            raise ModelError(problem, field=field, value=text)
+        with about_field(field):
+            values = np.array([decimal(word) for word in text.split()])
+        if np.abs(values).max() > most:
+            raise ModelError(f"must be at most {most:g}", field=field, value=text)
+        return values
 
-def ignored_children(element: Element, where: str, read: Collection[str]) -> list[str]:
-    """Names of the children that are not read; ModelError if one looks like a misprint."""
-    ignored = []
-    for child in element:
-        if child.tag in read:
-            continue
-        if child.tag.startswith("xacro:"):
-            problem = "is a macro: expand the file with xacro first"
-            raise ModelError(problem, field=f"{where}.{child.tag}")
-        near = difflib.get_close_matches(child.tag, list(read), n=1, cutoff=0.8)
-        if near:
-            problem = f"is unknown; did you mean {near[0]!r}?"
-            raise ModelError(problem, field=f"{where}.{child.tag}")
-        name = f"{where}.{child.tag}"
-        if name not in ignored:
+    def number(self, name: str, default: float | None = None, most: float = LARGE) -> float:
+        """The one number of an attribute [its unit], as :meth:`numbers` reads it."""
+        return float(self.numbers(name, 1, default, most)[0])
+
+    def only(self, *known: str) -> None:
+        """Refuse an attribute that nothing would read, with a ModelError."""
+        for name in self.element.attrib:
+            if name not in known:
+                field = f"{self.where}.{name}"
+                raise ModelError(f"is unknown{suggestion(name, known)}", field=field)
+
+    def perhaps(self, tag: str, *attributes: str) -> Tag | None:
+        """The child of that name, with no other `attributes` where some are given; or None.
+
+        Two are a ModelError, since urdfdom reads the first only.
+        """
+        found, where = self.element.findall(tag), f"{self.where}.{tag}"
+        if len(found) > 1:
+            raise ModelError("is given more than once", field=where, value=len(found))
+        child = Tag(found[0], where) if found else None
+        if child is not None and attributes:
+            child.only(*attributes)
+        return child
+
+    def child(self, tag: str, *attributes: str) -> Tag:
+        """The only child of that name; a missing one is a ModelError."""
+        found = self.perhaps(tag, *attributes)
+        if found is None:
+            raise ModelError("is missing", field=f"{self.where}.{tag}")
+        return found
+
+    def ignored(self, *read: str) -> list[str]:
+        """Names of the children that are not read; ModelError if one looks like a misprint."""
+        ignored = []
+        for tag in (child.tag for child in self.element if child.tag not in read):
+            name = f"{self.where}.{tag}"
+            if tag.startswith("xacro:"):
+                raise ModelError("is a macro: expand the file with xacro first", field=name)
+            near = difflib.get_close_matches(tag, read, n=1, cutoff=0.8)
+            if near:
+                raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
             ignored.append(name)
-    return ignored
+        return list(dict.fromkeys(ignored))
 
+    def frame(self) -> tuple[Array, Array]:
+        """Rotation (3, 3) and origin (3,) [m] of the child ``origin``; the identity without one.
 
-def frame(element: Element, where: str) -> tuple[Array, Array]:
-    """Rotation (3, 3) and origin (3,) [m] of the child ``origin``; the identity without one.
-
-    R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent.
-    """
-    origin = at_most_one(element, where, "origin")
-    if origin is None:
-        return np.eye(3), np.zeros(3)
-    where = f"{where}.origin"
-    only_attributes(origin, where, ("xyz", "rpy"))
-    rpy = numbers(origin, where, "rpy", 3, default=0.0)
-    return rotation(rpy), numbers(origin, where, "xyz", 3, default=0.0)
+        R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent.
+        """
+        origin = self.perhaps("origin", "xyz", "rpy")
+        if origin is None:
+            return np.eye(3), np.zeros(3)
+        rpy = origin.numbers("rpy", 3, default=0.0)
+        return rotation(rpy), origin.numbers("xyz", 3, default=0.0)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.coordinates import MimicJoint, ModelJoint, joint_key
+from quasistatic_ref.model.coordinates import Joint, MimicJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
@@ -24,16 +25,15 @@ from quasistatic_ref.step.arrays import Array
 class World(Plain):
     """Several bodies in one pinocchio model.
 
-    Copies and pickles hold the texts of the URDFs, of which the models are made once more:
-    pinocchio's own pickles lose which joint a mimic follows, and crash.
+    It holds the texts of the URDFs, of which :attr:`models` are made: pinocchio's own pickles lose
+    which joint a mimic follows, and crash.
 
     Parameters
     ----------
     bodies : tuple of Body
     texts : tuple of str
         The URDF of each.
-    model : pinocchio.Model
-    joints : tuple of ModelJoint
+    joints : tuple of Joint
         Those with coordinates of their own, numbered as pinocchio does.
     mimics : tuple of MimicJoint
     links : tuple of str
@@ -45,10 +45,6 @@ class World(Plain):
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
-    parts : tuple of pinocchio.Model
-        The same bodies in groups, to be computed with.
-    part_frames : tuple of list of int
-        The frame of each link, group by group.
     roots : dict of str to int
         Number of each body's root link.
     start : ndarray, shape (n_q,)
@@ -61,10 +57,7 @@ class World(Plain):
 
     bodies: tuple[Body, ...]
     texts: tuple[str, ...]
-    model: Any = field(compare=False)
-    parts: tuple[Any, ...] = field(compare=False)
-    part_frames: tuple[list[int], ...] = field(compare=False)
-    joints: tuple[ModelJoint, ...]
+    joints: tuple[Joint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
     frames: tuple[int, ...]
@@ -76,18 +69,11 @@ class World(Plain):
     ignored: tuple[str, ...]
     notes: tuple[str, ...]
 
-    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        values, locked = super().__getstate__()
-        return {key: values[key] for key in values if key not in MODELS}, locked
-
-    def __setstate__(self, state: tuple[dict[str, Any], list[str]]) -> None:
-        super().__setstate__(state)
+    @cached_property
+    def models(self) -> tuple[Any, list[Any], list[list[int]]]:
+        """All bodies in one pinocchio model; the same in groups, and the frames of their links."""
         own = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
-        for key, value in zip(MODELS, _joined(self.bodies, own, self.links), strict=True):
-            object.__setattr__(self, key, value)
-
-
-MODELS = ("model", "parts", "part_frames")
+        return _joined(self.bodies, own, self.links)
 
 
 def world_of(bodies: Sequence[Body]) -> World:
@@ -117,18 +103,15 @@ def world_of(bodies: Sequence[Body]) -> World:
         inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
-    model, parts, part_frames = _joined(bodies, [urdf.model for urdf in urdfs.values()], links)
+    model, _, _ = _joined(bodies, [urdf.model for urdf in urdfs.values()], links)
     joints, start = [], pin.neutral(model)
     for body in bodies:
         for joint, position in _joints(body, urdfs[body.name], model):
             joints.append(joint)
-            start[joint.q[0] : sum(joint.q)] = position
+            start[joint.q] = position
     return World(
         bodies=tuple(bodies),
         texts=tuple(urdf.text for urdf in urdfs.values()),
-        model=model,
-        parts=parts,
-        part_frames=part_frames,
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
@@ -145,7 +128,7 @@ def world_of(bodies: Sequence[Body]) -> World:
 
 def _joined(
     bodies: Sequence[Body], models: Sequence[Any], links: Sequence[str]
-) -> tuple[Any, tuple[Any, ...], tuple[list[int], ...]]:
+) -> tuple[Any, list[Any], list[list[int]]]:
     """All bodies in one model; the same in parts; and the frames of the links of each part."""
     model, parts, names = pin.Model(), [pin.Model()], [list[str]()]
     for body, own in zip(bodies, models, strict=True):
@@ -159,7 +142,7 @@ def _joined(
     frames = [
         [body_frame(part, link) for link in some] for part, some in zip(parts, names, strict=True)
     ]
-    return model, tuple(parts), tuple(frames)
+    return model, parts, frames
 
 
 def _prefixed(model: Any, name: str) -> Any:
@@ -211,7 +194,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
 
 
-def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]]:
+def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
     """Joints with coordinates of one body, each with its start."""
     kinds = {} if urdf.base == "fixed" else {BASE: urdf.base}
     kinds |= {j.name: j.kind for j in urdf.file.joints if j.kind != "fixed" and j.mimic is None}
@@ -231,9 +214,12 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[ModelJoint, Array]
         else:
             start = np.array([position])
         actuated = body.actuated == "all" or name in body.actuated
-        entries = (joint.idx_q, joint.nq), (joint.idx_v, joint.nv)
+        q, v = (
+            slice(joint.idx_q, joint.idx_q + joint.nq),
+            slice(joint.idx_v, joint.idx_v + joint.nv),
+        )
         limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
-        found.append((ModelJoint(f"{body.name}/{name}", kind, actuated, *entries, limits), start))
+        found.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
     return found
 
 
@@ -246,12 +232,7 @@ def _limits(model: Any, joint: Any) -> tuple[float, float] | None:
 
 def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:
     return [
-        MimicJoint(
-            f"{body}/{joint.name}",
-            f"{body}/{joint.mimic.of}",
-            joint.mimic.multiplier,
-            joint.mimic.offset,
-        )
+        MimicJoint(f"{body}/{joint.name}", f"{body}/{m.of}", m.multiplier, m.offset)
         for joint in urdf.file.joints
-        if joint.mimic is not None
+        if (m := joint.mimic)
     ]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ScenarioError, suggestion
+from quasistatic_ref.errors import ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
@@ -16,11 +16,9 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.paths import path_in, shared_folders
-from quasistatic_ref.simulate.tables import BODY, WRENCH, check_names
+from quasistatic_ref.simulate.tables import BODY, WRENCH, ZERO, check_names, pose
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
-
-ZERO = np.zeros(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +93,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
             raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
         actuated = tuple(actuated)
-    xyz, rpy = _pose(table.table("pose", {}))
+    xyz, rpy = pose(table.table("pose", {}))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
     package_dirs = table.sequence("package_dirs", [])
@@ -144,13 +142,15 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
         whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
         block = whole.array("K_q", (len(index), len(index)))
-        K_q[np.ix_(index, index)] = _positive_definite(block, table.name("K_q"))
+        positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
+        K_q[np.ix_(index, index)] = block
         return
     given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
     given.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(given, entry.short(joint), joint)
-        K_q[joint.v, joint.v] = _positive_definite(block, given.name(entry.short(joint)))
+        positive_definite(given.name(entry.short(joint)), block)
+        K_q[joint.v, joint.v] = block
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -169,7 +169,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
             if joints[name].kind == "floating":
-                xyz, rpy = _pose(waypoint.table(name))
+                xyz, rpy = pose(waypoint.table(name))
                 value: Any = np.concatenate([xyz, quaternion(rpy)])
             elif joints[name].kind == "planar":
                 value = _planar(waypoint, name, entry.body)
@@ -199,29 +199,12 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
 
 def _planar(waypoint: Fields, name: str, body: Body) -> Array:
     """Entries of q of a planar base, from the same table as a floating one's."""
-    pose = waypoint.table(name)
-    xyz, rpy = pose.array("xyz", (3,), np.array(body.xyz)), pose.array("rpy", (3,), ZERO)
-    pose.close()
+    xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
     height = float(np.asarray(body.xyz)[2])
     if xyz[2] != height or rpy[:2].any():
         problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
         raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
     return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
-
-
-def _positive_definite(block: Array, field: str) -> Array:
-    """The block as it is, refused here rather than in the first step."""
-    try:
-        positive_definite(field, block)
-    except InputError as error:
-        raise ScenarioError(error.problem, field=field, value=error.value) from None
-    return block
-
-
-def _pose(table: Fields) -> tuple[Array, Array]:
-    xyz, rpy = table.array("xyz", (3,), ZERO), table.array("rpy", (3,), ZERO)
-    table.close()
-    return xyz, rpy
 
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:
@@ -232,9 +215,7 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
         times.append(one.number("t"))
         if not {"force", "torque"} & set(one.names()):
             raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
-        values.append(
-            np.concatenate([one.array("force", (3,), ZERO), one.array("torque", (3,), ZERO)])
-        )
+        values.append(np.concatenate([one.array(key, (3,), ZERO) for key in ("force", "torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():

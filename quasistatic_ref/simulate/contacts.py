@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, ScenarioError, suggestion
+from quasistatic_ref.errors import ScenarioError, about_field, suggestion
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.shapes import PlacedShape
@@ -56,9 +56,7 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
         table = tables.table(name)
         check_names(table, CONTACT)
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
-        rows = table.integer("rows", 6)
-        if rows not in (4, 6):
-            raise table.fail("rows", "must be 4 or 6", rows)
+        rows = table.integer("rows", 6, choices=(4, 6))
         mu_v = table.number("mu_v", least=0.0)
         mu_omega = table.number("mu_omega", *([0.0] if rows == 4 else []), least=0.0)
         if rows == 4 and mu_omega > 0:
@@ -68,11 +66,8 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"
-                try:
+                with about_field(table.where):
                     pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull))
-                except InputError as error:
-                    error.field = table.where
-                    raise
     tables.close()
     return tuple(pairs)
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.mesh_files import PACKAGE
 
@@ -41,17 +40,17 @@ def path_in(folder: Path, table: Fields, field: str) -> Path | None:
         return None
     if not text.strip():
         raise table.fail(field, "must name a file", text)
-    if text.startswith(PACKAGE):
-        return _installed(table, field, text)
     path = folder / text
-    if isinstance(text, OwnWord):
-        return path
     try:
-        inside = path.resolve().is_relative_to(folder.resolve())
+        if text.startswith(PACKAGE):
+            return _installed(table, field, text)
+        inside = isinstance(text, OwnWord) or path.resolve().is_relative_to(folder.resolve())
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
         raise table.fail(field, f"cannot be a path: {error}", text) from None
     if not inside:
-        raise _leaves(table, field, text)
+        remedy = "put the file there, or give the path on the command line, as --set "
+        remedy += f"{table.name(field)}=PATH"
+        raise table.fail(field, f"leaves the scenario's folder; {remedy}", text)
     return path
 
 
@@ -66,24 +65,11 @@ def _shared() -> list[Path]:
 
 def _installed(table: Fields, field: str, text: str) -> Path:
     name, _, inside = text.removeprefix(PACKAGE).partition("/")
-    try:
-        for shared in _shared():
-            path, package = shared / name / inside, (shared / name).resolve()
-            if path.is_file() and package.parent == shared.resolve():
-                if path.resolve().is_relative_to(package):
-                    return path
-                raise table.fail(field, "leads out of the package", text)
-    except (ValueError, RuntimeError, OSError) as error:
-        raise table.fail(field, f"cannot be a path: {error}", text) from None
+    for shared in _shared():
+        path, package = shared / name / inside, (shared / name).resolve()
+        if path.is_file() and package.parent == shared.resolve():
+            if path.resolve().is_relative_to(package):
+                return path
+            raise table.fail(field, "leads out of the package", text)
     remedy = "robots come with pip install 'quasistatic-ref[robots]'"
     raise table.fail(field, f"is no file of an installed package; {remedy}", text)
-
-
-def _leaves(table: Fields, field: str, text: str) -> ScenarioError:
-    name = table.name(field)
-    return ScenarioError(
-        "leaves the scenario's folder; put the file there, or give the path on the command line, "
-        f"as --set {name}=PATH",
-        field=name,
-        value=text,
-    )

@@ -19,8 +19,8 @@ PER_STEP = (
 )  # fmt: skip
 PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
 """What a full record adds, step by step."""
-EXTRA = ("extra_A", "extra_b")
-"""What it adds for the rows of an extension, whose names the header lists."""
+EXTRA = ("lam_extra", "extra_A", "extra_b")
+"""What the rows of an extension add: the multipliers, and to a full record the rows."""
 
 
 def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,15 +16,23 @@ from quasistatic_ref.simulate.artifacts import (
     quasi_dynamic_number,
     warning,
 )
-from quasistatic_ref.simulate.record import CONSTANT, RECORDS
+from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.simulate.watch import doubtful_units, watched
 from quasistatic_ref.simulate.wrenches import Scene
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator, StepResult
+
+PACKED = 1000
+"""Steps that are kept one by one before they become arrays, which take less memory."""
+SECONDS = "seconds."
+"""What the names of wall times begin with."""
+
+Part = dict[str, NDArray[Any]]
+"""Arrays over some steps that follow one another."""
 
 
 class Recorder:
@@ -38,6 +47,15 @@ class Recorder:
     record : str
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
 
+    Attributes
+    ----------
+    steps : int
+        Number of steps so far.
+    start, q : ndarray, shape (n_q,)
+        Where the run started, and where it is.
+    parts : list of dict
+        The steps so far but for the latest ones, see :meth:`packed`.
+
     Raises
     ------
     InputError
@@ -49,22 +67,17 @@ class Recorder:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.scene = Scene(simulator.system, simulator.pairs)
         self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
-        self.cone, self.record = simulator.cone, record
-        self.q, self.g = [self.system.checked(q)], float(np.linalg.norm(simulator.gravity))
+        self.cone, self.layout, self.record = simulator.cone, simulator.layout, record
+        self.start, self.g = self.system.checked(q), float(np.linalg.norm(simulator.gravity))
+        self.q, self.steps = self.start, 0
         self.extra: tuple[str, ...] = ()
-        self.Pi: float | None = None
-        self.drag: float | None = None
-        self.layer = 0.0
-        self.gap: list[Array] = []
-        self.rows: list[dict[str, Any]] = []
-        self.names: list[tuple[str, ...]] = []
-        self.seconds: list[dict[str, float]] = []
-        self.constant: dict[str, NDArray[Any]] = {}
+        self.parts: list[Part] = []
+        self._rows: list[dict[str, Any]] = []
 
     @property
     def t(self) -> float:
         """End of the step that comes next [s]."""
-        return (len(self.rows) + 1) * self.h
+        return (self.steps + 1) * self.h
 
     def add(self, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded.
@@ -76,12 +89,7 @@ class Recorder:
         result : StepResult
         """
         step, solution, points = result.step, result.solution, result.points
-        self.Pi = _larger(
-            self.Pi, quasi_dynamic_number(self.system, step, solution.delta_q, self.g)
-        )
-        self.drag = _larger(self.drag, drag_share(self.system, step, solution, self.g))
-        self.gap.append(gap_after(step, solution))
-        self.layer = max(self.layer, boundary_layer(self.gap[-1], solution))
+        gap = gap_after(step, solution)
         row: dict[str, Any] = {
             "t": self.t,
             "delta_q": solution.delta_q,
@@ -98,25 +106,57 @@ class Recorder:
             "certificate": solution.certificate.kind,
             "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
             "digits": _or_nan(solution.statistics.digits),
+            "q": result.q,
+            "tau": np.concatenate([step.tau_a, step.tau_u]),
+            "gap": gap,
+            "Pi": _or_nan(quasi_dynamic_number(self.system, step, solution.delta_q, self.g)),
+            "drag": _or_nan(drag_share(self.system, step, solution, self.g)),
+            "layer": boundary_layer(gap, solution),
         }
+        row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
         if self.record == "full":
-            form = standard_form(step)
-            row |= {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
-            for key in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
-                row[key] = getattr(step, key)
+            row |= program(step)
         if step.extra.names:
             row["lam_extra"] = solution.lam_extra
-            if self.record == "full":
-                row |= {"extra_A": step.extra.A, "extra_b": step.extra.b}
         self.extra = step.extra.names
-        self.rows.append(row)
-        self.q.append(result.q)
-        self.names.append(step.contacts.name)
-        self.seconds.append(result.seconds)
-        self.constant = {key: getattr(step.contacts, key) for key in CONSTANT}
+        self._rows.append(row)
+        self.q = result.q
+        self.steps += 1
+        if len(self._rows) == PACKED:
+            self.packed()
+
+    def packed(self) -> list[Part]:
+        """All steps so far as arrays, in parts: those added since the call before are the last."""
+        if self._rows:
+            self.parts.append(
+                {key: np.array([r[key] for r in self._rows]) for key in self._rows[0]}
+            )
+            self._rows = []
+        return self.parts
+
+    def take(self, part: Part, extra: tuple[str, ...]) -> None:
+        """Add steps that were taken before, as :meth:`packed` gave them.
+
+        Parameters
+        ----------
+        part : dict of str to ndarray
+            Of the notation's shape and unit, behind a first axis, the step [-].
+        extra : tuple of str
+            Names of an extension's rows.
+        """
+        self.parts.append(part)
+        self.extra, self.q = extra, part["q"][-1]
+        self.steps += len(part["q"])
 
     def trajectory(self, failed: str | None = None) -> Trajectory:
         """Everything recorded so far."""
+        parts = self.packed()
+        all_of = {key: _joined(parts, key) for key in (parts[0] if parts else ())}
+        names: tuple[str, ...] = (*PER_STEP, *PROGRAM, *EXTRA)
+        arrays = {key: all_of[key] for key in names if key in all_of} or {
+            key: np.zeros(0) for key in ("t", "delta_q", "worst_residual")
+        }
+        full = self.steps and self.record == "full"
         header: dict[str, Any] = {
             "format": FORMAT,
             "version": VERSION,
@@ -128,36 +168,51 @@ class Recorder:
             "n_a": self.system.n_a,
             "n_u": self.system.n_u,
             "coordinates": [c.name for c in self.system.coordinates],
-            "steps": len(self.rows),
+            "steps": self.steps,
             "failed": failed,
-            "quasi_dynamic_number": self.Pi,
-            "largest_drag_share": self.drag,
-            "largest_boundary_layer": self.layer,
-            "contacts": self.names if self.record == "full" else [],
+            "quasi_dynamic_number": _largest(all_of, "Pi"),
+            "largest_drag_share": _largest(all_of, "drag"),
+            "largest_boundary_layer": _largest(all_of, "layer") or 0.0,
+            "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
         }
-        keys = self.rows[0] if self.rows else ("t", "delta_q", "worst_residual")
-        arrays = {key: _stacked([row[key] for row in self.rows]) for key in keys}
-        constant = self.constant or {key: np.zeros(0) for key in CONSTANT}
-        parts = self.seconds[0] if self.seconds else {}
-        seconds = {part: np.array([s[part] for s in self.seconds]) for part in parts}
-        arrays = {"q": np.array(self.q), **arrays, **constant}
+        constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
+        q = np.concatenate([self.start[None], all_of.get("q", np.zeros((0, len(self.start))))])
+        arrays = {"q": q + 0.0, **arrays, **constant}
         drags = warning(header)
         header["warnings"] = [] if drags is None else [drags]
-        if self.rows:
-            header["warnings"] += watched(self.scene, arrays, np.array(self.gap))
+        if self.steps:
+            header["warnings"] += watched(self.scene, arrays, all_of["gap"])
         else:  # it failed in its first step, for which a unit may be the reason
             header["warnings"] += doubtful_units(self.scene)
+        seconds = {k.removeprefix(SECONDS): all_of[k] for k in all_of if k.startswith(SECONDS)}
         return Trajectory(header, arrays, seconds, self.scene)
 
 
-def _stacked(values: list[Any]) -> NDArray[Any]:
+def program(step: StepData) -> dict[str, Array]:
+    """What a full record adds to a step: the quadratic program, and what that is made of.
+
+    Returns
+    -------
+    dict of str to ndarray, shape as in the notation
+        By the notation's names [in its units].
+    """
+    form = standard_form(step)
+    row = {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
+    row |= {key: getattr(step, key) for key in PROGRAM if key not in row}
+    if step.extra.names:
+        row |= {"extra_A": step.extra.A, "extra_b": step.extra.b}
+    return row
+
+
+def _joined(parts: list[Part], key: str) -> NDArray[Any]:
     """One array of all steps, in which zero is 0.0, never -0.0."""
-    array = np.array(values)
+    array = np.concatenate([part[key] for part in parts])
     return array + 0.0 if array.dtype == np.float64 else array
 
 
-def _larger(x: float | None, y: float | None) -> float | None:
-    return max((value for value in (x, y) if value is not None), default=None)
+def _largest(arrays: Mapping[str, NDArray[Any]], key: str) -> float | None:
+    known = [x for x in arrays.get(key, np.zeros(0)).tolist() if not np.isnan(x)]
+    return max(known, default=None)
 
 
 def _or_nan(value: float | None) -> float:

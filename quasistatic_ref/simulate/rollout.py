@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
@@ -11,11 +12,18 @@ from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.resume import resumed, start_cold
+from quasistatic_ref.simulate.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
+
+STRETCH = 1000
+"""Steps after which the solver starts cold: what it keeps of earlier steps decides the last bits of
+multipliers, and of answers that are not certified, and a run that is resumed has to make it again.
+"""
 
 
 def rollout(
@@ -27,6 +35,9 @@ def rollout(
     force: Force | None = None,
     record: str = "full",
     progress: bool = True,
+    save: str | Path | None = None,
+    save_every: float = EVERY,
+    resume: bool = False,
 ) -> Trajectory:
     """Step after step, recorded.
 
@@ -47,8 +58,17 @@ def rollout(
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there, at the end of a complete run, what it warns of
+        there, at the end of a run, what it warns of
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
+    save : str or Path, optional
+        The trajectory's file, written when the run ends, also when it ends early. While the run
+        goes on, its steps are saved in a folder beside that file; see
+        :class:`~quasistatic_ref.simulate.saved.SavedRun`.
+    save_every : float
+        Time between two saves [s].
+    resume : bool
+        Whether to go on from the steps that are saved there, if there are any. The result has the
+        bits of a run that was never interrupted, if target and force are functions of (t, q) alone.
 
     Returns
     -------
@@ -57,19 +77,31 @@ def rollout(
     Raises
     ------
     InputError
-        If the target or the force takes other arguments than these, or q is no configuration.
+        If the target or the force takes other arguments than these, or q is no configuration; if
+        the saved steps are of another run, or there are some and `resume` is not asked for.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
     """
     recorder = Recorder(simulator, q, record)
-    q = recorder.q[0]
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     pushed = force_function(simulator.system, force)
-    bar: Iterable[int] = progress_bar(range(steps), unit="step", shown=progress)
+    saved = None
+    if save is not None:
+        saved = SavedRun(save, run_settings(simulator, recorder.start, record), save_every)
+        if resume:
+            resumed(saved, recorder, simulator, q_bar_a, pushed, steps, STRETCH)
+        else:
+            saved.check_none()
+    left = range(recorder.steps, steps)
+    bar: Iterable[int] = progress_bar(
+        left, unit="step", total=steps, done=left.start, shown=progress
+    )
     with Interrupt() as interrupt:
         for k in bar:
-            t = recorder.t
+            t, q = recorder.t, recorder.q
+            if k % STRETCH == 0:
+                start_cold(simulator)
             try:
                 interrupt.check()
                 goal = q_bar_a(t, q)
@@ -78,11 +110,30 @@ def rollout(
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
-                raise RunFailed(reason, recorder.trajectory(reason), step) from failure
+                trajectory = _ended(recorder, saved, progress, reason, interrupted)
+                raise RunFailed(reason, trajectory, step) from failure
             recorder.add(goal, result)
-            q = result.q
-    trajectory = recorder.trajectory()
-    if progress:
+            if saved is not None:
+                saved.save_in_time(recorder)
+    return _ended(recorder, saved, progress)
+
+
+def _ended(
+    recorder: Recorder,
+    saved: SavedRun | None,
+    told: bool,
+    failed: str | None = None,
+    interrupted: bool = False,
+) -> Trajectory:
+    """The trajectory, written where it is to be saved, and its warnings printed."""
+    trajectory = recorder.trajectory(failed)
+    if told:
         for sentence in trajectory.warnings:
             print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    if saved is not None:
+        if interrupted:
+            saved.save_last(recorder)
+        trajectory.save(saved.path)
+        if not interrupted:
+            saved.remove()
     return trajectory

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import BackendError, InputError, ScenarioError
+from quasistatic_ref.errors import BackendError, ScenarioError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.system import System
@@ -120,8 +120,21 @@ class Scenario(Plain):
             return None
         return lambda t, q: np.sum([w.force(self.system, t, q) for w in self.wrenches], axis=0)
 
-    def run(self, progress: bool = True) -> Trajectory:
-        """Simulate the whole scenario; raises RunFailed where a step fails."""
+    def run(self, progress: bool = True, **saving: Any) -> Trajectory:
+        """Simulate the whole scenario.
+
+        Parameters
+        ----------
+        progress : bool
+        saving : object
+            `save`, `save_every` and `resume` of
+            :func:`~quasistatic_ref.simulate.rollout.rollout`, which takes `progress` as well.
+
+        Raises
+        ------
+        RunFailed
+            If a step fails.
+        """
         return rollout(
             self.simulator(),
             self.system.q_start,
@@ -130,6 +143,7 @@ class Scenario(Plain):
             force=self.force,
             record=self.record,
             progress=progress,
+            **saving,
         )
 
 
@@ -155,7 +169,7 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
         Naming the file, the field and the value; a ScenarioError or, from a URDF, a ModelError.
     """
     path = scenario_path(name)
-    try:
+    with about_file(path):
         try:
             tables = toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
         except tomllib.TOMLDecodeError as error:
@@ -166,25 +180,16 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
         check_made(apply_settings(tables, settings, fields), tables)
         check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
-    except InputError as error:
-        raise error.in_file(path) from None
 
 
 def _scenario(path: Path, top: Fields) -> Scenario:
     if not {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
         check_names(top, TOP)
-    top.text("format", choices=(FORMAT,))
-    version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
     h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
     gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    named = top.text("cone", PYRAMID)
-    try:
-        cone(named)
-    except InputError as error:
-        raise top.fail("cone", error.problem, named) from None
+    named = cone(top.text("cone", PYRAMID)).name
     record = top.text("record", "full", RECORDS)
     solver = top.table("solver", {})
     check_names(solver, SOLVER)

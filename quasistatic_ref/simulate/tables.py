@@ -8,9 +8,13 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
+import numpy as np
+
 from quasistatic_ref.errors import ScenarioError, known_names, nearest_name
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.step.data import Array
 
+ZERO = np.zeros(3)
 TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
 BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
 NAMES: dict[str, tuple[str, ...]] = {
@@ -57,6 +61,13 @@ def _elsewhere(name: str, kind: str) -> str:
         if other != kind and (near := nearest_name(name, names)):
             return near.replace("?", f" of {other}?")
     return ""
+
+
+def pose(table: Fields, xyz: Array = ZERO) -> tuple[Array, Array]:
+    """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
+    found = table.array("xyz", (3,), xyz), table.array("rpy", (3,), ZERO)
+    table.close()
+    return found
 
 
 def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> None:

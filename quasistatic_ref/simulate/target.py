@@ -60,11 +60,8 @@ class JointTrack(Plain):
 
     def __post_init__(self) -> None:
         if not (np.diff(self.times) > 0).all():
-            raise ScenarioError(
-                "waypoint times must increase",
-                field=f"targets of {self.joint.name}",
-                value=self.times,
-            )
+            field = f"targets of {self.joint.name}"
+            raise ScenarioError("waypoint times must increase", field=field, value=self.times)
 
     def at(self, t: float) -> Array:
         """The joint's entries of q at time t, shape (nq,)."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, nearest_name
+from quasistatic_ref.errors import InputError, about_file, nearest_name
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
 from quasistatic_ref.npz import npz_arrays
@@ -225,16 +225,11 @@ def trajectory_read(path: str | Path) -> Trajectory:
         If it is not one, is of another version, or its header and arrays do not fit together.
     """
     arrays = npz_arrays(path)
-    try:
+    with about_file(path):
         header = _header(arrays.pop("header", None), path)
         top = Fields(header)
-        top.text("format", choices=(FORMAT,))
-        version = top.integer("version")
-        if version != VERSION:
-            raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+        top.check_format(FORMAT, VERSION)
         check_arrays(top, arrays)
-    except InputError as error:
-        raise error.in_file(path) from None
     return Trajectory(header, arrays)
 
 

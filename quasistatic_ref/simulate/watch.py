@@ -109,15 +109,10 @@ def _surprise(
         left_out = f"was not among its {pair.n_c} closest at step {step - 1}"
         text = f"{raised}: {what} {number[i]} of {pair.name} {left_out} and is {depth}"
         return _Sentence(step, text)
-    candidates = len(_cloud(pair)) if pair.has_cloud else pair.corners + 1
-    remedy = "take a smaller h or move slower" + (f", or {raised}" if pair.n_c < candidates else "")
+    more = f", or {raised}" if pair.n_c < pair.candidates else ""
+    remedy = f"take a smaller h or move slower{more}"
     left = f"the step before, which is right to first order, left it at {1e3 * predicted[i]:.3g} mm"
     return _Sentence(step, f"{remedy}: {what} {number[i]} of {pair.name} is {depth}; {left}")
-
-
-def _cloud(pair: ContactPair) -> Array:
-    (cloud,) = (s.shape for s in (pair.alpha, pair.beta) if isinstance(s.shape, PointCloud))
-    return cloud.points
 
 
 def _leaps(system: System, pairs: Iterable[ContactPair], delta_q: Array) -> list[str]:

@@ -8,13 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.step.show import Page, Row, counted, direction, number, vector
-from quasistatic_ref.step.words import (
-    CONTACT,
-    FORCE,
-    certificate_facts,
-    contact_rows,
-    force_rows,
-)
+from quasistatic_ref.step.words import CONTACT, FORCE, certificate_facts, contact_rows, force_rows
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair

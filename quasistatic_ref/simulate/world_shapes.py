@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.rotation import rotation
@@ -22,6 +22,7 @@ from quasistatic_ref.model.shapes import (
     Solid,
     Sphere,
 )
+from quasistatic_ref.simulate.tables import pose
 
 WORLD = 0
 """Number of the world among the links."""
@@ -42,10 +43,7 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
     InputError
         Naming the field.
     """
-    pose = table.table("pose", {})
-    zero = np.zeros(3)
-    t, rpy = pose.array("xyz", (3,), zero), pose.array("rpy", (3,), zero)
-    pose.close()
+    t, rpy = pose(table.table("pose", {}))
     kinds = [kind for kind in table.names() if kind in _KINDS]
     if len(kinds) != 1:
         raise table.fail("shape", f"must be exactly one of {', '.join(_KINDS)}", table.names())
@@ -69,11 +67,8 @@ def _mesh(sizes: Fields, folder: Path) -> Solid:
     scale = sizes.array("scale", (3,), np.ones(3))
     if not (scale != 0).all():
         raise sizes.fail("scale", "must not be zero", scale.tolist())
-    try:
+    with about_field(sizes.name("file")):
         path = mesh_path(address, folder, ())
-    except InputError as error:
-        error.field = sizes.name("file")
-        raise
     return mesh_hull(path, scale)
 
 

@@ -80,12 +80,8 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
 
 def with_rows(step: StepData, own: Extra) -> StepData:
     """A step with further rows after those that it has."""
-    extra = Extra(
-        step.extra.names + own.names,
-        np.vstack([step.extra.A, own.A]),
-        np.concatenate([step.extra.b, own.b]),
-    )
-    return step.replace(extra=extra)
+    A, b = np.vstack([step.extra.A, own.A]), np.concatenate([step.extra.b, own.b])
+    return step.replace(extra=Extra(step.extra.names + own.names, A, b))
 
 
 def extended_solution(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 
@@ -13,12 +15,7 @@ from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.errors import (
-    BackendError,
-    InputError,
-    StepIllPosed,
-    StepNotSolved,
-)
+from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
@@ -27,7 +24,7 @@ from quasistatic_ref.solve.solver import Answer, Solver
 from quasistatic_ref.solve.units import from_natural, natural_form
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import (
     Certificate,
@@ -125,7 +122,7 @@ def _solved(step: StepData, solver: Solver, accuracy: float, certify: str) -> St
     """The solution, or None if it is not finite."""
     scaled = solver.scaled(step)
     if certify != "full" or not isinstance(scaled, Scaled):
-        solution = _uncertified(scaled, solver, accuracy, certify)
+        solution = _as_said(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:
         certified = _enclosed if step.cone == ELLIPSOID else _exact
         solution = certified(scaled, solver, accuracy)
@@ -137,11 +134,8 @@ def _solved(step: StepData, solver: Solver, accuracy: float, certify: str) -> St
     return solution if good else None
 
 
-def _uncertified(
-    scaled: NaturalStep, solver: Solver, accuracy: float, certify: str
-) -> StepSolution:
-    """The backend's own answer."""
-    answer = solver.answer(scaled, accuracy)
+def _as_said(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) -> StepSolution:
+    """The backend's own answer, judged unless nothing is to be claimed."""
     certificate = NOTHING_CLAIMED if certify == "off" else _judged(scaled, solver, answer)
     delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
     return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
@@ -149,18 +143,13 @@ def _uncertified(
 
 def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
-    step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
     warm: list[int] = []
     if answer is not None:
         form = natural_form(scaled.form, scaled.units)
         warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-    optimum = exact_step(step, warm)
-    if answer is not None:
-        statistics = _graded(scaled, answer, optimum.delta_q, optimum.net)
-    residuals = _natural_residuals(scaled, optimum.delta_q, optimum.lam)
-    certificate = exact_certificate(step, optimum, residuals)
-    return step_solution(step, optimum.delta_q, optimum.lam, certificate, statistics)
+    optimum = exact_step(scaled.step, warm)
+    return _certified(scaled, answer, statistics, optimum, exact_certificate)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
@@ -172,17 +161,29 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        certificate = _judged(scaled, solver, answer)
-        delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
-        return step_solution(step, delta_q, lam, certificate, statistics)
+        return _as_said(scaled, solver, answer, "residual")
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
+    return _certified(scaled, answer, statistics, found, enclosure_certificate)
+
+
+def _certified(
+    scaled: Scaled,
+    answer: Answer | None,
+    statistics: SolverStatistics,
+    optimum: Any,
+    certificate: Callable[..., Certificate],
+) -> StepSolution:
+    """A certified optimum with its residuals, and the correct digits of the backend's answer."""
+    step, units, delta_q, lam = scaled.step, scaled.units, optimum.delta_q, optimum.lam
     if answer is not None:
-        statistics = _graded(scaled, answer, found.delta_q, found.net)
-    residuals = _natural_residuals(scaled, found.delta_q, found.lam)
-    certificate = enclosure_certificate(step, found, residuals)
-    return step_solution(step, found.delta_q, found.lam, certificate, statistics)
+        said, lam_said = from_natural(answer.delta_q, answer.lam, units)
+        digits = correct_digits(step, said, delta_q, lam_said, optimum.net)
+        statistics = statistics._replace(digits=digits.delta_q)
+    x = delta_q / (units.size * units.coordinate)
+    residuals = asdict(scaled.residuals(x, lam * (units.length / units.size)))
+    return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
 
 
 def _attempt(
@@ -198,19 +199,6 @@ def _attempt(
     except StepNotSolved as failure:
         return None, statistics._replace(status=f"failed: {failure.status}", digits=0.0)
     return answer, answer.statistics
-
-
-def _graded(scaled: Scaled, answer: Answer, delta_q: Array, net: Array) -> SolverStatistics:
-    """The statistics of a backend with the correct digits of its answer."""
-    said, lam_said = from_natural(answer.delta_q, answer.lam, scaled.units)
-    digits = correct_digits(scaled.step, said, delta_q, lam_said, net)
-    return answer.statistics._replace(digits=digits.delta_q)
-
-
-def _natural_residuals(scaled: Scaled, delta_q: Array, lam: Array) -> dict[str, float]:
-    units = scaled.units
-    x = delta_q / (units.size * units.coordinate)
-    return asdict(scaled.residuals(x, lam * (units.length / units.size)))
 
 
 def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:

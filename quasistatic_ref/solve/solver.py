@@ -14,15 +14,14 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, ENDLESS, NONE, QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled
-from quasistatic_ref.step.arrays import finite
+from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.tolerances import ALIKE
 
@@ -103,11 +102,14 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND``.
     certifies : bool
         Whether its answers can be the start of an exact certificate.
+    remembers : bool
+        Whether its answer to a step depends on the steps before.
     """
 
     engine: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
     certifies: ClassVar[bool] = True
+    remembers: ClassVar[bool] = False
 
     def __init__(self, like: StepData, name: str) -> None:
         self.like, self.name = like, name
@@ -152,7 +154,7 @@ class Solver(ABC):
         return Scaled(step)
 
     @abstractmethod
-    def write(self, scaled: Any) -> NDArray[np.bool_] | None:
+    def write(self, scaled: Any) -> Mask | None:
         """Write a step in natural units into the problem.
 
         Contacts out of reach are written nearer than they are.

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
@@ -21,7 +20,7 @@ from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
 from quasistatic_ref.solve.units import coordinate_units, units_from
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.tolerances import FAR
 
@@ -99,7 +98,7 @@ class SparseSolver(NativeSolver):
         """The step in natural units."""
         return SparseStep(step, self)
 
-    def write(self, scaled: SparseStep) -> NDArray[np.bool_]:
+    def write(self, scaled: SparseStep) -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
         squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))

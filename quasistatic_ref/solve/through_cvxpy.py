@@ -8,23 +8,16 @@ from collections import OrderedDict
 
 import cvxpy as cp
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import (
-    DEFAULT,
-    QPSOLVERS,
-    Options,
-    backend,
-    cone_backend,
-)
+from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend, cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -64,7 +57,7 @@ class CvxpySolver(Solver):
         super().__init__(like, name)
         self.problem = cone_problem(like)
 
-    def write(self, scaled: Scaled) -> NDArray[np.bool_]:
+    def write(self, scaled: Scaled) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
         self.problem.fill(within_reach(natural))

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import qpsolvers
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
@@ -17,7 +16,7 @@ from quasistatic_ref.solve.scaled import Scaled
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
@@ -48,7 +47,7 @@ class QpsolversSolver(Solver):
             cone_backend(name, f"the {like.cone}")
         super().__init__(like, name)
 
-    def write(self, scaled: Scaled) -> NDArray[np.bool_]:
+    def write(self, scaled: Scaled) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
         self.form = standard_form(within_reach(natural))

@@ -18,9 +18,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quasistatic_ref.step.data import Array, Extra, StepData
+from quasistatic_ref.step.data import Array, Extra, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -163,25 +162,24 @@ def within_reach(natural: StepData) -> StepData:
     far = out_of_reach(natural)
     if not far.any():
         return natural
-    near = np.where(far, _reach(natural), natural.contacts.phi)
+    near = np.where(far, _reach(natural.contacts.J), natural.contacts.phi)
     return natural.replace(contacts=replace(natural.contacts, phi=near))
 
 
-def out_of_reach(natural: StepData) -> NDArray[np.bool_]:
+def out_of_reach(natural: StepData) -> Mask:
     """Which contacts are too far to matter, shape (n_c,)."""
-    return np.asarray(natural.contacts.phi > _reach(natural))
+    return np.asarray(natural.contacts.phi > _reach(natural.contacts.J))
 
 
-def _reach(natural: StepData) -> Array:
-    return np.asarray(FAR * np.maximum(1.0, np.linalg.norm(natural.contacts.J, axis=(1, 2))))
+def _reach(J: Array) -> Array:
+    return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
 
 
 def reach_of_rows(step: StepData, units: Units) -> Array:
     """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
-    J = step.contacts.J * (units.coordinate / units.length)
-    lengths = np.sqrt(np.einsum("cij,cij->c", J, J))
+    reach = _reach(step.contacts.J * (units.coordinate / units.length))
     own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
-    return np.concatenate([np.repeat(FAR * np.maximum(1.0, lengths), step.counts), own])
+    return np.concatenate([np.repeat(reach, step.counts), own])
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
 QUIET = copy_context()
 """Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
@@ -28,13 +30,13 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def numbers(value: Any, name: str) -> Array:
+def numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> Array:
     """Real numbers as a float64 array, of the same shape; not a copy if they are one already.
 
     Raises
     ------
-    StepDataError
-        Of strings, booleans and ragged lists.
+    InputError
+        Of the type `error`, for strings, booleans and ragged lists.
     """
     if type(value) is np.ndarray and value.dtype == np.float64:
         return value
@@ -44,7 +46,7 @@ def numbers(value: Any, name: str) -> Array:
             return array.astype(np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise StepDataError("must be numbers, in lists of equal length", field=name, value=value)
+    raise error("must be numbers, in lists of equal length", field=name, value=value)
 
 
 def finite(x: Array) -> bool:
@@ -67,53 +69,46 @@ def names(value: Any, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
-def frozen(given: Mapping[str, tuple[Any, tuple[int, ...]]], prefix: str = "") -> dict[str, Array]:
-    """Read-only float64 copies of numbers of any units [-], -0.0 becoming 0.0.
-
-    They share one piece of memory, so that one look tells whether all of them are finite.
+def frozen(
+    value: Any, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
+) -> Array:
+    """A read-only float64 copy of numbers of any unit [-], -0.0 becoming 0.0.
 
     Parameters
     ----------
-    given : mapping of str to (numbers, shape)
-        By the name of the field, which messages show behind the prefix.
-    prefix : str
+    value : array_like
+    name : str
+        Of the field, in messages.
+    shape : tuple of int
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
 
     Returns
     -------
-    dict of str to ndarray
-        By field, each of its shape.
+    ndarray, of that shape
 
     Raises
     ------
-    StepDataError
-        If some are no finite numbers, or not of that shape.
+    InputError
+        If they are no finite numbers, or not of that shape.
     """
-    flat = []
-    for key, (value, shape) in given.items():
-        array = numbers(value, prefix + key)
-        if array.shape != shape and (array.size or 0 not in shape):
-            problem = f"must have shape {shape}"
-            raise StepDataError(problem, field=prefix + key, value=array.shape)
-        flat.append(array.ravel())
-    whole = read_only(np.concatenate(flat) + 0.0)
-    if np.count_nonzero(np.isfinite(whole)) < whole.size:
-        for key, array in zip(given, flat, strict=True):
-            if not np.isfinite(array).all():
-                value = array.reshape(given[key][1]).tolist()
-                problem = "must hold finite numbers only"
-                raise StepDataError(problem, field=prefix + key, value=value)
-    found, start = {}, 0
-    for (key, (_, shape)), array in zip(given.items(), flat, strict=True):
-        found[key] = whole[start : start + array.size].reshape(shape)
-        start += array.size
-    return found
+    array = numbers(value, name, error)
+    if array.shape != shape and (array.size or 0 not in shape):
+        raise error(f"must have shape {shape}", field=name, value=array.shape)
+    if not np.isfinite(array).all():
+        raise error("must hold finite numbers only", field=name, value=array.tolist())
+    return read_only(array.reshape(shape) + 0.0)
 
 
-def freeze(owner: Any, shapes: Mapping[str, tuple[int, ...]], prefix: str) -> None:
+def freeze(
+    owner: Any,
+    shapes: Mapping[str, tuple[int, ...]],
+    prefix: str = "",
+    error: type[InputError] = StepDataError,
+) -> None:
     """Replace fields of a frozen dataclass, of those shapes, by :func:`frozen` of them."""
-    given = {key: (getattr(owner, key), shape) for key, shape in shapes.items()}
-    for key, array in frozen(given, prefix).items():
-        object.__setattr__(owner, key, array)
+    for key, shape in shapes.items():
+        object.__setattr__(owner, key, frozen(getattr(owner, key), prefix + key, shape, error))
 
 
 def definite(name: str, matrix: Any, n: int) -> Array:
@@ -124,7 +119,7 @@ def definite(name: str, matrix: Any, n: int) -> Array:
     StepDataError
         If it is none, not finite or of another shape.
     """
-    return positive_definite(name, frozen({name: (matrix, (n, n))})[name])
+    return positive_definite(name, frozen(matrix, name, (n, n)))
 
 
 def positive_definite(key: str, S: Array) -> Array:
@@ -145,9 +140,6 @@ def positive_definite(key: str, S: Array) -> Array:
         pivots = np.full(len(S), -np.inf)
     # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
     if (pivots <= DEFINITE * np.diag(S)).any():
-        raise StepDataError(
-            "must be positive definite (no zero stiffness, no massless link)",
-            field=key,
-            value=S.tolist(),
-        )
+        problem = "must be positive definite (no zero stiffness, no massless link)"
+        raise StepDataError(problem, field=key, value=S.tolist())
     return read_only(S)

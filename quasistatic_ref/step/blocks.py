@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array, freeze
+from quasistatic_ref.step.arrays import Array, Indices, freeze
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +32,7 @@ class Blocks(Plain):
         If a shape is wrong, or a number is not finite.
     """
 
-    column: NDArray[np.int64]
+    column: Indices
     J: Array
     n_v: int
 

@@ -12,9 +12,9 @@ from decimal import Decimal, localcontext
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError, nearest_name
+from quasistatic_ref.step.arrays import Indices
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
@@ -46,7 +46,7 @@ class Cone:
         """Whether the cone is a matter of rows alone."""
         return self.name != ELLIPSOID
 
-    def counts(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
         return np.where(rows == 6, len(self.row_names), self.short)
 
@@ -67,25 +67,21 @@ def cone(name: str) -> Cone:
         If there is no such cone.
     """
     sliding, spin = ("+d1", "+d2", "-d1", "-d2"), ("+spin", "-spin")
-    if name == PYRAMID:
-        return Cone(name, sliding + spin, 4)
-    if name == "product":
-        return Cone(name, tuple(d + s for s in spin for d in sliding), 4)
-    if name == "frictionless":
-        return Cone(name, ("n",), 1)
-    if name == ELLIPSOID:
-        return Cone(name, ("n", "d1", "d2", "spin"), 4)
+    named = {
+        PYRAMID: (sliding + spin, 4),
+        ELLIPSOID: (("n", "d1", "d2", "spin"), 4),
+        "product": (tuple(d + s for s in spin for d in sliding), 4),
+        "frictionless": (("n",), 1),
+    }
+    if name in named:
+        return Cone(name, *named[name])
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)
         if K % 2 == 0 and 4 <= K <= MOST_FACETS:
             return Cone(name, tuple(f"side {k}" for k in range(K)) + spin, K)
-    raise StepDataError(
-        f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
-        f"{nearest_name(str(name), CONES)}",
-        field="cone",
-        value=name,
-    )
+    problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
+    raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
 
 
 def direction(k: int, K: int) -> tuple[float, float]:
@@ -104,11 +100,9 @@ def direction(k: int, K: int) -> tuple[float, float]:
     within = rest if octant % 2 == 0 else K - rest  # from the nearest axis, 0 .. 1/8 of a turn
     c, s = _cos_sin(Decimal(within) / (8 * K) * 2) if within else (1.0, 0.0)
     along, across = (c, s) if octant % 4 in (0, 3) else (s, c)
-    signed = (
-        along if octant in (0, 1, 6, 7) else -along,
-        across if octant in (0, 1, 2, 3) else -across,
-    )
-    return signed[0] + 0.0, signed[1] + 0.0  # never -0.0
+    along = along if octant in (0, 1, 6, 7) else -along
+    across = across if octant in (0, 1, 2, 3) else -across
+    return along + 0.0, across + 0.0  # never -0.0
 
 
 def _cos_sin(half_turns: Decimal) -> tuple[float, float]:

@@ -7,11 +7,10 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import Array, columns, freeze, names, numbers, read_only
+from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import contacts_page
@@ -31,7 +30,7 @@ class Points(Plain):
     d2: Array
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
 
     def _check(self, **own: tuple[int, ...]) -> None:
         """Check all fields, and `own` ones of those shapes."""
@@ -81,11 +80,9 @@ class Points(Plain):
         dextral = np.linalg.det(axes.transpose(1, 0, 2)) > 0
         if n_c and not (defect.max() <= ORTHONORMAL and dextral.all()):
             j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~dextral).argmax())
-            raise StepDataError(
-                "d1, d2, n must be a right-handed orthonormal frame",
-                field=f"contacts[{self.name[j]}]",
-                value=axes[:, j].tolist(),
-            )
+            problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
+            value = axes[:, j].tolist()
+            raise StepDataError(problem, field=f"contacts[{field}]", value=value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +121,7 @@ class Contacts(Points):
     J: Array
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
     blocks: ClassVar[Blocks | None] = None
 
     __repr__, _repr_html_ = shown(contacts_page)
@@ -166,7 +163,7 @@ class SparseContacts(Points):
     blocks: Blocks
     mu_v: Array
     mu_omega: Array
-    rows: NDArray[np.int64]
+    rows: Indices
 
     __repr__, _repr_html_ = shown(contacts_page)
 

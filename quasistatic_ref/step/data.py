@@ -11,12 +11,14 @@ from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.plain import Plain, field_values
 from quasistatic_ref.step.arrays import (
     Array,
+    Indices,
+    Mask,
     columns,
     definite,
     freeze,
@@ -31,7 +33,7 @@ from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.words import extra_page, step_page
 
-__all__ = ["Array", "Contacts", "Extra", "SparseContacts", "StepData"]
+__all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "SparseContacts", "StepData"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +79,9 @@ class RowLayout(NamedTuple):
         Where each contact's rows start.
     """
 
-    counts: NDArray[np.int64]
-    mask: NDArray[np.bool_]
-    offsets: NDArray[np.int64]
+    counts: Indices
+    mask: Mask
+    offsets: Indices
 
 
 @lru_cache(maxsize=32)
@@ -155,16 +157,13 @@ class StepData(Plain):
         n_a, n_u = np.size(tau_a), np.size(tau_u)
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
-        vectors = {
-            "tau_a": (tau_a, (n_a,)),
-            "tau_u": (tau_u, (n_u,)),
-            "delta_q_bar_a": (delta_q_bar_a, (n_a,)),
-        }
         checked = {
             "h": seconds(h),
             "K_q": definite("K_q", K_q, n_a),
             "M_u": definite("M_u", M_u, n_u),
-            **frozen(vectors),
+            "tau_a": frozen(tau_a, "tau_a", (n_a,)),
+            "tau_u": frozen(tau_u, "tau_u", (n_u,)),
+            "delta_q_bar_a": frozen(delta_q_bar_a, "delta_q_bar_a", (n_a,)),
             "contacts": contacts,
             "cone": cone,
             "extra": extra,
@@ -201,17 +200,17 @@ class StepData(Plain):
         return row_layout(self.cone, self.contacts.rows.tobytes())
 
     @property
-    def counts(self) -> NDArray[np.int64]:
+    def counts(self) -> Indices:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
         return self.layout.counts
 
     @property
-    def mask(self) -> NDArray[np.bool_]:
+    def mask(self) -> Mask:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
         return self.layout.mask
 
     @property
-    def offsets(self) -> NDArray[np.int64]:
+    def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.layout.offsets
 
@@ -226,11 +225,19 @@ class StepData(Plain):
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:
-    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg]."""
+    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg].
+
+    StepDataError if an entry leaves the range of float64.
+    """
     n_a, n_v = len(K_q), len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
-    H[:n_a, :n_a] = h * K_q
-    H[n_a:, n_a:] = M_u / h
+    with np.errstate(over="ignore"):
+        H[:n_a, :n_a] = h * K_q
+        H[n_a:, n_a:] = M_u / h
+    if not np.isfinite(H).all():
+        raise StepDataError(
+            "takes h K_q or M_u / h out of the range of float64", field="h", value=h
+        )
     return read_only(H)
 
 

@@ -9,10 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from quasistatic_ref.step.arrays import Array, definite
+from quasistatic_ref.step.arrays import Array, Indices, definite
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.data import (
@@ -59,7 +56,7 @@ class Constants(NamedTuple):
 
 
 def constants(
-    h: float, K_q: Array, n_a: int, M_u: Array, rows: NDArray[np.int64], cone: str = PYRAMID
+    h: float, K_q: Array, n_a: int, M_u: Array, rows: Indices, cone: str = PYRAMID
 ) -> Constants:
     """The constants of steps of n_c contacts with `rows`, shape (n_c,).
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from numbers import Real
 from typing import Any
@@ -77,13 +77,18 @@ def text_page(page: Page, *hidden: str) -> str:
     if rows:
         kept = [i for i, name in enumerate(header) if name not in hidden]
         cells = [[shortened(row[i]) for i in kept] for row in [header, *rows[:MOST]]]
-        first, *widths = (max(map(len, column)) for column in zip(*cells, strict=True))
-        for name, *numbers in cells:
-            right = [cell.rjust(width) for cell, width in zip(numbers, widths, strict=True)]
-            lines.append("  " + "  ".join([name.ljust(first), *right]).rstrip())
+        lines += [f"  {line}" for line in aligned(cells)]
         if len(rows) > MOST:
             lines.append(f"  ... and {len(rows) - MOST} more")
     return "\n".join(clipped(line) for line in lines)
+
+
+def aligned(rows: Sequence[Row]) -> Iterator[str]:
+    """Rows of a table as lines, the first column to the left, the others to the right."""
+    first, *widths = (max(map(len, column)) for column in zip(*rows, strict=True))
+    for name, *others in rows:
+        right = [cell.rjust(width) for cell, width in zip(others, widths, strict=True)]
+        yield "  ".join([name.ljust(first), *right]).rstrip()
 
 
 def html_page(page: Page) -> str:

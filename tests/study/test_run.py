@@ -96,6 +96,7 @@ def test_the_making_of_problems_is_shown_with_an_estimate_and_may_be_interrupted
     assert re.search(estimate, printed)
     assert status == 130
     assert "interrupted; what was measured is in" in printed
+    assert printed.index("loads solvers") < printed.index("exact answers")
     quiet, status = on_a_terminal([*command(path, tmp_path / "store"), "--quiet"], None)
     assert "exact answers" not in quiet
     assert "asked" not in quiet

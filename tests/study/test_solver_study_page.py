@@ -45,7 +45,7 @@ def extent():
     count = of.study()["problems"]["count"]
     roads = [len(set(chosen(columns(), {"road": r})["solver"])) for r in ("qpsolvers", "cvxpy")]
     names = (len(set(columns()[name])) for name in ("setting", "units"))
-    return f"{count:,}", *(word(n) for n in (*roads, *names)), f"{size(columns()):,}"
+    return f"{count:,}", of.enclosed(), *(word(n) for n in (*roads, *names)), f"{size(columns()):,}"
 
 
 def small_daqp():
@@ -116,8 +116,8 @@ def budgets():
 
 
 HELD = [
-    ("{} contact problems with exact answers, {} solvers directly and {} of them through CVXPY "
-     "too, {} settings, {} systems of units, {} calls", extent),
+    ("{} contact problems whose answers are known (exactly but for {}), {} solvers directly and {} "
+     "of them through CVXPY too, {} settings, {} systems of units, {} calls", extent),
     ("Surest first; {} problems of all families", lambda: [size(shared("daqp", "tuned"))]),
     ("delivers 6 digits on {} of the {} problems and 9 digits on {}, in {:.3f} ms. Do not leave "
      "it at its defaults: at its own `primal_tol=1e-6`, {} of {} answers have fewer than 3 digits "

@@ -7,10 +7,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
-from quasistatic_ref.lab.study.bench.bare import bare_daqp
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.lab.study.bench.grasp import places
+from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.scaled import Scaled

@@ -57,6 +57,8 @@ def test_words_for_what_is_not_exact(step):
     assert told.startswith("not exact: worst residual 2.0e-09 in natural units")
     assert told.endswith("its error is at most 3.0e-08")
     assert in_words(step, replace(known, error_bound=None)).endswith("no error bound")
+    read = Certificate("residual", error_bound=3e-8)
+    assert in_words(step, read) == "not exact: its error is at most 3.0e-08"
     assert in_words(step, Certificate("none")) == "nothing is certified"
 
 
@@ -122,8 +124,11 @@ def test_shapes_nan_and_negative_zero_are_refused(step, optimum):
 @pytest.mark.parametrize(
     ("field", "value"),
     [
-        ("kind", "residual"),
+        ("kind", "none"),
+        ("kind", "enclosure"),
         ("error_bound", 1e-16),
+        ("error_bound", -0.0),
+        ("gap", 0.0),
         ("multipliers_unique", None),
         ("differentiable", None),
         ("smallest_inactive_slack", 1e-3),
@@ -136,33 +141,25 @@ def test_false_claims_are_refused(step, optimum, field, value):
     assert field in verdict.reason
 
 
-def test_row_without_multiplier_in_a_working_set_is_not_strictly_active():
-    """The unconstrained step of 0.75 m just touches x >= 0.75: a kink, whatever set it is in."""
-    row = np.eye(4)[:1]
+@pytest.mark.parametrize("touching", ["a row of one's own", "a contact"])
+def test_a_row_without_multiplier_is_in_no_working_set(touching):
+    """It would hold on one side only: delta_q is not differentiable, whatever set it is in.
+
+    The unconstrained step of 0.75 m just touches x >= 0.75; or a body at rest on a smooth floor
+    that nothing presses on, whose rows are four equal ones.
+    """
     step = resting_point(tau_x=3.0, contacts=0)
-    step = step.replace(extra=Extra(("touched",), row, np.array([0.75])))
+    step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], np.array([0.75])))
+    step = step if touching != "a contact" else point_on_floor(mu_v=0.0)
     optimum = exact_step(step)
     claims = exact_certificate(step, optimum)
-    assert optimum.working_set == ()
+    assert claims.active == ()
     assert not claims.differentiable
-    wider = replace(claims, active=((0, 0),), smallest_active_multiplier=0.0)
-    assert verify(step, optimum.delta_q, wider.active, optimum.lam, wider)
-    smooth = replace(wider, differentiable=True)
-    reason = verify(step, optimum.delta_q, wider.active, optimum.lam, smooth).reason
-    assert "differentiable" in reason
-
-
-def test_a_working_row_without_load_does_not_count_as_strictly_active():
-    # A body at rest on a smooth floor that nothing presses on: four equal rows, all multipliers 0.
-    # Naming one of them as the working set is valid; it holds on one side only all the same.
-    step = point_on_floor(mu_v=0.0)
-    honest = exact_certificate(step, exact_step(step))
-    assert honest.active == ()
-    assert not honest.differentiable
-    claims = replace(honest, active=((0, 0),), smallest_active_multiplier=0.0)
-    assert verify(step, np.zeros(3), claims.active, np.zeros(4), claims)
+    assert verify(step, optimum.delta_q, (), optimum.lam, claims)
     smooth = replace(claims, differentiable=True)
-    assert "differentiable" in verify(step, np.zeros(3), claims.active, np.zeros(4), smooth).reason
+    assert "differentiable" in verify(step, optimum.delta_q, (), optimum.lam, smooth).reason
+    wider = replace(claims, active=((0, 0),), smallest_active_multiplier=0.0)
+    assert "is zero" in verify(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
 
 
 @pytest.mark.parametrize("phi", [0.0, 1e-3])

@@ -250,7 +250,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         binary_ply("double", "d")[:-1],
         r"body: must hold 2 vertices \(got 1\)",
     ),
-    "nan binary ply": (".ply", binary_ply("double", "d", NAN), "vertex 1: must be finite numbers"),
+    "nan binary ply": (".ply", binary_ply("double", "d", NAN), "point 1: must be finite numbers"),
     "no vertices": (
         ".ply",
         PLY_ASCII.replace("vertex 2", "vertex 0").encode(),

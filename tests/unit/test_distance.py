@@ -21,7 +21,7 @@ from quasistatic_ref.model.shapes import (
 )
 from quasistatic_ref.model.system import Kinematics
 from tests.scenes import chain_scene
-from tests.tolerances import COAL, COAL_NORMAL, EXACT, ROUNDING, SIGNED_DISTANCE
+from tests.tolerances import CURVED_PAIR, EXACT, ROUNDING, SIGNED_DISTANCE
 
 Z = np.eye(3)[2]
 CONVEX = {
@@ -160,9 +160,9 @@ def test_convex_pairs_are_consistent_from_either_side(a, b, rng):
         kinematics = standing(random_pose(rng, 0.0), random_pose(rng, 0.6))
         alpha, beta = placed(SOLIDS[a], 1), placed(SOLIDS[b], 2)
         one = found_for(alpha, beta, kinematics)
-        consistent(one, COAL)
+        consistent(one, CURVED_PAIR)
         two = found_for(beta, alpha, kinematics)
-        np.testing.assert_allclose(two.phi, one.phi, rtol=EXACT, atol=2 * COAL)
+        np.testing.assert_allclose(two.phi, one.phi, rtol=EXACT, atol=2 * CURVED_PAIR)
 
 
 def segment_distance(p, d, q, e, half_p, half_q):
@@ -180,7 +180,7 @@ def test_two_capsules_are_as_far_apart_as_their_segments_less_both_radii(rng):
         (R, t), (S, u) = random_pose(rng, 0.0), random_pose(rng, 0.4)
         found = found_for(placed(one, 1), placed(two, 2), standing((R, t), (S, u)))
         expected = segment_distance(t, R[:, 2], u, S[:, 2], 0.15, 0.1) - 0.13
-        np.testing.assert_allclose(found.phi, [expected], rtol=EXACT, atol=COAL)
+        np.testing.assert_allclose(found.phi, [expected], rtol=EXACT, atol=CURVED_PAIR)
 
 
 STACKED = {
@@ -198,81 +198,47 @@ def test_what_stands_on_a_box_has_its_normal_upwards_apart_touching_or_sunk(shap
         R = Rotation.from_rotvec(turn * Z).as_matrix()
         pose = (R, np.array([0.1, -0.2, 0.5 + height + gap]))
         found = found_for(table, placed(shape, 1), standing(pose))
-        np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=COAL)
-        np.testing.assert_allclose(found.n, [Z], rtol=EXACT, atol=COAL_NORMAL)
+        np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=CURVED_PAIR)
+        np.testing.assert_allclose(found.n, [Z], rtol=EXACT, atol=CURVED_PAIR)
         swapped = found_for(placed(shape, 1), table, standing(pose))
-        np.testing.assert_allclose(swapped.n, [-Z], rtol=EXACT, atol=COAL_NORMAL)
+        np.testing.assert_allclose(swapped.n, [-Z], rtol=EXACT, atol=CURVED_PAIR)
 
 
 PLANTED = {
     "normal turned round": lambda r: setattr(r, "normal", -np.array(r.normal)),
     "normal of another direction": lambda r: setattr(r, "normal", np.roll(np.array(r.normal), 1)),
+    "always the same normal": lambda r: setattr(r, "normal", np.array([1.0, 0.0, 0.0])),
     "normal too long": lambda r: setattr(r, "normal", 1.1 * np.array(r.normal)),
     "no normal": lambda r: setattr(r, "normal", np.zeros(3)),
     "normal NaN": lambda r: setattr(r, "normal", np.full(3, np.nan)),
+    "distance": lambda r: None,
 }
+REFUSED = ("normal of another direction", "no normal", "normal NaN")
 
 
-@pytest.mark.parametrize("spoil", PLANTED.values(), ids=PLANTED)
-@pytest.mark.parametrize("gap", [0.1, -0.01])
-def test_a_bad_answer_of_coal_is_an_error(monkeypatch, spoil, gap):
+@pytest.mark.parametrize("spoil", PLANTED)
+@pytest.mark.parametrize("gap", [0.1, 0.0, -0.01])
+def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
     honest = coal.distance
 
     def spoilt(*arguments):
         phi = honest(*arguments)
-        spoil(arguments[-1])
-        return phi
+        PLANTED[spoil](arguments[-1])
+        return phi + 1e-3 * (spoil == "distance")
 
     monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
+    cone = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
-    with pytest.raises(ContactError, match=r"^p: no trustworthy contact normal at this pose"):
-        found_for(placed(box), placed(box, 1), kinematics)
-
-
-UNFIT = ("normal too long", "no normal", "normal NaN")
-
-
-@pytest.mark.parametrize("spoil", [PLANTED[name] for name in UNFIT], ids=UNFIT)
-def test_a_normal_that_is_no_unit_vector_is_an_error_where_bodies_touch(monkeypatch, spoil):
-    honest = coal.distance
-
-    def spoilt(*arguments):
-        honest(*arguments)
-        spoil(arguments[-1])
-        return 0.0
-
-    monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
-    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4])))
-    with pytest.raises(ContactError):
-        found_for(placed(box), placed(box, 1), kinematics)
-
-
-def test_a_bad_normal_of_coal_is_an_error_where_bodies_touch(monkeypatch):
-    honest = coal.distance
-
-    def spoilt(*arguments):
-        phi = honest(*arguments)
-        arguments[-1].normal = np.array([1.0, 0.0, 0.0])
-        return phi
-
-    monkeypatch.setattr(coal, "distance", spoilt)
-    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
-    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4])))
-    with pytest.raises(ContactError):
-        found_for(placed(box), placed(box, 1), kinematics)
-
-
-def test_a_bad_distance_of_coal_is_an_error(monkeypatch):
-    honest = coal.distance
-    monkeypatch.setattr(coal, "distance", lambda *arguments: honest(*arguments) + 1e-3)
-    box = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
-    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.5])))
-    with pytest.raises(ContactError) as caught:
-        found_for(placed(box), placed(box, 1), kinematics)
-    assert caught.value.field == "p"
-    np.testing.assert_allclose(caught.value.value["phi"], 0.101, rtol=EXACT, atol=COAL)
+    try:
+        found = found_for(placed(cone), placed(cone, 1), kinematics)
+    except ContactError as error:
+        assert str(error).startswith("p: no trustworthy contact normal at this pose")  # noqa: PT017
+        assert spoil != "distance"
+        return
+    assert spoil not in REFUSED
+    # The lower cone's tip is at z = 0.2, the upper one's base at 0.2 + gap.
+    np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.n, [Z], rtol=EXACT, atol=CURVED_PAIR)
 
 
 def test_shapes_sit_where_their_links_carry_them(tmp_path, rng):

@@ -8,9 +8,9 @@ from PIL import Image
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures import animate, draw_scene, faults, moment, panels
+from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.draw import round_scale
 from quasistatic_ref.figures.moments import extent
-from quasistatic_ref.figures.scene import Camera
 from quasistatic_ref.figures.surfaces import faces, patch, surface_points, triangles
 from quasistatic_ref.model.shapes import (
     Box,

@@ -74,7 +74,7 @@ def test_a_missing_field_is_its_default_whatever_that_is():
     default = np.zeros(2)
     assert fields.number("a", None) is None
     assert fields.text("b", None, choices=("x",)) is None
-    assert fields.array("c", (2,), default) is default
+    assert fields.array("c", (2,), default).tolist() == [0.0, 0.0]
     assert fields.integer("d", 3) == 3
     assert fields.boolean("e", False) is False
 

@@ -8,8 +8,8 @@ from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
 from quasistatic_ref.figures.boundary_layer import boundary_layer
+from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.grasp import CAMERA, grasp_strip, rotation_plot
-from quasistatic_ref.figures.scene import Camera
 from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.figures.surfaces import surface_points
 from quasistatic_ref.model.rotation import rotation_angle
@@ -101,18 +101,20 @@ def test_the_strip_has_a_run_in_each_row_and_an_instant_in_each_column(figures):
 
 def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, runs):
     for axes in figures["strip"].axes:
-        dots = sorted(len(c.get_offsets()) for c in axes.collections)
-        assert dots[-1] == 992
-        assert sum(dots[:-1]) == 15
+        (cloud,) = axes.collections
+        assert len(cloud.get_offsets()) == 992
+        assert sum(line.get_marker() == "o" for line in axes.lines) == 15
 
 
 def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, runs):
     for row, run in enumerate(runs.values()):
         for column, t in enumerate(INSTANTS):
             axes, k = figures["strip"].axes[row * len(INSTANTS) + column], round(t / 0.01) - 1
-            bearing = run["wrench"][k][:, 2] > 1e-3
-            expected = CAMERA.seen(run["beta"][k][bearing])[:, :2]
-            found = axes.collections[-1].get_offsets()
+            force = run["wrench"][k][:, 2]
+            expected = 1e3 * CAMERA.seen(run["beta"][k][force > 1e-3 * force.max()])[:, :2]
+            dots = [line for line in axes.lines if line.get_marker() == "o"]
+            filled = [dot for dot in dots if dot.get_markerfacecolor() != "white"]
+            found = np.reshape([dot.get_xydata()[0] for dot in filled], (-1, 2))
             np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=ROUNDING)
 
 

@@ -24,7 +24,7 @@ from quasistatic_ref.model.shapes import (
 )
 from quasistatic_ref.model.system import Kinematics
 from tests import closest
-from tests.tolerances import CLOSED_FORM, CURVED_PAIR, EXACT, WAY_OUT
+from tests.tolerances import CLOSED_FORM, CONE_PROGRAM, CURVED_PAIR, EXACT, WAY_OUT
 
 CURVED = {"cylinder", "cone", "ellipsoid"}
 SOLIDS = closest.solids()
@@ -39,6 +39,7 @@ def by_coal(names: tuple[str, str]) -> bool:
 def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, str]) -> None:
     a, b = (SOLIDS[name] for name in names)
     atol = CURVED_PAIR if by_coal(names) else CLOSED_FORM
+    reference = CONE_PROGRAM if by_coal(names) else CLOSED_FORM
     random = np.random.default_rng(5)
     directions = random.normal(size=(2000, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
@@ -64,8 +65,8 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
             assert gaps.max() <= phi + atol
         expected = closest.signed_distance(a, b, R, t)
         if expected is not None:
-            np.testing.assert_allclose(phi, expected, rtol=EXACT, atol=atol)
-    assert answered >= 12  # a curved pair may be refused where one is deep inside the other
+            np.testing.assert_allclose(phi, expected, rtol=EXACT, atol=reference)
+    assert answered >= 15  # a curved pair may be refused where one is deep inside the other
 
 
 def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:

@@ -246,7 +246,7 @@ def test_the_table_has_one_line_for_each_backend_and_one_file_for_each_adapter()
     files = {path.stem for path in ADAPTERS.glob("*.py")} - {"__init__", "program"}
     assert files == {name for name, entry in BACKENDS.items() if entry.adapter}
     for name in files:
-        assert f"class {BACKENDS[name].adapter}:" in (ADAPTERS / f"{name}.py").read_text()
+        assert f"class {BACKENDS[name].adapter}(Adapter):" in (ADAPTERS / f"{name}.py").read_text()
 
 
 @pytest.mark.parametrize("name", BACKENDS)

@@ -32,7 +32,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 def claim_of(*comparisons, **changes):
     words = {"sentence": "One is one.", "where": "here", "sweep": "none", "reason": "none"}
-    evidence = Evidence(comparisons)
+    evidence = Evidence.of(*comparisons)
     return Claim(**{"name": "planted", "measure": lambda: evidence} | words | changes)
 
 

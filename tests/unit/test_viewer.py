@@ -10,8 +10,14 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures import viewer
+from quasistatic_ref.figures.moments import frames
 from quasistatic_ref.figures.three import z_along
-from quasistatic_ref.figures.viewer import frames, metres_per_newton, scene_commands, view_written
+from quasistatic_ref.figures.viewer import (
+    FRAMES_PER_SECOND,
+    metres_per_newton,
+    scene_commands,
+    view_written,
+)
 from quasistatic_ref.simulate.scenario import load_scenario
 from tests.tolerances import ROUNDING
 
@@ -26,7 +32,7 @@ def pushed():
 
 @pytest.fixture(scope="module")
 def commands(pushed):
-    moments, fps = frames(*pushed)
+    moments, fps = frames(*pushed, FRAMES_PER_SECOND)
     return moments, scene_commands(moments, fps, 0.1, 0.01)
 
 
@@ -37,7 +43,7 @@ def tracks(commands, path):
 
 def test_frames_come_thirty_a_second_or_one_a_step(pushed):
     scenario, run = pushed
-    moments, fps = frames(scenario, run)
+    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
     assert (len(moments), fps) == (20, 25.0)  # every second step of 20 ms
     assert [round(m.t / scenario.h) for m in moments] == list(range(0, 40, 2))
 
@@ -114,5 +120,6 @@ def test_a_run_with_view_says_where_the_page_is(tmp_path, monkeypatch, capsys):
 
 def test_a_run_without_steps_has_nothing_to_show(pushed):
     scenario, run = pushed
+    empty = type(run)(run.header, {**run.arrays, "t": run["t"][:0]})
     with pytest.raises(InputError, match="has no steps"):
-        frames(scenario, type(run)(run.header, {**run.arrays, "t": run["t"][:0]}))
+        frames(scenario, empty, FRAMES_PER_SECOND)

@@ -6,25 +6,24 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.families.distance import CORNERS, distance_cases
-from quasistatic_ref.lab.vectors.families.shapes import (
+from quasistatic_ref.lab.vectors.families.distance import SHAPES, distance_cases
+from quasistatic_ref.lab.vectors.layers import distance
+from tests.tolerances import ROUNDING
+from tests.vectors.solids import (
     FLOOR,
     ON_SIDE,
-    SHAPES,
+    ORIGIN,
     at,
     box,
-    capsule,
     cone,
     convex,
     cylinder,
     ellipsoid,
     sphere,
 )
-from quasistatic_ref.lab.vectors.layers import distance
-from tests.tolerances import ROUNDING
 
 CASES = {id_: case for id_, _, case in distance_cases()}
-ORIGIN = at(0.0, 0.0, 0.0)
+CORNERS = [id_ for id_ in CASES if id_.startswith("distance/corner/")]
 
 NOT_UNIQUE = {
     *("spheres_concentric", "sphere_centre_on_edge", "sphere_centre_in_middle"),
@@ -128,8 +127,8 @@ def test_cylinders_crossed_at_right_angles_are_as_far_as_their_axes():
 
 def test_two_rims_askew_are_where_a_fine_search_finds_them():
     # The rims of two cylinders on 2,000 points each: the search is off by a step squared.
-    name = "cylinders_rims"
-    _, a, pose_a, b, pose_b = CORNERS[name]
+    given = CASES["distance/corner/cylinders_rims"]
+    a, pose_a, b, pose_b = (given[key] for key in ("alpha", "pose_alpha", "beta", "pose_beta"))
     found, _ = answer(a, pose_a, b, pose_b)
     x, y, z, w = np.array(pose_b["quaternion"]) / np.linalg.norm(pose_b["quaternion"])
     R = np.array(
@@ -184,8 +183,9 @@ def test_exchanging_the_sides_exchanges_the_answer(id_):
 
 
 def test_the_corners_that_are_not_unique_are_known():
-    flags = {name: all(distance.answer(CASES[f"distance/corner/{name}"])[2]) for name in CORNERS}
-    assert {name for name, unique in flags.items() if not unique} == NOT_UNIQUE
+    flags = {id_: all(distance.answer(CASES[id_])[2]) for id_ in CORNERS}
+    found = {id_.removeprefix("distance/corner/") for id_, unique in flags.items() if not unique}
+    assert found == NOT_UNIQUE
 
 
 def test_a_corner_that_rounding_chooses_is_not_called_unique():
@@ -237,8 +237,7 @@ def test_what_has_no_exact_answer_is_refused(alpha, beta, match):
 
 def test_capsules_that_graze_have_the_normal_of_their_axes():
     # The package took n from two points 1e-9 apart, right to 1e-7 only.
-    _, a, pose_a, b, pose_b = CORNERS["capsules_grazing"]
-    own = distance.own(case(a, pose_a, b, pose_b))
+    own = distance.own(CASES["distance/corner/capsules_grazing"])
     np.testing.assert_allclose(own["n"], [1, 0, 0], rtol=0, atol=ROUNDING)
 
 
@@ -246,4 +245,3 @@ def test_families_are_the_same_each_time():
     assert {id_: c for id_, _, c in islice(distance_cases(), 12)} == {
         id_: CASES[id_] for id_ in islice(CASES, 12)
     }
-    assert capsule(0.1, 0.2) == {"kind": "capsule", "radius": 0.1, "length": 0.2}

@@ -22,7 +22,7 @@ from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import Report
-from quasistatic_ref.lab.vectors.files import answers_text, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.files import answers_written, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
@@ -70,7 +70,7 @@ are random, so that no failure is no proof.
 def readers(folder: Path) -> dict[str, Reader]:
     """Every reader by name; what their files need beside them is written into the folder."""
     return {
-        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(),
+        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(folder),
         **_stores(folder), **_studies(),
     }  # fmt: skip
 
@@ -165,7 +165,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     text = step_text(step).encode()
     solutions = (
         solution_text(step, solve_step(step, NONE)),
-        infeasible_text(step, NONE, ["1/2"] * 6),
+        infeasible_text(step, ["1/2"] * 6),
     )
 
     def solved(path: Path) -> None:
@@ -192,7 +192,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _answers() -> dict[str, Reader]:
+def _answers(folder: Path) -> dict[str, Reader]:
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
@@ -205,7 +205,7 @@ def _answers() -> dict[str, Reader]:
         cases = [case for case in inputs if case.id in chosen]
         known = {name: expected[name] for name in chosen}
         outputs = {name: known[name]["output"] for name in sorted(chosen)}
-        good = answers_text(layer, "fuzz", outputs).encode()
+        good = answers_written(folder, layer, "fuzz", outputs).read_bytes()
 
         def compared(
             path: Path, layer: str = layer, cases: Any = cases, known: Any = known

@@ -16,9 +16,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--quick", action="store_true", help="a little of everything, to see that it runs"
     )
-    shared.add_out(parser, "validation/benchmarks")
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="validation/benchmarks")
+    shared.add(parser, "--json", "--quiet")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -15,11 +15,8 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    shared.add_out(parser, "demo")
-    shared.add_solver(parser)
-    shared.add_set(parser)
-    shared.add_json(parser)
-    shared.add_quiet(parser)
+    shared.add(parser, "--out", default="demo")
+    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -30,12 +27,12 @@ def run(options: argparse.Namespace) -> int:
     report: dict[str, dict[str, object]] = {}
     for case, scenario in scenarios.items():
         shared.progress_line(options, f"bunny_grasp {case}: {scenario.steps} steps")
-        stem = f"bunny_grasp_{case.replace(' ', '_')}"
+        path = options.out / f"bunny_grasp_{case.replace(' ', '_')}.npz"
         try:
             runs[case] = scenario.run(progress=not options.quiet)
         except RunFailed as failure:
-            return shared.failed_run_saved(failure, options.out, stem)
-        runs[case].save(options.out / f"{stem}.npz")
+            return shared.failed_run(failure, failure.trajectory.save(path))
+        runs[case].save(path)
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:
@@ -67,12 +64,10 @@ def _figures(
 
 
 def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
+    lift = f"t = {CLOSED:g} to {TOP:g} s"
     labels = {
-        "rotation_deg": (
-            f"rotation of the bunny, t = {CLOSED:g} to {TOP:g} s, at most [deg]",
-            "{:.3f}",
-        ),
-        "lift_mm": (f"lift height, t = {CLOSED:g} to {TOP:g} s [mm]", "{:.2f}"),
+        "rotation_deg": (f"rotation of the bunny, {lift}, at most [deg]", "{:.3f}"),
+        "lift_mm": (f"lift height, {lift} [mm]", "{:.2f}"),
         "drag_share": ("largest drag / friction that contacts can bear [-]", "{:.3f}"),
         "certified": ("certified", "{}"),
         "worst_residual": ("worst residual [natural units]", "{:.1e}"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, suggestion
@@ -11,13 +12,20 @@ from quasistatic_ref.errors import InputError, suggestion
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
+    names = parser.add_argument(
         "names", nargs="*", metavar="NAME", help="all by default, but those whose extra is missing"
     )
+    shared.completed(names, _examples)
     parser.add_argument(
         "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
     )
-    shared.add_out(parser, "figures")
+    shared.add(parser, "--out", default="figures")
+
+
+def _examples() -> Sequence[str]:
+    from quasistatic_ref.lab.examples.gallery import EXAMPLES
+
+    return EXAMPLES
 
 
 def run(options: argparse.Namespace) -> int:

@@ -11,22 +11,28 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.commands.study_report import add_report, run_pack, run_report
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_path, study_tables
+from quasistatic_ref.lab.commands.study_report import run_pack, run_report
 from quasistatic_ref.lab.study.store import ROWS, Row
+
+ACTIONS = {
+    "run": "run a study; one that was interrupted goes on where it stopped",
+    "export": "write a study's problems as a test set of qpbenchmark (parquet)",
+    "report": "write what a study says: a self-contained HTML page, Markdown, figures",
+    "pack": "write a study's rows compressed, their numbers shortened, to be kept",
+}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below this one, and their options."""
     actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
-    run_ = actions.add_parser(
-        "run",
-        help="run a study; one that was interrupted goes on where it stopped",
-        description="Run a study; one that was interrupted goes on where it stopped.",
-    )
-    run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
-    shared.add_out(run_, "study")
+    parsers = {
+        name: actions.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        for name, words in ACTIONS.items()
+    }
+    run_, export = parsers["run"], parsers["export"]
+    study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    shared.completed(study, _studies, ".toml")
+    shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
         "--jobs", type=int, metavar="N", help="solvers asked at once (default: all cores)"
@@ -34,17 +40,21 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
-    shared.add_json(run_)
-    shared.add_quiet(run_)
-    export = actions.add_parser(
-        "export",
-        help="write a study's problems as a test set of qpbenchmark",
-        description="Write a study's problems as a test set of qpbenchmark (parquet).",
-    )
-    export.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    shared.add_out(export, "qpbenchmark")
+    shared.add(run_, "--json", "--quiet")
+    for name in ("export", "report", "pack"):
+        words = "of a study that was run"
+        parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)
+    shared.add(export, "--out", default="qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
-    add_report(actions)
+    for name, folder in (("report", "report"), ("pack", "packed")):
+        words = f"folder for the results (default: {folder}, in that of the study)"
+        parsers[name].add_argument("--out", type=Path, metavar="FOLDER", help=words)
+
+
+def _studies() -> list[str]:
+    from quasistatic_ref.lab.study.spec import study_names
+
+    return sorted(study_names())
 
 
 def run(options: argparse.Namespace) -> int:
@@ -61,6 +71,9 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
+    from quasistatic_ref.lab.study.spec import study_kind, study_path, study_tables
+
     path = study_path(options.study)
     tables = study_tables(path)
     try:
@@ -83,6 +96,9 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
 
         rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
         return _swept(rows, options)
+    from quasistatic_ref.lab.study.run import run_study
+    from quasistatic_ref.lab.study.spec import solver_study
+
     rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
     if options.json:
         counts = Counter(row["outcome"] for row in rows)

@@ -3,31 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
-from typing import Any
-
-
-def add_report(actions: Any) -> None:
-    """Declare ``report`` and ``pack`` among the actions of ``study``."""
-    report = actions.add_parser(
-        "report",
-        help="write what a study says: one HTML page, Markdown, figures",
-        description="Write what a study says: a self-contained HTML page, Markdown, figures.",
-    )
-    report.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    _add_out(report, "report")
-    pack = actions.add_parser(
-        "pack",
-        help="write a study's rows compressed, their numbers shortened",
-        description="Write a study's rows compressed, their numbers shortened, to be kept.",
-    )
-    pack.add_argument("store", type=Path, metavar="FOLDER", help="of a study that was run")
-    _add_out(pack, "packed")
-
-
-def _add_out(parser: argparse.ArgumentParser, name: str) -> None:
-    words = f"folder for the results (default: {name}, in that of the study)"
-    parser.add_argument("--out", type=Path, metavar="FOLDER", help=words)
 
 
 def run_report(options: argparse.Namespace) -> int:

@@ -23,9 +23,10 @@ IN = {
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
-    shared.add_out(parser, "validation")
-    shared.add_json(parser)
+    names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
+    shared.completed(names, lambda: BY_NAME)
+    shared.add(parser, "--out", default="validation")
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -33,11 +33,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             )
         if name == "check":
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
-            shared.add_json(action)
+            shared.add(action, "--json")
         else:
-            shared.add_out(action, "answers" if name == "own" else "vectors")
+            shared.add(action, "--out", default="answers" if name == "own" else "vectors")
         if name in ("generate", "own", "harvest"):
-            shared.add_quiet(action)
+            shared.add(action, "--quiet")
         if name in ("check", "own"):
             action.add_argument(
                 "--layer",

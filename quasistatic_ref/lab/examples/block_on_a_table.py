@@ -9,20 +9,15 @@ ones that are drawn are those of one optimum.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 M, MU_V, H, HALF = 0.5, 0.4, 0.01, 0.05
 """Mass [kg], friction [-], time step [s], half of the block's side [m]."""

@@ -7,17 +7,12 @@ from step to step.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SLOPE, MU_V, G = np.radians(25), {"rough": 0.6, "smooth": 0.3}, 9.81
 

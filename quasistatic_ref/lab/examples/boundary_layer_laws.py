@@ -8,18 +8,14 @@ step size, the turn of a step is itself proportional to h^2.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.figures import Figure, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.validate.measures import slope
 from quasistatic_ref.lab.validate.paper.boundary_layer import LIMIT, layer_at_rate, layer_at_torque
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 TIME_STEPS = np.geomspace(1e-3, 3e-2, 5)
 """h [s]."""

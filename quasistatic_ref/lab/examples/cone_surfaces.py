@@ -7,18 +7,13 @@ its limit whatever the tangential force. How much they hold is a matter of their
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.cones import limit_surfaces
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.step.friction import cone_matrix
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def main() -> Numbers:

@@ -7,18 +7,14 @@ of the signed distance phi with respect to q is n'J, which is what makes a row o
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.validate.claim import Evidence
 from quasistatic_ref.lab.validate.paper.contact_geometry import evidence
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @cache

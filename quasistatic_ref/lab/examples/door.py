@@ -6,17 +6,12 @@ tip puts it, and stays there when the tip stops, since no velocity is carried fr
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 R, W = 0.6, 0.045
 """The tip's distance beside the hinge; its radius and half of the door's thickness [m]."""

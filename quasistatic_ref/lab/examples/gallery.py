@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from quasistatic_ref.figures import Figure
 
 EXAMPLES: Final = (
     "block_on_a_table",

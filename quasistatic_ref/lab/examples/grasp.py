@@ -6,17 +6,12 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.grasp import grasp_strip
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def main() -> Numbers:

@@ -8,20 +8,16 @@ finger under Hertz's pressure, (R15). The scene's value lies between the two.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.figures import Figure, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp, ran
 from quasistatic_ref.model.shapes import Box
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 BELOW, ABOVE = 1.75e-3, 1.8e-3
 """Where it slips and where it holds [m]."""

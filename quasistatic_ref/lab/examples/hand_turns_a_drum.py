@@ -7,17 +7,12 @@ the axle and psi the turn of its link. The hand comes with the extra `robots`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 R, RHO, AXLE = 0.03, 0.012, np.array([0.055, 0.0, 0.0525])
 SETTINGS = ("h=0.02", "steps=150")

@@ -6,16 +6,11 @@ K (e - c + b), b being the boundary layer, and friction on both walls holds it b
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 K = np.array([500.0, 500.0, 2000.0])
 MISS, CLEARANCE, MU_V, V = np.array([0.003, 0.002]), 0.0005, 0.2, 0.01

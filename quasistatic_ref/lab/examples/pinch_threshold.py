@@ -7,11 +7,10 @@ paper's pyramid the normal force is shared: N = m g / (2 mu_v) + m g d / (2 mu_o
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.cones import pinch_thresholds
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
@@ -19,9 +18,6 @@ from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.validate.measures import threshold
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 M, MU_V, MU_OMEGA, D = 0.2, 0.5, 0.02, 0.03
 PRECISION = 1e-6

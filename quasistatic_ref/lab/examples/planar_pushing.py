@@ -8,19 +8,15 @@ when the slider's radius of gyration rho is c = mu_omega / mu_v, at any speed.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.scenes.slider import GYRATION, H
 from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @cache

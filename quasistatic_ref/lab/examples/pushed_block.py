@@ -7,15 +7,10 @@ is; here it is a quarter of friction, on purpose.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from quasistatic_ref.figures import draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 M, MU_V, K_Q, V, G = 0.5, 0.4, 1000.0, 0.01, 9.81
 

@@ -5,12 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.figures.style import figure_written
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Numbers = dict[str, float]
 """What an example came to: a quantity with its unit in brackets -> its value."""

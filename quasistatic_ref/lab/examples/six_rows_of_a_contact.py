@@ -9,20 +9,15 @@ cost the same stands on two. The rows that it stands on push back, all others ar
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.figures import Figure, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 M, RADIUS, MU_V, MU_OMEGA, H = 0.3, 0.05, 0.5, 0.01, 0.01
 ROWS = ("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")

@@ -8,18 +8,14 @@ for all 600 steps, and for problems that are not written in natural units.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.solve.solve import solve_step
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 BACKENDS = ("clarabel", "osqp", "piqp")
 ACCURACIES = ("1e-3", "1e-6", "1e-9", "1e-12")

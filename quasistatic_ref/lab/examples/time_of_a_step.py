@@ -7,15 +7,10 @@ or a tracker leaves out those that cannot matter. The times are those of this ma
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from quasistatic_ref.figures import styled
+from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.validate.paper.step_time import measured
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def main() -> Numbers:

@@ -61,7 +61,6 @@ def pile(
     *,
     backend: str = "clarabel",
     certify: str = "off",
-    dense: int = 5,
 ) -> Pile:
     """Boxes in a grid of nx x ny x nz, each touching its neighbours and the lowest the floor.
 
@@ -75,8 +74,6 @@ def pile(
         Contacts of each pair.
     backend, certify : str
         As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
-    dense : int
-        Points along each side of a cloud.
     """
     index = np.arange(np.prod(shape)).reshape(shape)
     places = np.stack(np.unravel_index(index.ravel(), shape), axis=1)
@@ -84,7 +81,7 @@ def pile(
     names = [f"box{i}" for i in range(index.size)]
     starts = {name: {"xyz": tuple(at)} for name, at in zip(names, xyz.tolist(), strict=True)}
     system = system_of(dict.fromkeys(names, BOX), **starts)
-    cloud, floor = PointCloud(_surface(dense)), world_plane()
+    cloud, floor = PointCloud(_surface()), world_plane()
     boxes = {shape.link: shape for shape in system.shapes}
     clouds = [on_link(system, name, cloud) for name in names]
     pairs = [_pair(floor, clouds[i], k) for i in index[:, :, 0].ravel()]
@@ -105,9 +102,9 @@ def _pair(alpha: PlacedShape, beta: PlacedShape, k: int) -> ContactPair:
     return ContactPair(f"{alpha.name}-{beta.name}", alpha, beta, MU_V, MU_OMEGA, 6, k)
 
 
-def _surface(dense: int) -> Array:
-    """Points on the six faces of a box, dense x dense each, the outermost of each face first."""
-    line = WITHIN * np.linspace(-SIDE / 2, SIDE / 2, dense)
+def _surface() -> Array:
+    """Points on the six faces of a box, 5 x 5 each, the outermost of each face first."""
+    line = WITHIN * np.linspace(-SIDE / 2, SIDE / 2, 5)
     u, v = (some.ravel() for some in np.meshgrid(line, line, indexing="ij"))
     faces = [
         np.insert(np.stack([u, v], axis=1), axis, side, axis=1)

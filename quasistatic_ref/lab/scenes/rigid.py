@@ -62,13 +62,10 @@ def rigid_step(
     return free_step(M, wrench, contacts_of(phi, frames, J, mu_v, mu_omega, rows), h)
 
 
-def point_step(
-    m: float, force: ArrayLike, mu_v: float, phi: float, h: float, frame: ArrayLike | None = None
-) -> StepData:
+def point_step(m: float, force: ArrayLike, mu_v: float, phi: float, h: float) -> StepData:
     """A point mass over a plane; delta_q is its displacement in the world [m]."""
-    J = np.eye(4, 3)[None]
-    axes = np.eye(3) if frame is None else frame
-    return free_step(m * np.eye(3), force, contacts_of(phi, axes, J, mu_v), h)
+    contact = contacts_of(phi, np.eye(3), np.eye(4, 3)[None], mu_v)
+    return free_step(m * np.eye(3), force, contact, h)
 
 
 def sphere_step(

@@ -107,9 +107,9 @@ def system_of(texts: Mapping[str, str], **settings: Mapping[str, Any]) -> System
         return System(bodies)
 
 
-def world_plane(normal: ArrayLike = (0, 0, 1), offset: float = 0.0) -> PlacedShape:
-    """A half-space fixed in the world."""
-    shape = HalfSpace(np.array(normal, dtype=np.float64), offset)
+def world_plane(normal: ArrayLike = (0, 0, 1)) -> PlacedShape:
+    """A half-space fixed in the world, its surface through the origin."""
+    shape = HalfSpace(np.array(normal, dtype=np.float64), 0.0)
     return PlacedShape("floor", 0, np.eye(3), np.zeros(3), shape)
 
 

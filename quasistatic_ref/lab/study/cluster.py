@@ -2,46 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.conduct import BLOCK, Answered, Block, block_rows, conduct
+from quasistatic_ref.lab.study.conduct import BLOCK, Answered, Block, Work, block_rows, conduct
 from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.plan import Measurement
-from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.lab.study.store import Row, Store
+from quasistatic_ref.lab.study.store import Row
 
 CONNECT = 30
 """Seconds in which a scheduler must answer."""
 
 
-def conduct_on_cluster(
-    store: Store,
-    todo: Sequence[Measurement],
-    problems: Mapping[str, Problem],
-    address: str,
-    folder: str,
-    *,
-    limit: float,
-    budget: float,
-    progress: bool = True,
-) -> None:
+def conduct_on_cluster(work: Work, address: str) -> None:
     """Run what is left of a plan on the workers of a Dask scheduler.
 
     Every worker needs this package and the solvers; rows come back here, to one store.
 
     Parameters
     ----------
-    store, todo, problems, limit, budget, progress
-        As in :func:`~quasistatic_ref.lab.study.conduct.conduct`; limit and budget in [s].
+    work : Work
     address : str
         Such as ``tcp://127.0.0.1:8786``.
-    folder : str
-        Where callables and executables are looked for, on the workers.
 
     Raises
     ------
@@ -50,11 +36,10 @@ def conduct_on_cluster(
     """
 
     def answered(solver: Solver) -> Answered:
-        return _Elsewhere(solver, folder)
+        return partial(_elsewhere, work.folder, solver)
 
     with executor_of(address) as (executor, slots):
-        conduct(store, todo, problems, executor, slots, answered, limit=limit, budget=budget,
-                block=BLOCK, progress=progress)  # fmt: skip
+        conduct(work, executor, slots, answered, BLOCK)
 
 
 @contextmanager
@@ -77,15 +62,10 @@ def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
         client.close()
 
 
-class _Elsewhere:
-    """One block on a worker of the cluster, in a process of its own; it can be pickled."""
-
-    def __init__(self, solver: Solver, folder: str) -> None:
-        self.solver, self.folder = solver, folder
-
-    def __call__(self, block: Block, limit: float, left: float) -> list[Row]:
-        with Keeper(self.solver, self.folder) as keeper:
-            return block_rows(keeper, block, limit, left)
+def _elsewhere(folder: str, solver: Solver, block: Block, limit: float, left: float) -> list[Row]:
+    """The rows of one block, on a worker of the cluster, in a process of its own."""
+    with Keeper(solver, folder) as keeper:
+        return block_rows(keeper, block, limit, left)
 
 
 def _client(address: str) -> Any:

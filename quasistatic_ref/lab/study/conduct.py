@@ -10,6 +10,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
 
 from quasistatic_ref.lab.study.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.keeper import Keeper
@@ -63,44 +64,60 @@ def unmeasured(m: Measurement) -> Row:
     return m.fields() | row | {"seconds": row["seconds"] | {"spent": 0.0}}
 
 
+@dataclass(frozen=True, eq=False)
+class Work:
+    """What is left of a plan, and what it may cost.
+
+    Parameters
+    ----------
+    store : Store
+        What rows are added to.
+    todo : sequence of Measurement
+        In order; those of one solver stay in it.
+    problems : mapping of str to Problem
+    folder : str
+        Where callables and executables are looked for.
+    limit, budget : float
+        Of a problem, and of a solver [s].
+    progress : bool
+    """
+
+    store: Store
+    todo: Sequence[Measurement]
+    problems: Mapping[str, Problem]
+    folder: str
+    limit: float
+    budget: float
+    progress: bool = True
+
+
 def conduct(
-    store: Store,
-    todo: Sequence[Measurement],
-    problems: Mapping[str, Problem],
+    work: Work,
     executor: Executor,
     slots: int,
     answered: Callable[[Solver], Answered],
-    *,
-    limit: float,
-    budget: float,
     block: int = 1,
-    progress: bool = True,
 ) -> None:
     """Run what is left of a plan and add its rows to the store.
 
     Parameters
     ----------
-    store : Store
-    todo : sequence of Measurement
-        In order; those of one solver stay in it.
-    problems : mapping of str to Problem
+    work : Work
     executor : Executor
     slots : int
         Blocks under way at once.
     answered : callable
         Solver -> the function that the executor calls.
-    limit, budget : float
-        Of a problem, and of a solver [s].
     block : int
         Measurements of a block; at least those of one problem.
-    progress : bool
     """
     queues: dict[str, deque[tuple[int, Measurement]]] = {}
-    for place, m in enumerate(todo):
+    for place, m in enumerate(work.todo):
         queues.setdefault(m.solver.label, deque()).append((place, m))
-    left = {label: budget - spent for label, spent in _spent(store, queues).items()}
+    left = {label: work.budget - spent for label, spent in _spent(work.store, queues).items()}
     under_way: dict[Future[list[Row]], str] = {}
-    with progress_bar(total=len(todo), unit="call", words="asked", shown=progress) as bar:
+    total = len(work.todo)
+    with progress_bar(total=total, unit="call", words="asked", shown=work.progress) as bar:
         try:
             while queues or under_way:
                 idle = {n: q for n, q in queues.items() if n not in under_way.values()}
@@ -109,14 +126,14 @@ def conduct(
                     taken = _taken(idle.pop(label), block)
                     if not queues[label]:
                         del queues[label]
-                    items = [(m, problems[m.problem]) for m in taken]
+                    items = [(m, work.problems[m.problem]) for m in taken]
                     call = answered(taken[0].solver)
-                    under_way[executor.submit(call, items, limit, left[label])] = label
+                    under_way[executor.submit(call, items, work.limit, left[label])] = label
                 done, _ = wait(under_way, return_when=FIRST_COMPLETED)
                 for future in done:
                     label = under_way.pop(future)
                     for row in future.result():
-                        store.add(row)
+                        work.store.add(row)
                         left[label] -= row["seconds"]["spent"]
                         bar.update()
         finally:
@@ -124,38 +141,17 @@ def conduct(
                 future.cancel()
 
 
-def conduct_here(
-    store: Store,
-    todo: Sequence[Measurement],
-    problems: Mapping[str, Problem],
-    jobs: int,
-    folder: str,
-    *,
-    limit: float,
-    budget: float,
-    progress: bool = True,
-) -> None:
-    """The same on the cores of this machine, one process for each solver.
-
-    Parameters
-    ----------
-    store, todo, problems, limit, budget, progress
-        As in :func:`conduct`; limit and budget in [s].
-    jobs : int
-        Solvers that are asked at once.
-    folder : str
-        Where callables and executables are looked for.
-    """
+def conduct_here(work: Work, jobs: int) -> None:
+    """The same on the cores of this machine, one process for each of `jobs` solvers at once."""
     keepers: dict[str, Keeper] = {}
 
     def answered(solver: Solver) -> Answered:
-        keeper = keepers.setdefault(solver.label, Keeper(solver, folder))
+        keeper = keepers.setdefault(solver.label, Keeper(solver, work.folder))
         return lambda block, limit, left: block_rows(keeper, block, limit, left)
 
     try:
         with ThreadPoolExecutor(jobs) as executor:
-            conduct(store, todo, problems, executor, jobs, answered, limit=limit, budget=budget,
-                    progress=progress)  # fmt: skip
+            conduct(work, executor, jobs, answered)
     finally:
         for keeper in keepers.values():
             keeper.close()

@@ -79,27 +79,18 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
     dict
     """
     outcome, x, lam = _usable(paper.forms[asked_in], reply)
-    digits: dict[str, float | None] = {"delta_q": None, "net_wrench": None}
-    residuals: dict[str, float | None] = {"primal": None, "dual": None, "gap": None}
+    row = ungraded(outcome, reply.status, reply.call_seconds)
     with np.errstate(all="ignore"):
         if x is not None:
-            residuals = _residuals(paper.forms[asked_in], x, lam)
+            row["residuals"] = _residuals(paper.forms[asked_in], x, lam)
             if asked_in == "raw":
                 x = x / (paper.units.size * paper.units.coordinate)
                 lam = None if lam is None else lam * (paper.units.length / paper.units.size)
-            digits = _digits(paper, x, lam)
-    found = digits["delta_q"]
-    wrong = reply.solved and (found is None or found < promised)
-    return {
-        "outcome": outcome,
-        "claimed": clipped(reply.status),
-        "said_optimal": reply.solved,
-        "wrong": wrong,
-        "digits": digits,
-        "residuals": residuals,
-        "seconds": {"solver": _finite(reply.seconds), "call": reply.call_seconds},
-        "iterations": reply.iterations,
-    }
+            row["digits"] = _digits(paper, x, lam)
+    found = row["digits"]["delta_q"]
+    row["wrong"] = reply.solved and (found is None or found < promised)
+    row["seconds"]["solver"] = _finite(reply.seconds)
+    return row | {"said_optimal": reply.solved, "iterations": reply.iterations}
 
 
 def ungraded(outcome: str, claimed: str, seconds: float) -> dict[str, Any]:

@@ -93,7 +93,9 @@ class Keeper:
         """End the process."""
         if self._process is None:
             return
-        self._killed(self._process)
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
         self._inbox.close()
         self._outbox.close()
         self._process = None
@@ -145,9 +147,3 @@ class Keeper:
         if code is None:
             return "its process closed its pipe"
         return f"killed by signal {-code}" if code < 0 else f"its process ended with status {code}"
-
-    @staticmethod
-    def _killed(process: subprocess.Popen[bytes]) -> None:
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()

@@ -58,9 +58,7 @@ class LargeStep:
     megabytes: float
 
 
-def large_step(
-    shape: tuple[int, int, int], k: int = 4, backend: str = "clarabel", steps: int = STEPS
-) -> LargeStep:
+def large_step(shape: tuple[int, int, int], k: int = 4, steps: int = STEPS) -> LargeStep:
     """Boxes pulled over a floor for a few steps, not certified.
 
     Parameters
@@ -68,11 +66,10 @@ def large_step(
     shape : (int, int, int)
     k : int
         Contacts of each pair.
-    backend : str
     steps : int
         How many are timed.
     """
-    some = pile(shape, k, backend=backend)
+    some = pile(shape, k)
     q, laps = some.q, []
     for _ in range(WARM_UP + steps):
         result = some.simulator.step(q, np.zeros(0), some.force)

@@ -6,24 +6,9 @@ import base64
 import re
 from collections.abc import Mapping
 from html import escape
+from pathlib import Path
 
 from quasistatic_ref.lab.study.page import Block, Picture, Report, Table
-
-STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; color: #111; background: #fff;
-       max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
-h1, h2 { line-height: 1.2; } h2 { margin-top: 2.5rem; border-bottom: 1px solid #999; }
-nav ul { columns: 2; padding-left: 1.2rem; } a { color: #00508a; }
-figure { margin: 1.5rem 0; } img { display: block; width: 100%; max-width: 50rem; height: auto; }
-.wide { overflow-x: auto; margin: 1.2rem 0; }
-table { border-collapse: collapse; font-size: 0.86rem; font-variant-numeric: tabular-nums; }
-caption, figcaption { text-align: left; font-size: 0.9rem; margin-bottom: 0.4rem; }
-.rows { color: #444; } th { border-bottom: 2px solid #333; }
-th, td { padding: 0.2rem 0.6rem; text-align: right; vertical-align: top; }
-th.left, td.left { text-align: left; } tbody tr:nth-child(even) { background: #f1f1f1; }
-code { background: #f1f1f1; padding: 0 0.2em; overflow-wrap: break-word; }
-@media print { h2 { break-after: avoid; } figure, tr { break-inside: avoid; } }
-"""
 
 
 def html_page(report: Report, images: Mapping[str, bytes]) -> str:
@@ -36,11 +21,12 @@ def html_page(report: Report, images: Mapping[str, bytes]) -> str:
         Name of each picture -> its SVG.
     """
     links = [f'<li><a href="#{_id(s.title)}">{escape(s.title)}</a></li>' for s in report.sections]
+    style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
     lines = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>{escape(report.title)}</title><style>{STYLE}</style></head><body>",
+        f"<title>{escape(report.title)}</title><style>\n{style}</style></head><body>",
         f"<h1>{escape(report.title)}</h1>",
         f"<nav><ul>{''.join(links)}</ul></nav>",
     ]

@@ -1,32 +1,30 @@
-"""A report as Markdown, its figures beside it."""
+"""A report as Markdown, its figures in the folder ``figures`` beside it."""
 
 from __future__ import annotations
 
 from quasistatic_ref.lab.study.page import Block, Picture, Report, Table
 
 
-def markdown_page(report: Report, folder: str = "figures") -> str:
+def markdown_page(report: Report) -> str:
     """The page.
 
     Parameters
     ----------
     report : Report
-    folder : str
-        Where the figures are, seen from the page.
     """
     lines = [f"# {report.title}", ""]
     for section in report.sections:
         lines += [f"## {section.title}", ""]
         for block in section.blocks:
-            lines += [*_block(block, folder), ""]
+            lines += [*_block(block), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _block(block: Block, folder: str) -> list[str]:
+def _block(block: Block) -> list[str]:
     if isinstance(block, str):
         return [block]
     if isinstance(block, Picture):
-        return [f"![{block.caption}]({folder}/{block.name}.png)", "",
+        return [f"![{block.caption}](figures/{block.name}.png)", "",
                 f"{block.caption} *Rows:* {block.where}."]  # fmt: skip
     return _table(block)
 

@@ -3,44 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.study.problems import problems_read
 from quasistatic_ref.lab.study.qp import UNITS, Problem, units_of
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 from quasistatic_ref.solve.units import natural_form
-
-MODULE: Final = '''"""Quadratic programs of contact, in {units} units.
-
-    qpbenchmark --results-path results.csv {name}.py run --author YOU
-
-The exact answers are in {name}.npz: K/delta_q is that of the K-th problem.
-"""
-
-from pathlib import Path
-
-from qpbenchmark import ParquetTestSet
-
-
-class {title}(ParquetTestSet):
-    """Quadratic programs of convex quasi-dynamic contact."""
-
-    def __init__(self):
-        super().__init__(Path(__file__).parent / "{name}.parquet")
-
-    @property
-    def description(self) -> str:
-        return "Steps of convex quasi-dynamic contact simulation, in {units} units"
-
-    @property
-    def sparse_only(self) -> bool:
-        return False
-
-    @property
-    def title(self) -> str:
-        return "Contact problems, {units} units"
-'''
 
 
 def benchmark_written(store: str | Path, folder: str | Path, every: int = 1) -> list[Path]:
@@ -52,7 +20,7 @@ def benchmark_written(store: str | Path, folder: str | Path, every: int = 1) -> 
         Folder of a study that was run.
     folder : str or Path
     every : int
-        Each so-manieth problem only.
+        Each N-th problem only.
 
     Returns
     -------
@@ -64,10 +32,11 @@ def benchmark_written(store: str | Path, folder: str | Path, every: int = 1) -> 
         If there are no problems, pyarrow is missing, or the folder cannot be written.
     """
     problems, paths = problems_read(store)[::every], []
+    template = (Path(__file__).parent / "test_set.txt").read_text(encoding="utf-8")
     for units in UNITS:
         name = f"contact_{units}"
         programs = [_program(problem, units) for problem in problems]
-        module = MODULE.format(name=name, units=units, title=name.title().replace("_", ""))
+        module = template.format(name=name, units=units, title=name.title().replace("_", ""))
         paths += [
             parquet_written(Path(folder) / f"{name}.parquet", programs),
             npz_written(Path(folder) / f"{name}.npz", programs),

@@ -5,7 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import shutil
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -30,6 +32,7 @@ from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
 from quasistatic_ref.npz import npz_arrays
+from quasistatic_ref.plain import bits
 from quasistatic_ref.progress import progress_bar
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -37,6 +40,8 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 FORMAT, VERSION = "quasistatic-ref/study-problems", 2
 """Version 1 of the problems came from other scenes, and its rows were rounded in another order."""
 HEADER, FACTS, NUMBERS = "problems.json", "problems.jsonl", "problems.npz"
+BEGUN = "begun"
+"""The folder within a store that has the problems of a test set that is not yet whole."""
 NAMES: Final = ("H", "g", "A", "b", "delta_q", "net")
 AGAIN = "bunny_grasp"
 """The scenario that is asked again at other h and k: the paper's own."""
@@ -94,12 +99,20 @@ def _shares(count: int, parts: int) -> list[int]:
     return [count // parts + (i < count % parts) for i in range(parts)]
 
 
-def problem_of(one: Made) -> Problem:
-    """The quadratic program of a step, with its exact answer."""
+def problem_of(one: Made, before: Problem | None = None) -> Problem:
+    """The quadratic program of a step, with its exact answer.
+
+    Parameters
+    ----------
+    one : Made
+    before : Problem, optional
+        Made before; if its numbers are the same, its answer is taken.
+    """
     form = standard_form(one.step)
     n_c = one.step.contacts.n_c
     facts = Facts(one.id, one.family, n_c, one.mass_ratio, one.step.h, one.k)
-    return Problem(facts, form, answer_of(form))
+    same = before is not None and bits(before.form) == bits(form)
+    return Problem(facts, form, before.answer if before and same else answer_of(form))
 
 
 def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) -> list[Problem]:
@@ -120,6 +133,8 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
     ------
     InputError
         If the folder holds another test set.
+    KeyboardInterrupt
+        After Ctrl-C. The problems made so far are kept, and their answers not sought again.
     """
     folder = Path(folder)
     asked = _asked(test_set)
@@ -133,14 +148,21 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
         return problems_read(folder)
     # The bar counts steps: those of the runs that problems are taken from, and the problems.
     total = sum(test_set.families.values())
+    begun = folder / BEGUN
+    kept = {p.id: p for p in problems_read(begun)} if (begun / HEADER).exists() else {}
     problems: dict[str, Problem] = {}
     with progress_bar(total=total, unit="step", words="exact answers", shown=progress) as bar:
         bar.total += sum(scenario_of(name).steps for name in scenarios_run(test_set))
-        for one in made(test_set, bar.update):
-            problem = problem_of(one)
-            problems[problem.id] = problem
-            bar.update()
+        try:
+            for one in made(test_set, bar.update):
+                problems[one.id] = problem_of(one, kept.get(one.id))
+                bar.update()
+        except KeyboardInterrupt:
+            if problems:
+                _written(list((kept | problems).values()), asked, begun)
+            raise
     _written(list(problems.values()), asked, folder)
+    shutil.rmtree(begun, ignore_errors=True)
     return list(problems.values())
 
 
@@ -221,7 +243,7 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
         natural = natural_form(form, units_of(form))
         lines.append(
             json_text(
-                problem.facts.record()
+                asdict(problem.facts)
                 | {
                     "n": len(form.g),
                     "m": len(form.b),

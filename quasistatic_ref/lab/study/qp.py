@@ -7,7 +7,6 @@ numbers, and the exact answer belongs to these, not to the step that they were r
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -42,10 +41,6 @@ class Facts:
     mass_ratio: float
     h: float
     k: int
-
-    def record(self) -> dict[str, Any]:
-        """Plain numbers for a file."""
-        return dict(self.__dict__)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.files import writable_folder
-from quasistatic_ref.lab.study.conduct import conduct_here
+from quasistatic_ref.lab.study.conduct import Work, conduct_here
 from quasistatic_ref.lab.study.environment import machine, versions
 from quasistatic_ref.lab.study.plan import plan
 from quasistatic_ref.lab.study.problems import problem_set, set_record
@@ -57,35 +57,28 @@ def run_study(
     with Store(folder, study_record(study, problems)) as store:
         done = store.keys
         todo = [m for m in planned if key_of(m.fields()) not in done]
-        limits = {"limit": study.time_limit, "budget": study.budget}
+        work = Work(store, todo, by_id, place, study.time_limit, study.budget, progress)
         if scheduler is None:
-            jobs = jobs or os.cpu_count() or 1
-            conduct_here(store, todo, by_id, jobs, place, **limits, progress=progress)
+            conduct_here(work, jobs or os.cpu_count() or 1)
         else:
             from quasistatic_ref.lab.study.cluster import conduct_on_cluster
 
-            conduct_on_cluster(store, todo, by_id, scheduler, place, **limits, progress=progress)
+            conduct_on_cluster(work, scheduler)
         return store.rows
 
 
 def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     """What ``study.json`` holds: the study as it was resolved, machine and versions."""
     parts = [
-        {
-            "solvers": [s.label for s in part.solvers],
-            "settings": [s.name for s in part.settings],
-            "units": list(part.units),
-            "warm": list(part.warm),
-            "repetitions": part.repetitions,
-            "every": part.every,
-        }
+        asdict(part)
+        | {"solvers": [s.label for s in part.solvers], "settings": [s.name for s in part.settings]}
         for part in study.parts
     ]
     solvers = [
         {
             "name": s.name,
             "road": s.road,
-            "target": s.target if isinstance(s.target, str) else list(s.target),
+            "target": s.target,
             "options": {
                 t.name: s.settings_of(t, study.time_limit)
                 for t in study.settings

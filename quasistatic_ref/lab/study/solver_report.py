@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from quasistatic_ref.lab.study.advice import advice, advice_table, options_table
 from quasistatic_ref.lab.study.columns import (
     Columns,
+    Where,
     chosen,
     columns_of,
     common,
@@ -19,7 +21,7 @@ from quasistatic_ref.lab.study.columns import (
 )
 from quasistatic_ref.lab.study.page import Block, Picture, Report, Section, filter_words
 from quasistatic_ref.lab.study.report_words import (
-    LIMITATIONS,
+    limitations,
     method,
     place_tables,
     settings_table,
@@ -43,6 +45,38 @@ NEEDED = {"default": 3.0, "low": 1.0, "mid": 3.0, "high": 6.0, "tuned": 9.0}
 """Digits that count as right in a profile, by setting."""
 
 
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What a study asked, and the calls that are compared first.
+
+    Parameters
+    ----------
+    study : mapping
+        ``study.json``.
+    columns : mapping of str to ndarray
+    settings : list of str
+        Each solver's own first, then from loose to tight.
+    base : mapping
+        The road, units and warmth that most calls were made with.
+    """
+
+    study: Mapping[str, Any]
+    columns: Columns
+    settings: list[str]
+    base: Where
+
+    def at(self, setting: str) -> Where:
+        """The calls at one setting, of those that are compared first."""
+        return {**self.base, "setting": setting}
+
+    @property
+    def main(self) -> list[str]:
+        """The settings, at most two, at which most problems were asked."""
+        counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
+        two = sorted(self.settings, key=lambda s: -counts[s])[:2]
+        return [s for s in self.settings if s in two and counts[s]]
+
+
 def solver_report(
     study: Mapping[str, Any], facts: Sequence[Mapping[str, Any]], rows: Sequence[Row]
 ) -> Report:
@@ -61,31 +95,27 @@ def solver_report(
     Report
     """
     columns = columns_of(rows, study["time_limit"])
-    settings = _settings(study, columns)
-    base = _widest(columns)
-    main = _main_settings(columns, settings, base)
+    asked = _Asked(study, columns, _settings(study, columns), _widest(columns))
     families = list(dict.fromkeys(fact["family"] for fact in facts))
-    promised = {s["name"]: s["promised"] for s in study["settings"]}
     head = (
         f"{len(facts):,} problems, {len(set(columns['label'])):,} solvers by road, "
         f"{len(rows):,} measurements."
     )
-    return Report(
-        "Solvers on contact problems with exact answers",
-        (
-            Section("Which settings to use", (head, *_advised(study, columns, settings, base))),
-            Section("Accuracy and time", tuple(_compared(study, columns, settings, main, base))),
-            Section("Said optimal, was wrong", tuple(_claims(columns, settings, promised))),
-            Section("By problem family", tuple(_by_family(columns, main, base, families))),
-            Section("Units, warm starts, roads", tuple(_contrasts(columns, settings, base))),
-            Section("How calls ended", (outcome_table(columns),)),
-            Section("Method", (*method(study["time_limit"]), settings_table(study["settings"]))),
-            Section("Limitations", LIMITATIONS),
-            Section("Problems", (problem_table(facts),)),
-            Section("Machine, versions, options",
-                    (*place_tables(study), options_table(study["solvers"]))),
-        ),
-    )  # fmt: skip
+    options = options_table(study["solvers"])
+    sections: dict[str, Sequence[Block]] = {
+        "Which settings to use": [head, *_advised(asked)],
+        "Accuracy and time": _compared(asked),
+        "Said optimal, was wrong": _claims(asked),
+        "By problem family": _by_family(asked, families),
+        "Units, warm starts, roads": _contrasts(asked),
+        "How calls ended": [outcome_table(columns)],
+        "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
+        "Limitations": limitations(),
+        "Problems": [problem_table(facts)],
+        "Machine, versions, options": [*place_tables(study), options],
+    }
+    title = "Solvers on contact problems with exact answers"
+    return Report(title, tuple(Section(name, tuple(part)) for name, part in sections.items()))
 
 
 def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
@@ -95,91 +125,63 @@ def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
     return [s["name"] for s in asked]
 
 
-def _widest(columns: Columns) -> dict[str, str | bool]:
+def _widest(columns: Columns) -> Where:
     """The road, units and warmth that most calls were made with: what is compared first."""
     most = max(groups(columns, ["road", "units", "warm"]), key=lambda one: size(one[1]))
     road, units, warm = most[0]
     return {"road": road, "units": units, "warm": warm == "True"}
 
 
-def _main_settings(
-    columns: Columns, settings: Sequence[str], base: Mapping[str, str | bool]
-) -> list[str]:
-    """The settings, at most two, at which most problems were asked."""
-    counts = {s: size(chosen(columns, {**base, "setting": s})) for s in settings}
-    two = sorted(settings, key=lambda s: -counts[s])[:2]
-    return [s for s in settings if s in two and counts[s]]
-
-
-def _advised(
-    study: Mapping[str, Any],
-    columns: Columns,
-    settings: Sequence[str],
-    base: Mapping[str, str | bool],
-) -> list[Block]:
-    found, more = advice(columns, settings, base)
+def _advised(asked: _Asked) -> list[Block]:
+    found, more = advice(asked.columns, asked.settings, asked.base)
     return [
         "For each solver the setting that delivers 6 digits most often; of settings within 1 % of "
         "that, the one with the least shifted geometric mean of times. Surest first.",
-        advice_table(found, study["solvers"], base, more),
+        advice_table(found, asked.study["solvers"], asked.base, more),
     ]
 
 
-def _compared(
-    study: Mapping[str, Any],
-    columns: Columns,
-    settings: Sequence[str],
-    main: Sequence[str],
-    base: Mapping[str, str | bool],
-) -> list[Block]:
-    where = filter_words(base)
+def _compared(asked: _Asked) -> list[Block]:
     panels, shares, said = [], [], []
-    for setting in main:
-        own = common(chosen(columns, {**base, "setting": setting}))
+    for setting in asked.main:
+        own = common(chosen(asked.columns, asked.at(setting)))
         labels = [label for (label,), _ in groups(own, ["label"])]
         if not labels:
             continue
-        good = matrix(own, "digits", labels)
-        ratios = performance_ratios(matrix(own, "seconds", labels), good >= NEEDED.get(setting, 6))
-        title = f"{setting}: right to {NEEDED.get(setting, 6):g} digits"
+        good, needed = matrix(own, "digits", labels), NEEDED.get(setting, 6)
+        ratios = performance_ratios(matrix(own, "seconds", labels), good >= needed)
+        title = f"{setting}: right to {needed:g} digits"
         panels.append({"title": title, "labels": labels, "ratios": ratios})
         found = np.array([[success(d, least) for least in LEVELS] for d in good])
         shares.append({"title": setting, "labels": labels, "shares": found})
         said.append(f"setting = {setting}{same_problems(own)}")
-    rows = f"{where}; {'; '.join(said)}"
-    blocks: list[Block] = [
-        Picture("profiles", "profiles", {"panels": panels}, "Performance profiles.", rows),
-        Picture("success", "success", {"panels": shares, "levels": LEVELS},
-                "Problems solved to 3, 6 and 9 correct digits.", rows),
-        _against_time(study, columns, settings, base),
-    ]  # fmt: skip
-    tables = [solver_table(columns, {**base, "setting": s}) for s in settings]
-    return [*map(_drawable, blocks), *tables]
+    rows = f"{filter_words(asked.base)}; {'; '.join(said)}"
+    words, levels = "Problems solved to 3, 6 and 9 correct digits.", {"levels": LEVELS}
+    return [
+        _picture("profiles", panels, "Performance profiles.", rows),
+        _picture("success", shares, words, rows, **levels),
+        _against_time(asked),
+        *(solver_table(asked.columns, asked.at(setting)) for setting in asked.settings),
+    ]
 
 
-def _drawable(block: Block) -> Block:
+def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any) -> Block:
     """A picture, or a sentence in place of one that would be empty."""
-    if isinstance(block, Picture) and not block.data["panels"]:
-        return f"No problem was asked of all solvers: nothing to draw of `{block.name}`."
-    return block
+    if not panels:
+        return f"No problem was asked of all solvers: nothing to draw of `{name}`."
+    return Picture(name, name, {"panels": panels, **more}, caption, where)
 
 
-def _against_time(
-    study: Mapping[str, Any],
-    columns: Columns,
-    settings: Sequence[str],
-    base: Mapping[str, str | bool],
-) -> Picture:
+def _against_time(asked: _Asked) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
-    own_ = {s["name"]: s["accuracy"] is None for s in study["settings"]}
+    own_ = {s["name"]: s["accuracy"] is None for s in asked.study["settings"]}
     panels, said = [], []
-    for units in sorted(set(columns["units"])):
-        where = {**base, "units": units}
-        own = common(chosen(columns, where), ["label", "setting"])
+    for units in sorted(set(asked.columns["units"])):
+        own = common(chosen(asked.columns, {**asked.base, "units": units}), ["label", "setting"])
         lines = {
             label: [
                 (own_[s], float(np.median(at["seconds"])), float(np.median(at["digits"])))
-                for s in settings
+                for s in asked.settings
                 if size(at := chosen(part, {"setting": s}))
             ]
             for (label,), part in groups(own, ["label"])
@@ -187,60 +189,49 @@ def _against_time(
         if lines:
             panels.append({"title": f"{units} units", "lines": lines})
             said.append(f"units = {units}{same_problems(own)}")
-    where_ = {name: value for name, value in base.items() if name != "units"}
+    where = {name: value for name, value in asked.base.items() if name != "units"}
     caption = (
         "Median digits against median time of a call. A mark is a setting: half filled the "
         "solver's own, filled the tightest; a line joins the others from loose to tight."
     )
-    words = f"{filter_words(where_)}; {'; '.join(said)}"
-    return Picture("digits_time", "digits_time", {"panels": panels}, caption, words)
+    return _picture("digits_time", panels, caption, f"{filter_words(where)}; {'; '.join(said)}")
 
 
-def _claims(
-    columns: Columns, settings: Sequence[str], promised: Mapping[str, float]
-) -> list[Block]:
+def _claims(asked: _Asked) -> list[Block]:
+    columns = asked.columns
+    promised = {s["name"]: s["promised"] for s in asked.study["settings"]}
     tables = [
-        false_claims(columns, settings, {"units": units, "warm": warm == "True"})
+        false_claims(columns, asked.settings, {"units": units, "warm": warm == "True"})
         for (units, warm), _ in sorted(groups(columns, ["units", "warm"]), key=lambda one: one[0])
     ]
     words = f"{int(columns['wrong'].sum()):,} of {int(columns['said_optimal'].sum()):,} claims"
     return [f"{words} of success are false.", *tables, worst_claims(columns, promised)]
 
 
-def _by_family(
-    columns: Columns,
-    main: Sequence[str],
-    base: Mapping[str, str | bool],
-    families: Sequence[str],
-) -> list[Block]:
+def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
     panels, tables, said = [], [], []
-    for setting in main:
-        where = {**base, "setting": setting}
-        labels, found = family_digits(columns, where, families)
-        more = same_problems(common(chosen(columns, where)))
+    for setting in asked.main:
+        where = asked.at(setting)
+        labels, found = family_digits(asked.columns, where, families)
+        more = same_problems(common(chosen(asked.columns, where)))
         if not labels:
             continue
-        panels.append(
-            {"title": f"setting {setting}", "labels": labels, "families": families, "digits": found}
-        )
+        panel = {"labels": labels, "families": families, "digits": found}
+        panels.append({"title": f"setting {setting}", **panel})
         tables.append(family_table(labels, found, where, families, more))
         said.append(f"setting = {setting}{more}")
     caption = "Median digits delivered, by problem family and solver."
-    rows = f"{filter_words(base)}; {'; '.join(said)}"
-    picture = Picture("families", "families", {"panels": panels}, caption, rows)
-    return [_drawable(picture), *tables]
+    rows = f"{filter_words(asked.base)}; {'; '.join(said)}"
+    return [_picture("families", panels, caption, rows), *tables]
 
 
-def _contrasts(
-    columns: Columns, settings: Sequence[str], base: Mapping[str, str | bool]
-) -> list[Block]:
-    road, units = base["road"], base["units"]
-    asked = (
-        ("Raw units and natural units.", "units", ("raw", "natural"),
-         {"road": road, "warm": False}, False),
-        ("Cold and warm starts.", "warm", (False, True), {"road": road, "units": units}, True),
-        ("Directly and through CVXPY.", "road", ("qpsolvers", "cvxpy"),
-         {"units": units, "warm": False}, False),
-    )  # fmt: skip
-    tables = [contrast(columns, settings, *one) for one in asked]
+def _contrasts(asked: _Asked) -> list[Block]:
+    road, units = {"road": asked.base["road"]}, {"units": asked.base["units"]}
+    cold, columns = {"warm": False}, (asked.columns, asked.settings)
+    directly, raw = ("qpsolvers", "cvxpy"), ("raw", "natural")
+    tables = (
+        contrast(*columns, "Raw units and natural units.", "units", raw, road | cold),
+        contrast(*columns, "Cold and warm starts.", "warm", (False, True), road | units, True),
+        contrast(*columns, "Directly and through CVXPY.", "road", directly, units | cold),
+    )
     return [table for table in tables if table.rows]

@@ -14,6 +14,8 @@ from quasistatic_ref.lab.study.statistics import LOW, shifted_geometric_mean, su
 
 LEVELS = (3.0, 6.0, 9.0)
 """Digits at which success is counted."""
+WORST = 12
+"""How many false claims are shown."""
 ASKED_OF_ALL = "; on the {} that all of them were asked on"
 
 
@@ -78,7 +80,7 @@ def false_claims(columns: Columns, settings: Sequence[str], where: Where) -> Tab
     )
 
 
-def worst_claims(columns: Columns, promised: Mapping[str, float], most: int = 12) -> Table:
+def worst_claims(columns: Columns, promised: Mapping[str, float]) -> Table:
     """The false claims that were furthest off, one of each solver, setting, units and warmth.
 
     Parameters
@@ -86,8 +88,6 @@ def worst_claims(columns: Columns, promised: Mapping[str, float], most: int = 12
     columns : mapping of str to ndarray
     promised : mapping of str to float
         Digits, by setting [-].
-    most : int
-        How many are shown.
     """
     wrong = chosen(columns, {"wrong": True})
     worst = [
@@ -101,7 +101,7 @@ def worst_claims(columns: Columns, promised: Mapping[str, float], most: int = 12
             str(bool(row["warm"])).lower(), str(row["problem"]), str(row["claimed"]),
             digits(promised[str(row["setting"])]), digits(float(row["digits"])),
         )
-        for row in worst[:most]
+        for row in worst[:WORST]
     )  # fmt: skip
     names = ("solver", "setting", "units", "warm", "problem", "its own status",
              "digits promised", "digits")  # fmt: skip

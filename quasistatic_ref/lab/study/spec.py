@@ -102,6 +102,11 @@ class Study:
         return tuple({s.name: s for part in self.parts for s in part.settings}.values())
 
 
+def study_names() -> dict[str, Path]:
+    """The studies that come with the package, by name."""
+    return {path.stem: path for path in (Path(__file__).parent / "studies").glob("*.toml")}
+
+
 def study_path(name: str | Path) -> Path:
     """A study file: a path as it is, or the name of one that comes with the package.
 
@@ -113,7 +118,7 @@ def study_path(name: str | Path) -> Path:
     path = Path(name)
     if path.suffix == ".toml":
         return path
-    known = {p.stem: p for p in (Path(__file__).parent / "studies").glob("*.toml")}
+    known = study_names()
     if str(name) not in known:
         hint = suggestion(str(name), known)
         raise InputError(f"is neither a file nor a study that comes along{hint}", file=name)
@@ -145,10 +150,7 @@ def study_kind(tables: dict[str, Any]) -> str:
 
 def header(top: Fields) -> None:
     """Read ``format``, ``version`` and ``kind``, which both kinds of study begin with."""
-    top.text("format", choices=(FORMAT,))
-    version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.check_format(FORMAT, VERSION)
     top.text("kind", "solvers", KINDS)
 
 

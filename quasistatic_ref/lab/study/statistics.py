@@ -11,19 +11,18 @@ LOW = 1.0
 """The percentile that stands for "nearly the worst"."""
 
 
-def shifted_geometric_mean(seconds: np.ndarray, shift: float = SHIFT) -> float:
+def shifted_geometric_mean(seconds: np.ndarray) -> float:
     """exp(mean(log(t + s))) - s: a mean that neither the slowest nor the fastest calls rule.
 
     Parameters
     ----------
     seconds : ndarray, shape (n,) [s]
-    shift : float [s]
 
     Returns
     -------
     float [s]
     """
-    return float(np.exp(np.log(seconds + shift).mean()) - shift)
+    return float(np.exp(np.log(seconds + SHIFT).mean()) - SHIFT)
 
 
 def success(digits: np.ndarray, least: float) -> float:

@@ -14,13 +14,17 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from quasistatic_ref.errors import QuasistaticError, RunFailed
 from quasistatic_ref.files import writable_folder
 from quasistatic_ref.lab.study.environment import machine, versions
-from quasistatic_ref.lab.study.outcomes import outcomes
 from quasistatic_ref.lab.study.spec_sweep import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.store import Row, Store, key_of
 from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 
 DONE, ENDED_EARLY, REFUSED = "done", "ended_early", "refused"
 
@@ -118,3 +122,42 @@ def _conduct(
 
 def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:
     return {"sweep": sweep.name, "scenario": Path(sweep.scenario).stem, "values": point}
+
+
+def outcomes(
+    scenario: Scenario, trajectory: Trajectory, link: str, since: float
+) -> dict[str, float | None]:
+    """Measured outcomes of one run.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    trajectory : Trajectory
+    link : str
+        Whose motion is measured.
+    since : float
+        From when on [s].
+
+    Returns
+    -------
+    dict
+        ``rotation_deg`` (largest since then), ``rise_mm`` and ``travel_mm`` (from then to the
+        end), ``deepest_um`` (largest penetration of any step), ``boundary_layer_um``,
+        ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
+    """
+    motion = link_motion(scenario.system, trajectory, link)
+    start = motion.index(since)
+    way = motion.t[-1] - motion.t[start]
+    phi = trajectory["phi"] if trajectory.steps else np.zeros(0)
+    Pi = trajectory.header["quasi_dynamic_number"]
+    exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
+    return {
+        "rotation_deg": float(np.degrees(motion.rotation_since(since)[start:].max())),
+        "rise_mm": 1e3 * float(way[2]),
+        "travel_mm": 1e3 * float(np.linalg.norm(way)),
+        "deepest_um": 1e6 * max(0.0, float(-phi.min(initial=0.0))),
+        "boundary_layer_um": 1e6 * float(trajectory.header["largest_boundary_layer"]),
+        "quasi_dynamic_number": None if Pi is None else float(Pi),
+        "steps": float(trajectory.steps),
+        "exact": float(np.mean(exact)),
+    }

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.lab.study.page import Block, Picture, Report, Section, Table
-from quasistatic_ref.lab.study.report_words import place_tables
+from quasistatic_ref.lab.study.report_words import place_tables, sweep_method
 from quasistatic_ref.lab.study.store import Row
 
 MEASURES = (
@@ -22,15 +22,6 @@ MEASURES = (
 UNITS = {"h": "s", "mu_omega": "m", "K_width": "N/m", "mu_v": "-", "k": "-"}
 """Of axes that are well known by their names."""
 OTHER = "the scenario's unit"
-
-WORDS = (
-    "Each line is one run of the scenario with these values, every other number as its file says; "
-    "each step is certified, and the share of steps whose answer is exact is told. Rotation is the "
-    "largest of the named link since the named time; the boundary layer is the largest gap that "
-    "sliding contacts keep (an artifact of the model, proportional to h at a fixed slip rate).",
-    "A sweep shows what this model does, its artifacts included; it says nothing of a real "
-    "gripper. A run that ended early is listed with its reason.",
-)
 
 
 def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
@@ -52,7 +43,7 @@ def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
     ]
     return Report(
         "Simulation parameters swept over scenarios",
-        (*sections, Section("Method and limitations", WORDS),
+        (*sections, Section("Method and limitations", tuple(sweep_method())),
          Section("Machine and versions", place_tables(study))),
     )  # fmt: skip
 

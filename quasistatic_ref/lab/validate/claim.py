@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any, Final
 
@@ -86,7 +86,7 @@ def comparison(
 
 
 def sum_of_terms(
-    what: str, measured: ArrayLike, terms: list[ArrayLike], tolerance: float
+    what: str, measured: ArrayLike, terms: Sequence[ArrayLike], tolerance: float
 ) -> Comparison:
     """A comparison with the sum of some terms, relative to the largest of them."""
     stacked = np.array(np.broadcast_arrays(*(np.asarray(t, float) for t in terms)))
@@ -112,7 +112,12 @@ class Evidence:
     """
 
     comparisons: tuple[Comparison, ...]
-    picture: Mapping[str, Any] = field(default_factory=dict)
+    picture: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, *comparisons: Comparison, **picture: Any) -> Evidence:
+        """Comparisons one after another, and what a figure draws by name."""
+        return cls(comparisons, picture)
 
 
 @dataclass(frozen=True)

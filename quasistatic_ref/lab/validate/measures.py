@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,9 @@ from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
+
+PRECISION: Final = 1e-13
+"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 
 def grid(*axes: Sequence[float] | Array) -> Array:
@@ -28,7 +32,9 @@ def exact(step: StepData) -> StepSolution:
     return solve_step(step, NONE)
 
 
-def threshold(moves: Callable[[float], bool], low: float, high: float, precision: float) -> float:
+def threshold(
+    moves: Callable[[float], bool], low: float, high: float, precision: float = PRECISION
+) -> float:
     """Where a load begins to move something, by bisection.
 
     Parameters

@@ -2,56 +2,53 @@
 
 from __future__ import annotations
 
-from types import ModuleType
+from importlib import import_module
 from typing import Final
 
 from quasistatic_ref.lab.validate.claim import Claim
-from quasistatic_ref.lab.validate.closed_forms import (
-    couple,
-    fall,
-    flat_patch,
-    impedance,
-    incline,
-    octahedron,
-    patch_torsion,
-    peg,
-    pinch,
-    planar_push,
-    pushed_block,
-    rolling,
-    sliding_point,
-    spinning_sphere,
-)
-from quasistatic_ref.lab.validate.engines import by_hand, drake, mujoco_friction, mujoco_rows
-from quasistatic_ref.lab.validate.paper import (
-    boundary_layer,
-    contact_geometry,
-    grasp,
-    step_time,
-    sticking,
-    structure,
-)
 
-SECTIONS: Final[dict[str, tuple[ModuleType, ...]]] = {
-    "The paper's claims": (grasp, contact_geometry, boundary_layer, step_time, structure, sticking),
-    "Closed forms": (
-        impedance, fall, spinning_sphere, sliding_point, octahedron, incline, rolling, pushed_block,
-        pinch, patch_torsion, flat_patch, peg, couple, planar_push,
+MODULES: Final = {
+    "The paper's claims": (
+        "paper.grasp",
+        "paper.contact_geometry",
+        "paper.boundary_layer",
+        "paper.step_time",
+        "paper.structure",
+        "paper.sticking",
     ),
-    "Independent engines": (mujoco_rows, mujoco_friction, by_hand, drake),
-}  # fmt: skip
+    "Closed forms": (
+        "closed_forms.impedance",
+        "closed_forms.fall",
+        "closed_forms.spinning_sphere",
+        "closed_forms.sliding_point",
+        "closed_forms.octahedron",
+        "closed_forms.incline",
+        "closed_forms.rolling",
+        "closed_forms.pushed_block",
+        "closed_forms.pinch",
+        "closed_forms.patch_torsion",
+        "closed_forms.flat_patch",
+        "closed_forms.peg",
+        "closed_forms.couple",
+        "closed_forms.planar_push",
+    ),
+    "Independent engines": (
+        "engines.mujoco_rows",
+        "engines.mujoco_friction",
+        "engines.by_hand",
+        "engines.drake",
+    ),
+}
+"""Section -> its modules, in the order of the page."""
 
 
-def _claims(modules: tuple[ModuleType, ...]) -> dict[str, Claim]:
-    found = [x for module in modules for x in vars(module).values() if isinstance(x, Claim)]
+def _claims(modules: tuple[str, ...]) -> dict[str, Claim]:
+    loaded = [import_module(f"{__package__}.{name}") for name in modules]
+    found = [x for module in loaded for x in vars(module).values() if isinstance(x, Claim)]
     return {claim.name: claim for claim in found}
 
 
-CLAIMS: Final[dict[str, dict[str, Claim]]] = {
-    section: _claims(modules) for section, modules in SECTIONS.items()
-}
+CLAIMS: Final = {section: _claims(modules) for section, modules in MODULES.items()}
 """Section -> name -> claim."""
 
-BY_NAME: Final[dict[str, Claim]] = {
-    name: claim for claims in CLAIMS.values() for name, claim in claims.items()
-}
+BY_NAME: Final = {name: claim for claims in CLAIMS.values() for name, claim in claims.items()}

@@ -67,20 +67,14 @@ def _share(record: Mapping[str, Any]) -> float:
     return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
 
 
-def claims_page(
-    sections: Mapping[str, Sequence[Finding]],
-    figures: Collection[str] = (),
-    folder: str = "figures",
-) -> str:
+def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[str] = ()) -> str:
     """The page: claim, where it stands, measured, expected, verdict.
 
     Parameters
     ----------
     sections : mapping of str to sequence of Finding
     figures : collection of str
-        Names of the claims that have a figure.
-    folder : str
-        Where the figures are, seen from the page.
+        Names of the claims that have a figure; it is in the folder ``figures`` beside the page.
     """
     every = [finding for findings in sections.values() for finding in findings]
     held = sum(finding.verdict == HOLDS for finding in every)
@@ -93,7 +87,7 @@ def claims_page(
             lines += _chapter(finding)
             if finding.claim.name in figures:
                 name = finding.claim.name
-                lines += [f"![{name}]({folder}/{name}.png)", ""]
+                lines += [f"![{name}](figures/{name}.png)", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 

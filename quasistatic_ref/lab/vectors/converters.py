@@ -1,121 +1,87 @@
-"""Other conventions in circulation, and the way back to those of the package.
+"""Tangent spaces and quaternion orders that an answer may declare, and the way back to ours.
 
-:data:`CONVENTIONS` is the table of ways to write the quadratic program of a step. Tangent spaces
-and quaternion orders are what an answer may declare; :func:`converted` undoes them.
+Which entries of q and delta_q belong to which joint of a case's mechanism, in plain float64: the
+mechanism in exact numbers is what the answers are measured against.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quasistatic_ref.lab.vectors.check.joints import base_rotations, places, quaternion_places
+from quasistatic_ref.lab.vectors.check.valid_witness import rotation
+from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
 from quasistatic_ref.lab.vectors.expected import Json
-
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Program:
-    """min 1/2 x'Hx - g'x subject to A x >= b, and its solution.
-
-    Parameters
-    ----------
-    H, g, A, b : ndarray, shapes (n, n), (n,), (m, n), (m,)
-    x : ndarray, shape (n,)
-    lam : ndarray, shape (m,)
-        H x - g = A' lam.
-    """
-
-    H: Array
-    g: Array
-    A: Array
-    b: Array
-    x: Array
-    lam: Array
+from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True)
-class Convention:
-    """One way to write a step.
+class Places:
+    """A body's joint, and its entries of q and delta_q."""
 
-    Parameters
-    ----------
-    unknown, multipliers : str
-        What x and lam then are.
-    note : str
-        What becomes of H, g, A, b.
-    written : callable
-        (program in the package's convention, h, x_k) -> the same program in this one.
-    read : callable
-        The way back.
+    name: str
+    kind: str
+    q: slice
+    v: slice
+
+
+def places(mechanism: Json) -> list[Places]:
+    """Of every body, in the paper's order: actuated ones first, each part in file order.
+
+    A mimic joint has no entries, and no place.
     """
-
-    unknown: str
-    multipliers: str
-    note: str
-    written: Callable[[Program, float, Array], Program]
-    read: Callable[[Program, float, Array], Program]
-
-
-def velocities(p: Program, h: float, x: Array) -> Program:
-    """X = v = delta_q / h: H holds h^2 K_q and M_u."""
-    return Program(h * p.H, p.g, p.A, p.b / h, p.x / h, p.lam)
+    found, i, k = [], 0, 0
+    for actuated in (True, False):
+        for body in mechanism["bodies"]:
+            if bool(body.get("actuated")) == actuated and "mimic" not in body:
+                kind = body["joint"]
+                size_q, size_v = SIZES[kind]
+                found.append(Places(body["name"], kind, slice(i, i + size_q), slice(k, k + size_v)))
+                i, k = i + size_q, k + size_v
+    return found
 
 
-def from_velocities(p: Program, h: float, x: Array) -> Program:
-    """Inverse of :func:`velocities`."""
-    return Program(p.H / h, p.g, p.A, p.b * h, p.x * h, p.lam)
+def quaternion_places(mechanism: Json) -> list[slice]:
+    """The entries of q that are quaternions."""
+    return [slice(at.q.start + 3, at.q.stop) for at in places(mechanism) if at.kind == "floating"]
 
 
-def next_positions(p: Program, h: float, x: Array) -> Program:
-    """X = x_k + delta_q, for coordinates that add: not for turns of a floating base."""
-    return Program(p.H, p.g + p.H @ x, p.A, p.b + p.A @ x, p.x + x, p.lam)
+def base_rotations(mechanism: Json, q: Json) -> list[tuple[slice, Array]]:
+    """Of each floating joint its entries of delta_q, and R (3, 3), from body to world at q."""
+    at = {place.name: place for place in places(mechanism)}
+    R: dict[str | None, Array] = {None: np.eye(3)}
+    found = []
+    for body in mechanism["bodies"]:
+        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1.0, "offset": 0.0})
+        place = at[mimic["of"]]
+        position = mimic["multiplier"] * np.array(q[place.q], dtype=np.float64) + mimic["offset"]
+        turned = R[body["parent"]] @ rotation(body["placement"]["quaternion"])
+        R[body["name"]] = turned @ _joint_rotation(body, position)
+        if place.kind == "floating":
+            found.append((place.v, R[body["name"]]))
+    return found
 
 
-def from_next_positions(p: Program, h: float, x: Array) -> Program:
-    """Inverse of :func:`next_positions`."""
-    return Program(p.H, p.g - p.H @ x, p.A, p.b - p.A @ x, p.x - x, p.lam)
+def _joint_rotation(body: Json, q: Array) -> Array:
+    """Rotation that a joint makes at its entries of q."""
+    match body["joint"]:
+        case "floating":
+            return rotation(q[3:])
+        case "planar":
+            return _turn(np.array([0.0, 0.0, 1.0]), np.arctan2(q[3], q[2]))
+        case "continuous":
+            return _turn(np.array(body["axis"]), np.arctan2(q[1], q[0]))
+        case "revolute":
+            return _turn(np.array(body["axis"]), q[0])
+        case _:
+            return np.eye(3)
 
 
-def forces(p: Program, h: float, x: Array) -> Program:
-    """Lam / h, forces in the place of impulses: H holds K_q and M_u / h^2."""
-    return Program(p.H / h, p.g / h, p.A, p.b, p.x, p.lam / h)
-
-
-def from_forces(p: Program, h: float, x: Array) -> Program:
-    """Inverse of :func:`forces`."""
-    return Program(p.H * h, p.g * h, p.A, p.b, p.x, p.lam * h)
-
-
-CONVENTIONS: Final = {
-    "velocities": Convention(
-        unknown="v = delta_q / h [m/s, rad/s]",
-        multipliers="impulses [N s]",
-        note="H = blockdiag(h^2 K_q, M_u), g as ours, A as ours, b / h",
-        written=velocities,
-        read=from_velocities,
-    ),
-    "next positions": Convention(
-        unknown="x_next = x_k + delta_q [m, rad]",
-        multipliers="impulses [N s]",
-        note="H as ours, g + H x_k, A as ours, b + A x_k",
-        written=next_positions,
-        read=from_next_positions,
-    ),
-    "forces": Convention(
-        unknown="delta_q [m, rad]",
-        multipliers="forces [N], lam / h",
-        note="H = blockdiag(K_q, M_u / h^2), g / h, A and b as ours",
-        written=forces,
-        read=from_forces,
-    ),
-}
-"""By name. Everything else is ours: H = blockdiag(h K_q, M_u / h), lam an impulse."""
+def _turn(axis: Array, angle: float) -> Array:
+    half = np.sin(angle / 2) * axis / np.linalg.norm(axis)
+    return rotation([*half, np.cos(angle / 2)])
 
 
 def tangent_map(mechanism: Json, q: Json, tangent: str) -> Array:
@@ -191,11 +157,7 @@ def _turned(output: Json, B: Array) -> Json:
         if name == "contacts":
             turned[name] = [_turned(contact, B) for contact in value]
         elif name in rules and np.size(value):
-            turned[name] = rules[name](_floats(value)).tolist()
+            turned[name] = rules[name](np.array(value, dtype=np.float64)).tolist()
         else:
             turned[name] = value
     return turned
-
-
-def _floats(value: Any) -> Array:
-    return np.array(value, dtype=np.float64)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 Json = Any
@@ -54,8 +54,5 @@ class Expected:
             "flags": dict(self.flags),
             "output": self.output,
             "digits": self.digits,
-            "tolerance": {
-                name: {"absolute": t.absolute, "reason": t.reason}
-                for name, t in self.tolerance.items()
-            },
+            "tolerance": {name: asdict(tolerance) for name, tolerance in self.tolerance.items()},
         }

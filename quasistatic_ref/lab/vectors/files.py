@@ -90,7 +90,7 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     """
     path = Path(folder) / "inputs" / f"{layer}.json"
     try:
-        top = _opened(path, INPUTS, layer)
+        top = opened(path, INPUTS, layer)
         shapes = top.take("shapes", {})
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
@@ -114,7 +114,7 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     """What a layer is expected to answer, by the id of the case."""
     path = Path(folder) / "expected" / f"{layer}.json"
     try:
-        top = _opened(path, EXPECTED, layer)
+        top = opened(path, EXPECTED, layer)
         records = top.sequence("cases")
         top.close()
         ids = [Fields(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
@@ -124,20 +124,14 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     return dict(zip(ids, records, strict=True))
 
 
-def answers_text(layer: str, implementation: str, outputs: dict[str, Json]) -> str:
-    """The file of an implementation's answers, in the conventions of the package."""
-    record = {"format": ANSWERS, "version": VERSION, "layer": layer}
-    record |= {"implementation": implementation, "tangent": "body", "quaternion": "xyzw"}
-    answers = [{"id": name, "output": output} for name, output in outputs.items()]
-    return lines({**record, "answers": answers})
-
-
 def answers_written(
     folder: str | Path, layer: str, implementation: str, outputs: dict[str, Json]
 ) -> Path:
-    """Write the answers of one layer to a folder of answers, whole or not at all."""
-    text = answers_text(layer, implementation, outputs)
-    return text_written(Path(folder) / f"{layer}.json", text)
+    """Write the answers of one layer, in our conventions, to a folder: whole or not at all."""
+    record = {"format": ANSWERS, "version": VERSION, "layer": layer}
+    record |= {"implementation": implementation, "tangent": "body", "quaternion": "xyzw"}
+    answers = [{"id": name, "output": output} for name, output in outputs.items()]
+    return text_written(Path(folder) / f"{layer}.json", lines({**record, "answers": answers}))
 
 
 def check_layer(name: str) -> str:
@@ -147,12 +141,10 @@ def check_layer(name: str) -> str:
     return name
 
 
-def _opened(path: Path, wanted: str, layer: str) -> Fields:
+def opened(path: Path, wanted: str, layer: str) -> Fields:
+    """The fields of a file after its head, which says its format, version and layer."""
     top = Fields(json_read(path))
-    top.text("format", choices=(wanted,))
-    version = top.integer("version")
-    if version != VERSION:
-        raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
+    top.check_format(wanted, VERSION)
     top.text("layer", choices=(layer,))
     return top
 

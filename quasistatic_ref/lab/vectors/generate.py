@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import IO, Final
+from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, text_written, writable_folder, written_whole
+from quasistatic_ref.files import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.files import Case, answers_written, expected_text, inputs_read
+from quasistatic_ref.lab.vectors.files import (
+    VERSION,
+    Case,
+    answers_written,
+    expected_text,
+    inputs_read,
+    lines,
+)
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
-from quasistatic_ref.lab.vectors.manifest import MANIFEST, manifest_text
 from quasistatic_ref.progress import progress_bar
 
 COPIED: Final = ("README.md", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
+MANIFEST: Final = "manifest.json"
+FORMAT: Final = "quasistatic-ref/vectors-manifest"
+RELEASE: Final = 2
+"""Counted up whenever an input or an expected output changes."""
 
 
 def expected_record(name: str, case: Case) -> dict[str, Json]:
@@ -57,7 +69,7 @@ def generated(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
         files[f"expected/{name}.json"] = expected_text(name, records).encode()
         counts[name] = len(cases)
     for path, content in files.items():
-        _copied(out / path, content)
+        bytes_written(out / path, content)
     text_written(out / MANIFEST, manifest_text(files))
     return counts
 
@@ -85,13 +97,27 @@ def own_written(source: Path, out: Path, names: Sequence[str], progress: bool = 
     return paths
 
 
-def _copied(path: Path, content: bytes) -> None:
-    def write(file: IO[bytes]) -> None:
-        file.write(content)
-
-    written_whole(path, write)
-
-
 def _shown(cases: list[Case], name: str, progress: bool) -> Iterable[Case]:
     bar: Iterable[Case] = progress_bar(cases, words=name, unit="case", shown=progress)
     return bar
+
+
+def manifest_text(files: dict[str, bytes]) -> str:
+    """The manifest of a folder, given the content of its other files.
+
+    Parameters
+    ----------
+    files : dict of str to bytes
+        By path inside the folder, with forward slashes.
+    """
+    listed = [
+        {"path": path, "bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+        for path, content in sorted(files.items())
+    ]
+    cases = {
+        Path(path).stem: len(json.loads(content)["cases"])
+        for path, content in files.items()
+        if path.startswith("expected/")
+    }
+    record: dict[str, Json] = {"format": FORMAT, "version": VERSION, "release": RELEASE}
+    return lines({**record, "cases": cases, "files": listed}, listed=("files",))

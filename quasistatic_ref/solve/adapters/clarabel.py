@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import clarabel
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 
 
-class Clarabel:
+class Clarabel(Adapter):
     """One Clarabel solver; it always starts cold."""
-
-    ORDER: Literal["C", "F"] = "F"
-    WARM = False
-    NEAR = True
 
     def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
         self.program = program
@@ -38,11 +34,5 @@ class Clarabel:
         self.solver.update(q=p.f, A=-p.A_data, b=-p.b)  # -A x + s = -b, s >= 0
         solution = self.solver.solve()
         status = str(solution.status)
-        return Reply(
-            np.array(solution.x),
-            np.array(solution.z),
-            status == "Solved",
-            status,
-            solution.iterations,
-            solution.solve_time,
-        )
+        x, lam, cost = np.array(solution.x), np.array(solution.z), solution.solve_time
+        return Reply(x, lam, status == "Solved", status, solution.iterations, cost)

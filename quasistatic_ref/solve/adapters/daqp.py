@@ -7,13 +7,13 @@ from typing import Any, Literal
 import daqp
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
           -4: "iteration limit", -5: "not convex", -6: "overdetermined"}  # fmt: skip
 
 
-class Daqp:
+class Daqp(Adapter):
     """One DAQP workspace."""
 
     ORDER: Literal["C", "F"] = "C"
@@ -31,13 +31,8 @@ class Daqp:
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
         p = self.program
-        self.model.update(
-            H=None if same_H else p.H,
-            f=p.f,
-            A=p.A,
-            blower=p.b,
-            sense=None if warm else self.cold,
-        )
+        H, sense = None if same_H else p.H, None if warm else self.cold
+        self.model.update(H=H, f=p.f, A=p.A, blower=p.b, sense=sense)
         x, _, flag, info = self.model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
         status, seconds = STATUS.get(flag, str(flag)), info["solve_time"]

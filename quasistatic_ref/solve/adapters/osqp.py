@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import osqp
 
-from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 
 
-class Osqp:
+class Osqp(Adapter):
     """One OSQP solver; warm, it starts from x and the multipliers of the step before."""
 
-    ORDER: Literal["C", "F"] = "F"
     WARM = True
-    NEAR = True
 
     def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
         self.program = program
@@ -37,7 +35,5 @@ class Osqp:
             solver.warm_start(*self.cold)
         result = solver.solve(raise_error=False)
         info = result.info
-        solved = info.status == "solved"
-        return Reply(
-            np.array(result.x), 0.0 - result.y, solved, info.status, info.iter, info.run_time
-        )
+        x, lam, solved = np.array(result.x), 0.0 - result.y, info.status == "solved"
+        return Reply(x, lam, solved, info.status, info.iter, info.run_time)

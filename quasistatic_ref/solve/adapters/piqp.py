@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import piqp
 
-from quasistatic_ref.solve.adapters.program import Program, Reply, SparseProgram
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 
 
-class Piqp:
+class Piqp(Adapter):
     """One PIQP solver; it always starts cold."""
-
-    ORDER: Literal["C", "F"] = "F"
-    WARM = False
-    NEAR = True
 
     def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
         self.program = p = program

@@ -7,10 +7,9 @@ from functools import cached_property
 from typing import Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +32,7 @@ class Program:
     b: Array
 
     @cached_property
-    def upper(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def upper(self) -> tuple[Indices, Indices]:
         """Rows and columns of H's upper triangle, column by column, shape (n (n + 1) / 2,) each."""
         columns, rows = np.tril_indices(len(self.f))
         return rows, columns
@@ -143,9 +142,9 @@ class Adapter(Protocol):
         does not: rows that are far are never in its set.
     """
 
-    ORDER: Literal["C", "F"]
-    WARM: bool
-    NEAR: bool
+    ORDER: Literal["C", "F"] = "F"
+    WARM: bool = False
+    NEAR: bool = True
 
     def __init__(self, program: Any, options: dict[str, Any]) -> None:
         """Set up with the program as it stands: a Program, or a SparseProgram where it takes it."""

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import quadprog
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
 
 
-class Quadprog:
+class Quadprog(Adapter):
     """Calls of quadprog; it always starts cold."""
 
-    ORDER: Literal["C", "F"] = "F"  # it takes the transpose of A in C order
-    WARM = False
-    NEAR = False
+    NEAR = False  # in the default order of A, its transpose is in C order, as quadprog takes it
 
     def __init__(self, program: Program, options: dict[str, Any]) -> None:
         del options  # the method has none
@@ -26,7 +24,9 @@ class Quadprog:
         del same_H, warm  # it factorises each time, from cold
         p = self.program
         try:
-            x, _, _, iterations, lam, _ = quadprog.solve_qp(p.H.copy(), -p.f, p.A.T, p.b)
+            x, _, _, iterations, lam, _ = quadprog.solve_qp(
+                p.H.copy(), -p.f, p.A.T, p.b
+            )  # A.T: in C order
         except ValueError as error:  # infeasible, or H is not positive definite
             none = np.full(len(p.f), np.nan)
             return Reply(none, np.zeros(len(p.b)), False, str(error), None, None)

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+import daqp
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.study.bench.bare import bare_daqp
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
@@ -23,6 +23,7 @@ from quasistatic_ref.solve.engines import CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import ACCURACY
 
 SETTINGS = ["solver.certify=off", "record=light"]
 PARTS = ("distances", "selection", "rows", "solve", "integrate")
@@ -187,3 +188,16 @@ def certification(at: Places, repeat: int) -> Mapping[str, Any]:
     ]
     times = in_turn(rounds, repeat, time.thread_time)
     return {kind: microseconds(t) for kind, t in times.items()}
+
+
+def bare_daqp(program: Program) -> Callable[[], Any]:
+    """``daqp.solve`` with nothing around it, of the program as it stands at the time of the call.
+
+    Parameters
+    ----------
+    program : Program
+    """
+    m = len(program.b)
+    unbounded, sense = np.full(m, np.inf), np.zeros(m, dtype=np.int32)
+    given = (program.H, program.f, program.A, unbounded, program.b, sense)
+    return partial(daqp.solve, *given, primal_tol=ACCURACY, dual_tol=ACCURACY)

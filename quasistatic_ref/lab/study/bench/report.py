@@ -6,10 +6,26 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
+from quasistatic_ref.lab.study.bench.grasp import PARTS
 from quasistatic_ref.lab.study.large import LargeStep, table
 from quasistatic_ref.solve.solve import CERTIFY
 
 Rows = list[tuple[str, ...]]
+
+BY_PART = {
+    "engine": "{engine}",
+    "backend": "{backend}",
+    **{name: f"{{{name}:.1f}}" for name in (*PARTS, "step")},
+    "unsolved": "{unsolved}",
+}
+BY_POINTS = {
+    "points": "{points}",
+    "step, mean [us]": "{mean:.0f}",
+    "step, median [us]": "{median:.0f}",
+    "over 992": "{over_992:.2f}",
+    "brute force [us]": "{brute_force_distances:.0f}",
+    "tree, once [s]": "{tree_seconds:.2g}",
+}
 
 
 def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
@@ -37,7 +53,9 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
 
 def page(tables: Mapping[str, Any]) -> str:
     """The tables in Markdown."""
-    m = tables["machine"]
+    m, times = tables["machine"], tables["certification"].items()
+    parts = _formatted(BY_PART, tables["parts"])
+    certified: Rows = [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times)]
     lines = [
         "# What a step costs",
         "",
@@ -50,14 +68,9 @@ def page(tables: Mapping[str, Any]) -> str:
         "",
         *_table(promise_rows(tables["promises"])),
         *_section("The step of the bunny by every road", _roads(tables)),
-        *_section(
-            "By part, engine and backend [us], all in turn, caches cold", _parts(tables["parts"])
-        ),
-        *_section(
-            "With a certificate, native, DAQP or the default [us]",
-            _pairs(tables["certification"]),
-        ),
-        *_section("Points of the cloud", _clouds(tables["clouds"])),
+        *_section("By part, engine and backend [us], all in turn, caches cold", parts),
+        *_section("With a certificate, native, DAQP or the default [us]", certified),
+        *_section("Points of the cloud", _formatted(BY_POINTS, tables["clouds"])),
         *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
         *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),
         *_titled("Heaps", _sizes(tables["heaps"])),
@@ -77,29 +90,9 @@ def _roads(tables: Mapping[str, Any]) -> Rows:
     return [*rows, (name, f"{us:.1f}", f"{us / times['step, native']:.2f}")]
 
 
-def _parts(parts: Sequence[Mapping[str, Any]]) -> Rows:
-    names = ("distances", "selection", "rows", "solve", "integrate", "step")
-    rows: Rows = [("engine", "backend", *names, "unsolved")]
-    for row in parts:
-        times = [f"{row[name]:.1f}" for name in names]
-        rows.append((row["engine"], row["backend"], *times, str(row["unsolved"])))
-    return rows
-
-
-def _pairs(times: Mapping[str, float]) -> Rows:
-    return [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times.items())]
-
-
-def _clouds(clouds: Sequence[Mapping[str, Any]]) -> Rows:
-    rows: Rows = [
-        ("points", "step, mean [us]", "step, median [us]", "over 992", "brute force [us]",
-         "tree, once [s]"),
-    ]  # fmt: skip
-    for row in clouds:
-        mean, median = f"{row['mean']:.0f}", f"{row['median']:.0f}"
-        brute, tree = f"{row['brute_force_distances']:.0f}", f"{row['tree_seconds']:.2g}"
-        rows.append((str(row["points"]), mean, median, f"{row['over_992']:.2f}", brute, tree))
-    return rows
+def _formatted(columns: Mapping[str, str], records: Sequence[Mapping[str, Any]]) -> Rows:
+    """The names of columns, and of each record its fields in the columns' formats."""
+    return [tuple(columns), *(tuple(f.format(**r) for f in columns.values()) for r in records)]
 
 
 def _sizes(sizes: Sequence[Mapping[str, Any]]) -> list[str]:

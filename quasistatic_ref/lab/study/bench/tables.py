@@ -68,8 +68,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     counts = [] if quick else [large_step((ROW, 1, 1), k) for k in CONTACTS]
     few = [large_step((SHORT, 1, 1), k) for k in (FEW[:2] if quick else FEW)]
     heaps = [large_step(shape) for shape in (((2, 1, 2),) if quick else PILES)]
-    sizes = rows, [*few, *counts], heaps
-    found["chains"], found["contacts"], found["heaps"] = map(_records, sizes)
+    for name, sizes in (("chains", rows), ("contacts", [*few, *counts]), ("heaps", heaps)):
+        found[name] = [asdict(size) for size in sizes]
     found["exponents"] = {
         "bodies": _fitted([row for row in rows if row.bodies >= CHAINS[0]], "bodies"),
         "contacts": _fitted(counts, "contacts"),
@@ -87,10 +87,6 @@ def machine() -> dict[str, Any]:
 def _load() -> str:
     """How many processes wanted to run in the last minute, where the system says so."""
     return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
-
-
-def _records(steps: Sequence[LargeStep]) -> list[dict[str, Any]]:
-    return [asdict(step) for step in steps]
 
 
 def _fitted(steps: Sequence[LargeStep], over: str) -> float | None:

@@ -46,15 +46,11 @@ def evidence() -> Evidence:
             forces.append(np.linalg.norm(f) * H)
             balance.append(P1 + P2)
     scale, size = np.array(sizes)[:, None], np.array(forces)[:, None]
-    return Evidence(
-        (
-            comparison(
-                "spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale
-            ),
-            comparison(
-                "impulse of the pair [N s]", balance, np.zeros_like(balance), CLOSED_FORM, size
-            ),
-        )
+    return Evidence.of(
+        comparison(
+            "spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale
+        ),
+        comparison("impulse of the pair [N s]", balance, np.zeros_like(balance), CLOSED_FORM, size),
     )
 
 

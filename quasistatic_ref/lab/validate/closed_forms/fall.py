@@ -30,14 +30,10 @@ def fall_evidence() -> Evidence:
             sideways.append(q[:, :2] / (h**2 * GRAVITY))
             turned.append((q[:, 3:] - system.q_start[3:]) / (h**2 * GRAVITY / 0.1))
     fallen = np.array(expected)
-    return Evidence(
-        (
-            comparison("height after k steps [m]", heights, fallen, CLOSED_FORM, fallen),
-            comparison(
-                "sideways, in steps of fall [-]", np.array(sideways), 0.0, STEPS * CLOSED_FORM
-            ),
-            comparison("turned, in steps of fall [-]", np.array(turned), 0.0, STEPS * CLOSED_FORM),
-        )
+    return Evidence.of(
+        comparison("height after k steps [m]", heights, fallen, CLOSED_FORM, fallen),
+        comparison("sideways, in steps of fall [-]", np.array(sideways), 0.0, STEPS * CLOSED_FORM),
+        comparison("turned, in steps of fall [-]", np.array(turned), 0.0, STEPS * CLOSED_FORM),
     )
 
 
@@ -51,13 +47,11 @@ def approach_evidence() -> Evidence:
     forces = np.array([answer.wrench[0, 2] for answer in answers])
     weight, push = m * GRAVITY, -m * phi / h**2
     bears = weight + push > 0
-    return Evidence(
-        (
-            comparison(
-                "rise [m]", rises, np.maximum(-(h**2) * GRAVITY, -phi), CLOSED_FORM, h**2 * GRAVITY
-            ),
-            sum_of_terms("N [N]", forces, [weight * bears, push * bears], CLOSED_FORM),
-        )
+    return Evidence.of(
+        comparison(
+            "rise [m]", rises, np.maximum(-(h**2) * GRAVITY, -phi), CLOSED_FORM, h**2 * GRAVITY
+        ),
+        sum_of_terms("N [N]", forces, [weight * bears, push * bears], CLOSED_FORM),
     )
 
 

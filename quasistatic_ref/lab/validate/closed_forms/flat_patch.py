@@ -13,8 +13,6 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 
 M, INERTIA, MU, RADIUS, HEIGHT, H = 0.5, 2e-4, 0.5, 0.03, 0.02, 0.01
 RINGS, POINTS = 4, 6
-PRECISION = 1e-13
-"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 
 def disk() -> tuple[Array, Array]:
@@ -41,7 +39,7 @@ def evidence() -> Evidence:
     limit = MU * M * GRAVITY * RADIUS
     uniform = MU * M * GRAVITY * r.mean()
     found = threshold(
-        lambda share: bool(abs(exact(turned(share * limit)).delta_q[5]) > 1e-14), 0.3, 2, PRECISION
+        lambda share: bool(abs(exact(turned(share * limit)).delta_q[5]) > 1e-14), 0.3, 2
     )
     turns, forms, scales, inner, shares = [], [], [], [], []
     for share in (1.01, 1.5, 4.0):
@@ -54,18 +52,14 @@ def evidence() -> Evidence:
         shares.append(load / load.sum())
         inner.append(load[:-1].sum() / load.sum())
     picture = {"r": RADIUS * np.sqrt((np.arange(RINGS) + 1) / RINGS), "shares": shares[1], "h": H}
-    return Evidence(
-        (
-            comparison("torque that turns it, over mu m g a [-]", found, 1.0, CLOSED_FORM),
-            comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
-            comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
-            comparison(
-                "its torque over that of a uniform load [-]",
-                found * limit / uniform, RADIUS / r.mean(), CLOSED_FORM,
-            ),
-        ),
-        picture,
-    )  # fmt: skip
+    words = "its torque over that of a uniform load [-]"
+    return Evidence.of(
+        comparison("torque that turns it, over mu m g a [-]", found, 1.0, CLOSED_FORM),
+        comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
+        comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
+        comparison(words, found * limit / uniform, RADIUS / r.mean(), CLOSED_FORM),
+        **picture,
+    )
 
 
 CLAIM = Claim(

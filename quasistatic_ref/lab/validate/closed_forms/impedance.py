@@ -26,9 +26,7 @@ def free_evidence() -> Evidence:
             wanted.append(target)
             sagged.append(np.linalg.solve(step.K_q, tau_a))
     terms = [np.concatenate(wanted), np.concatenate(sagged)]
-    return Evidence(
-        (sum_of_terms("delta_q_a [m]", np.concatenate(moved), list(terms), CLOSED_FORM),)
-    )
+    return Evidence.of(sum_of_terms("delta_q_a [m]", np.concatenate(moved), terms, CLOSED_FORM))
 
 
 def pressed_evidence() -> Evidence:
@@ -46,11 +44,9 @@ def pressed_evidence() -> Evidence:
         pressed.append(answer.wrench[0, 2])
         forces.append(max(load, 0.0))
         loads.append(max(abs(K * beyond), tau))
-    return Evidence(
-        (
-            comparison("delta_q_a [m]", moved, gaps, CLOSED_FORM, scale=1e-3),
-            comparison("normal force [N]", pressed, forces, CLOSED_FORM, scale=loads),
-        )
+    return Evidence.of(
+        comparison("delta_q_a [m]", moved, gaps, CLOSED_FORM, scale=1e-3),
+        comparison("normal force [N]", pressed, forces, CLOSED_FORM, scale=loads),
     )
 
 

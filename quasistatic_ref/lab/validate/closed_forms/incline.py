@@ -58,14 +58,10 @@ def slide_evidence() -> Evidence:
         fixed.append(np.full(STEPS, steady))
         left.append(-steady * (mu**2 / (1 + mu**2)) ** (k + 1))
         sideways.append(delta_q[:, [1, 3, 4, 5]] / (H**2 * GRAVITY / L))
-    return Evidence(
-        (
-            comparison("stuck: motion, in h^2 g [-]", np.array(stuck), 0.0, CLOSED_FORM),
-            sum_of_terms(
-                "slip of step k [m]", slips, [np.array(fixed), np.array(left)], 4 * CLOSED_FORM
-            ),
-            comparison("sliding: sideways and turns [-]", np.array(sideways), 0.0, 4 * CLOSED_FORM),
-        )
+    return Evidence.of(
+        comparison("stuck: motion, in h^2 g [-]", np.array(stuck), 0.0, CLOSED_FORM),
+        sum_of_terms("slip of step k [m]", slips, [fixed, left], 4 * CLOSED_FORM),
+        comparison("sliding: sideways and turns [-]", np.array(sideways), 0.0, 4 * CLOSED_FORM),
     )
 
 
@@ -83,16 +79,9 @@ def tip_evidence() -> Evidence:
         turns.append(delta_q[4])
         down.append(unit * c * np.sin(slope))
         up.append(-unit * L * np.cos(slope))
-    return Evidence(
-        (
-            comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
-            sum_of_terms(
-                "turn about the lower edge [rad]",
-                turns,
-                [np.array(down), np.array(up)],
-                CLOSED_FORM,
-            ),
-        )
+    return Evidence.of(
+        comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
+        sum_of_terms("turn about the lower edge [rad]", turns, [down, up], CLOSED_FORM),
     )
 
 

@@ -13,8 +13,6 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 M, INERTIA, MU_V, MU_OMEGA = 0.3, 3e-4, 0.4, 0.015
 RADIUS = 1 / 16
 """A power of two: the torque of the force, were it rounded, would make the sphere roll [m]."""
-PRECISION = 1e-13
-"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 
 def evidence() -> Evidence:
@@ -35,10 +33,10 @@ def evidence() -> Evidence:
             return bool(np.any(exact(step).delta_q))
 
         limit = 1 / np.abs(direction).sum()
-        found.append(threshold(moves, 0.1 * limit, 3 * limit, PRECISION) / limit)
+        found.append(threshold(moves, 0.1 * limit, 3 * limit) / limit)
         expected.append(1.0)
-    return Evidence(
-        (comparison("load that moves it, over the limit [-]", found, expected, CLOSED_FORM),)
+    return Evidence.of(
+        comparison("load that moves it, over the limit [-]", found, expected, CLOSED_FORM)
     )
 
 

@@ -89,7 +89,7 @@ def evidence() -> Evidence:
     radii = np.linspace(0, 1, 200)
     picture = {"rings": RINGS, "found": {k: np.array(v) / unit for k, v in found.items()},
                "limits": {k: v[1] for k, v in PRESSURES.items()}, "radii": radii}  # fmt: skip
-    return Evidence(tuple(comparisons), picture)
+    return Evidence.of(*comparisons, **picture)
 
 
 CLAIM = Claim(

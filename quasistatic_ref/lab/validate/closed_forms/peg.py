@@ -15,9 +15,6 @@ M, H = 0.3, 0.01
 INERTIA = 2e-3
 """Of a peg long enough that both contacts go on pressing while it slides in [kg m^2]."""
 
-PRECISION = 1e-13
-"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
-
 
 def pushed(depth: float, width: float, mu: float, force: float) -> StepData:
     """A peg pushed down by a force on its axis.
@@ -39,7 +36,7 @@ def evidence() -> Evidence:
         def moves(depth: float, of: tuple[float, float, float] = (width, mu, force)) -> bool:
             return bool(np.any(exact(pushed(depth, *of)).delta_q))
 
-        found.append(threshold(moves, 0.2 * limit, 5 * limit, PRECISION))
+        found.append(threshold(moves, 0.2 * limit, 5 * limit))
         expected.append(limit)
         rest.append(exact(pushed(0.99 * limit, width, mu, force)).delta_q)
     solved, formula = [], []
@@ -53,13 +50,11 @@ def evidence() -> Evidence:
     widths, mus = np.array([0.01, 0.04]), np.array([0.1, 0.3, 0.8])
     picture = {"mu": np.repeat(np.tile(mus, len(widths)), 3), "width": np.repeat(widths, 9),
                "found": np.array(found), "h": H}  # fmt: skip
-    return Evidence(
-        (
-            comparison("depth below which it wedges [m]", found, expected, CLOSED_FORM, expected),
-            comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
-            comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
-        ),
-        picture,
+    return Evidence.of(
+        comparison("depth below which it wedges [m]", found, expected, CLOSED_FORM, expected),
+        comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
+        comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
+        **picture,
     )
 
 

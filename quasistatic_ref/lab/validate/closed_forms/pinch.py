@@ -12,8 +12,6 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.2
 """Mass of the bar [kg]."""
-PRECISION = 1e-13
-"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 
 def evidence() -> Evidence:
@@ -25,15 +23,13 @@ def evidence() -> Evidence:
         def moves(offset: float, of: tuple[float, float, float] = (grip, mu_v, mu_omega)) -> bool:
             return bool(np.any(exact(pinch_step(of[0], offset, *of[1:], m=M)).delta_q))
 
-        found.append(threshold(moves, 0.5 * limit, 2 * limit, PRECISION))
+        found.append(threshold(moves, 0.5 * limit, 2 * limit))
         expected.append(limit)
         loads.append(exact(pinch_step(grip, 0.9 * limit, mu_v, mu_omega, m=M)).wrench[:, 2])
         grips.append([grip, grip])
-    return Evidence(
-        (
-            comparison("offset that turns the bar [m]", found, expected, CLOSED_FORM, expected),
-            comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),
-        )
+    return Evidence.of(
+        comparison("offset that turns the bar [m]", found, expected, CLOSED_FORM, expected),
+        comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),
     )
 
 

@@ -129,27 +129,21 @@ def evidence() -> Evidence:
     ratios = {c: np.array(turns(c)) for c in RADII}
     law = [(1 + SPEEDS) / (1 + SPEEDS * (GYRATION / c) ** 2) for c in RADII]
     picture = {"Pi": SPEEDS, "turns": ratios, "rho": GYRATION, "h": H}
-    return Evidence(
-        (
-            comparison("motion of the slider [m]", moved, expected, CLOSED_FORM, size[:, None]),
-            comparison("rise [m]", [a.delta_q[4] for a in answers], rise, CLOSED_FORM, gap),
-            comparison(
-                "support's force, along the normal of its limit surface [N]",
-                support, normal, CLOSED_FORM, load[:, None],
-            ),
-            comparison("push [N]", spring, force, CLOSED_FORM, total[:, None]),
-            comparison("load [N]", [a.wrench[0, 2] for a in answers], load, CLOSED_FORM, load),
-            comparison("turn over Lynch's [-]", list(ratios.values()), law, CLOSED_FORM, law),
-            comparison(
-                "motion where rho = c, Lynch's at every speed [m]",
-                moved[alike], lynch[alike], CLOSED_FORM, size[alike, None],
-            ),
-            comparison("exponent of the distance from Lynch's turn [-]", rates, 1.0, FITTED),
-            comparison("motion for Pi to 0, Lynch's [-]", limit, quasi_static, LIMIT),
-            within("error_bound [-]", bounds, 0.0, ENCLOSED),
-        ),
-        picture,
-    )  # fmt: skip
+    along_normal = "support's force, along the normal of its limit surface [N]"
+    at_any_speed = "motion where rho = c, Lynch's at every speed [m]"
+    return Evidence.of(
+        comparison("motion of the slider [m]", moved, expected, CLOSED_FORM, size[:, None]),
+        comparison("rise [m]", [a.delta_q[4] for a in answers], rise, CLOSED_FORM, gap),
+        comparison(along_normal, support, normal, CLOSED_FORM, load[:, None]),
+        comparison("push [N]", spring, force, CLOSED_FORM, total[:, None]),
+        comparison("load [N]", [a.wrench[0, 2] for a in answers], load, CLOSED_FORM, load),
+        comparison("turn over Lynch's [-]", list(ratios.values()), law, CLOSED_FORM, law),
+        comparison(at_any_speed, moved[alike], lynch[alike], CLOSED_FORM, size[alike, None]),
+        comparison("exponent of the distance from Lynch's turn [-]", rates, 1.0, FITTED),
+        comparison("motion for Pi to 0, Lynch's [-]", limit, quasi_static, LIMIT),
+        within("error_bound [-]", bounds, 0.0, ENCLOSED),
+        **picture,
+    )
 
 
 CLAIM = Claim(

@@ -60,13 +60,11 @@ def evidence() -> Evidence:
     picture = {"v": v, "mu": mu, "h": h, "force": force, "m": M}
     gap, ride = found[:, 1:3], np.repeat((mu * v * h)[:, None], 2, axis=1)
     load, weight = found[:, 3], M * GRAVITY
-    return Evidence(
-        (
-            sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
-            comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),
-            comparison("load of the base [N]", load, weight, 10 * CLOSED_FORM, weight),
-        ),
-        picture,
+    return Evidence.of(
+        sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
+        comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),
+        comparison("load of the base [N]", load, weight, 10 * CLOSED_FORM, weight),
+        **picture,
     )
 
 

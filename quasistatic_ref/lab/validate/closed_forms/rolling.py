@@ -48,12 +48,10 @@ def evidence() -> Evidence:
             along.append(sinc * RADIUS * theta - (1 - np.cos(theta)) / theta * phi)
             q = result.q
     rolled = np.array(wanted)
-    return Evidence(
-        (
-            comparison("turn of a step [rad]", turned, rolled, 10 * CLOSED_FORM, rolled),
-            sum_of_terms("height [m]", heights, [np.array(dips), np.array(closed)], CLOSED_FORM),
-            comparison("way of a step [m]", ahead, along, 10 * CLOSED_FORM, RADIUS * rolled),
-        )
+    return Evidence.of(
+        comparison("turn of a step [rad]", turned, rolled, 10 * CLOSED_FORM, rolled),
+        sum_of_terms("height [m]", heights, [dips, closed], CLOSED_FORM),
+        comparison("way of a step [m]", ahead, along, 10 * CLOSED_FORM, RADIUS * rolled),
     )
 
 

@@ -12,8 +12,6 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M, H, STEPS = 0.3, 0.01, 15
-PRECISION = 1e-13
-"""Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 
 def pulled(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
@@ -47,11 +45,11 @@ def threshold_evidence() -> Evidence:
             def moves(share: float, fx: float = fx, fy: float = fy, mu: float = mu) -> bool:
                 return bool(np.any(pulled(share * fx, share * fy, mu, 0.0)))
 
-            found.append(threshold(moves, 0.5, 1.5, PRECISION))
+            found.append(threshold(moves, 0.5, 1.5))
             expected.append(1 / (abs(np.cos(a)) + abs(np.sin(a))))
     picture = {"angles": angles, "found": np.array(found).reshape(len(mus), -1), "mus": mus, "h": H}
     what = "least force that moves it, over mu_v m g [-]"
-    return Evidence((comparison(what, found, expected, CLOSED_FORM),), picture)
+    return Evidence.of(comparison(what, found, expected, CLOSED_FORM), **picture)
 
 
 def slip_evidence() -> Evidence:
@@ -75,11 +73,9 @@ def slip_evidence() -> Evidence:
         layers.append(np.full(STEPS, layer))
         rest.append(-layer * (mu**2 / (1 + mu**2)) ** k)
     terms = [np.array(layers).ravel(), np.array(rest).ravel()]
-    return Evidence(
-        (
-            comparison("delta_q [m]", solved, formula, CLOSED_FORM, np.array(scale)[:, None]),
-            sum_of_terms("phi_k while sliding [m]", gaps, list(terms), CLOSED_FORM),
-        )
+    return Evidence.of(
+        comparison("delta_q [m]", solved, formula, CLOSED_FORM, np.array(scale)[:, None]),
+        sum_of_terms("phi_k while sliding [m]", gaps, terms, CLOSED_FORM),
     )
 
 

@@ -41,13 +41,11 @@ def step_evidence() -> Evidence:
     theta = np.clip(terms.sum(0), 0.0, h**2 * tau / INERTIA)
     rise = np.maximum(mu * theta - phi, -(h**2) * GRAVITY)
     largest = np.abs(terms).max(0)
-    return Evidence(
-        (
-            comparison("delta_theta [rad]", solved[:, 1], theta, CLOSED_FORM, largest),
-            comparison(
-                "delta_z [m]", solved[:, 0], rise, CLOSED_FORM, np.maximum(mu * largest, abs(phi))
-            ),
-        )
+    return Evidence.of(
+        comparison("delta_theta [rad]", solved[:, 1], theta, CLOSED_FORM, largest),
+        comparison(
+            "delta_z [m]", solved[:, 0], rise, CLOSED_FORM, np.maximum(mu * largest, abs(phi))
+        ),
     )
 
 
@@ -79,19 +77,12 @@ def recurrence_evidence() -> Evidence:
         change = np.diff(turns)
         ratios.append(change[1] / change[0])
         rates.append(ratio)
-    return Evidence(
-        (
-            sum_of_terms(
-                "phi_k [m]", np.array(gaps), [np.array(fixed), np.array(left)], CLOSED_FORM
-            ),
-            comparison("rate [-]", ratios, rates, RATE_TOLERANCE, rates),
-            comparison(
-                "last gap over the fixed point [-]",
-                np.array(gaps)[:, -1] / np.array(fixed)[:, -1],
-                1.0 + np.array(left)[:, -1] / np.array(fixed)[:, -1],
-                10 * CLOSED_FORM,
-            ),
-        )
+    end, point, rest = np.array([gaps, fixed, left])[:, :, -1]
+    words = "last gap over the fixed point [-]"
+    return Evidence.of(
+        sum_of_terms("phi_k [m]", gaps, [fixed, left], CLOSED_FORM),
+        comparison("rate [-]", ratios, rates, RATE_TOLERANCE, rates),
+        comparison(words, end / point, 1.0 + rest / point, 10 * CLOSED_FORM),
     )
 
 

@@ -135,13 +135,11 @@ def evidence() -> Evidence:
     """Sixty steps from touching nothing to rolling, sliding and spinning."""
     hand, ours = by_hand(), by_us()
     way = np.linalg.norm(ours[-1, 1:4] - START)
-    return Evidence(
-        (
-            comparison(
-                "finger and centre of the sphere [m]", ours[:, :4], hand[:, :4], QP_TOLERANCE, way
-            ),
-            comparison("rotation matrix [-]", ours[:, 4:], hand[:, 4:], QP_TOLERANCE),
-        )
+    return Evidence.of(
+        comparison(
+            "finger and centre of the sphere [m]", ours[:, :4], hand[:, :4], QP_TOLERANCE, way
+        ),
+        comparison("rotation matrix [-]", ours[:, 4:], hand[:, 4:], QP_TOLERANCE),
     )
 
 

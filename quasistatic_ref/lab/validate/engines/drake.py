@@ -146,13 +146,11 @@ def evidence() -> Evidence:
     ours, theirs = distances()
     matrices = dynamics()
     M, J = matrices["M"], matrices["J"]
-    return Evidence(
-        (
-            comparison("signed distance [m]", ours[:, 0], theirs[:, 0], DISTANCE_TOLERANCE),
-            comparison("nearest points [m]", ours[:, 1:], theirs[:, 1:], DISTANCE_TOLERANCE),
-            comparison("mass matrix [kg, kg m, kg m^2]", *M, MATRIX_TOLERANCE, np.abs(M[1]).max()),
-            comparison("Jacobians of links [-, m]", *J, MATRIX_TOLERANCE, np.abs(J[1]).max()),
-        )
+    return Evidence.of(
+        comparison("signed distance [m]", ours[:, 0], theirs[:, 0], DISTANCE_TOLERANCE),
+        comparison("nearest points [m]", ours[:, 1:], theirs[:, 1:], DISTANCE_TOLERANCE),
+        comparison("mass matrix [kg, kg m, kg m^2]", *M, MATRIX_TOLERANCE, np.abs(M[1]).max()),
+        comparison("Jacobians of links [-, m]", *J, MATRIX_TOLERANCE, np.abs(J[1]).max()),
     )
 
 

@@ -81,33 +81,23 @@ def evidence() -> Evidence:
     for kind, (joints, mu, inertia) in kinds.items():
         limit = mu * M * GRAVITY
         ours = our_rates(kind == "torsion", limit)
-        comparisons.append(
-            comparison(f"{kind}: our velocity below the threshold", ours[below], 0.0, 0.0)
-        )
-        comparisons.append(
-            within(f"{kind}: our least velocity beyond it", ours[~below].min(), 1e-9, np.inf)
-        )
+        comparisons += [
+            comparison(f"{kind}: our velocity below the threshold", ours[below], 0.0, 0.0),
+            within(f"{kind}: our least velocity beyond it", ours[~below].min(), 1e-9, np.inf),
+        ]
         picture["ours"][kind] = ours
         for cone in CONES:
             finals, gains = mujoco_rates(joints, cone, limit)
             # Beyond the threshold a = (F - F_0) / I: F_0 from each acceleration.
             held = SHARES[~below] - gains[~below] * inertia / limit
+            words = f"{kind}, {cone}: MuJoCo's threshold over mu N [-]"
+            creep = f"{kind}, {cone}: MuJoCo's least creep below it [rad/s, m/s]"
             comparisons += [
-                comparison(
-                    f"{kind}, {cone}: MuJoCo's threshold over mu N [-]",
-                    held,
-                    1.0,
-                    THRESHOLD_TOLERANCE,
-                ),
-                within(
-                    f"{kind}, {cone}: MuJoCo's least creep below it [rad/s, m/s]",
-                    finals[below].min(),
-                    1e-12,
-                    0.5,
-                ),
+                comparison(words, held, 1.0, THRESHOLD_TOLERANCE),
+                within(creep, finals[below].min(), 1e-12, 0.5),
             ]
             picture["creep"][kind, cone] = finals
-    return Evidence(tuple(comparisons), picture)
+    return Evidence.of(*comparisons, **picture)
 
 
 CLAIM = Claim(

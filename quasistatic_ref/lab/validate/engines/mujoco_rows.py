@@ -130,17 +130,13 @@ def evidence() -> Evidence:
     axes, their_axes = all_of("ours elliptic"), all_of("theirs elliptic") + all_of("shift elliptic")
     M, theirs_M = (np.concatenate([s[k].ravel() for s in scenes]) for k in ("ours M", "theirs M"))
     largest = float(np.abs(theirs_M).max())
-    return Evidence(
-        (
-            comparison("torsional rows [-, m]", *spins, tolerance=ROWS_TOLERANCE),
-            comparison("tangential rows, their point moved [-, m]", ours, moved, ROWS_TOLERANCE),
-            comparison(
-                "J against elliptic rows, the same [-, m]", axes, their_axes, ROWS_TOLERANCE
-            ),
-            within("largest entry of that move [m]", np.abs(shift).max(), 1e-4, np.inf),
-            comparison("mass matrices [kg, kg m, kg m^2]", M, theirs_M, ROWS_TOLERANCE, largest),
-            within("contacts", sum(len(s["ours"]) for s in scenes), 2 * SCENES, np.inf),
-        ),
+    return Evidence.of(
+        comparison("torsional rows [-, m]", *spins, tolerance=ROWS_TOLERANCE),
+        comparison("tangential rows, their point moved [-, m]", ours, moved, ROWS_TOLERANCE),
+        comparison("J against elliptic rows, the same [-, m]", axes, their_axes, ROWS_TOLERANCE),
+        within("largest entry of that move [m]", np.abs(shift).max(), 1e-4, np.inf),
+        comparison("mass matrices [kg, kg m, kg m^2]", M, theirs_M, ROWS_TOLERANCE, largest),
+        within("contacts", sum(len(s["ours"]) for s in scenes), 2 * SCENES, np.inf),
     )
 
 

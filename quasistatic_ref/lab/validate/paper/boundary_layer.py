@@ -74,21 +74,15 @@ def evidence() -> Evidence:
         "torque": torque, "spin": spin, "lift": lift, "limit": LIMIT,
         "h": float(scenario.h), "sizes": STEP_SIZES, "at_torque": at_torque, "at_rate": at_rate,
     }  # fmt: skip
-    return Evidence(
-        (
-            comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
-            within("least spin beyond it [rad/s]", spin[turning].min(), 1e-3, np.inf),
-            within(
-                "lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], *FRACTION
-            ),
-            comparison(
-                "exponent of h at a fixed rate [-]", slope(STEP_SIZES, at_rate), 1.0, FITTED
-            ),
-            comparison(
-                "exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED
-            ),
+    return Evidence.of(
+        comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
+        within("least spin beyond it [rad/s]", spin[turning].min(), 1e-3, np.inf),
+        within("lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], *FRACTION),
+        comparison("exponent of h at a fixed rate [-]", slope(STEP_SIZES, at_rate), 1.0, FITTED),
+        comparison(
+            "exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED
         ),
-        picture,
+        **picture,
     )
 
 

@@ -75,16 +75,12 @@ def evidence() -> Evidence:
     expected = np.concatenate([r[o] for r, o in zip(rows, ordinary, strict=True)])
     defect, excess = np.concatenate(defects), np.concatenate(lengths)
     frame = np.concatenate([f.ravel() for f in frames])
-    return Evidence(
-        (
-            comparison("beta - alpha - phi n [m]", defect, 0.0, IDENTITY_TOLERANCE),
-            comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
-            comparison(
-                "{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE
-            ),
-            comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
-        ),
-        {"outline": _outline()},
+    return Evidence.of(
+        comparison("beta - alpha - phi n [m]", defect, 0.0, IDENTITY_TOLERANCE),
+        comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
+        comparison("{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE),
+        comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
+        outline=_outline(),
     )
 
 

@@ -25,16 +25,13 @@ def evidence() -> Evidence:
         lifts.append(motion.t[b, 2] - motion.t[a, 2])
         exact.append(np.mean(run["certificate"] == "exact"))
     h = float(grasp("with torsion")[0].h)
-    return Evidence(
-        (
-            within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
-            within(
-                "rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf
-            ),
-            within("lift [m]", lifts[0], LIFTED, np.inf),
-            comparison("share of steps certified exactly [-]", exact, 1.0, 0.0),
-        ),
-        {"times": times, "angles": angles, "h": h},
+    picture = {"times": times, "angles": angles, "h": h}
+    return Evidence.of(
+        within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
+        within("rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf),
+        within("lift [m]", lifts[0], LIFTED, np.inf),
+        comparison("share of steps certified exactly [-]", exact, 1.0, 0.0),
+        **picture,
     )
 
 

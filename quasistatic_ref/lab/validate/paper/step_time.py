@@ -78,7 +78,7 @@ def evidence() -> Evidence:
         ),
         comparison("tracker's phi less brute force's [m]", taken.gap, 0.0, 0.0),
     )  # fmt: skip
-    return Evidence(comparisons, found)
+    return Evidence.of(*comparisons, **found)
 
 
 CLAIM = Claim(

@@ -37,16 +37,13 @@ def evidence() -> Evidence:
             spent = abs(f1) / run["mu_v"] + abs(f2) / run["mu_v"]
             spent = spent + np.where(tau == 0, 0.0, abs(tau) / run["mu_omega"])
         use.append(spent[loaded] / force[loaded])
-    scale, after_step = np.concatenate(terms), np.concatenate(gaps)
-    held, share = np.concatenate(stuck), np.concatenate(use)
-    return Evidence(
-        (
-            comparison("gap of a loaded contact after the step [m]", after_step,
-                       np.concatenate(layers), CLOSED_FORM, scale),
-            comparison("gap of one that sticks [m]", held, 0.0, 2 * STICKS),
-            within("friction used, of what the cone allows [-]", share, 0.0, 1 + CLOSED_FORM),
-        )
-    )  # fmt: skip
+    gap = "gap of a loaded contact after the step [m]"
+    after_step, layer, scale, held, share = map(np.concatenate, (gaps, layers, terms, stuck, use))
+    return Evidence.of(
+        comparison(gap, after_step, layer, CLOSED_FORM, scale),
+        comparison("gap of one that sticks [m]", held, 0.0, 2 * STICKS),
+        within("friction used, of what the cone allows [-]", share, 0.0, 1 + CLOSED_FORM),
+    )
 
 
 CLAIM = Claim(

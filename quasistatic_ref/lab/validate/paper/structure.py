@@ -27,9 +27,7 @@ def evidence() -> Evidence:
         "contacts without": (int((~torsional).sum()), 5),
         "h [s]": (scenario.h, 0.01),
     }
-    return Evidence(
-        tuple(comparison(what, np.array(m), e, 0.0) for what, (m, e) in numbers.items())
-    )
+    return Evidence.of(*(comparison(what, np.array(m), e, 0.0) for what, (m, e) in numbers.items()))
 
 
 CLAIM = Claim(

@@ -8,9 +8,8 @@ from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_read
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.files import ANSWERS, VERSION
+from quasistatic_ref.lab.vectors.files import ANSWERS, opened
 
 TANGENTS: Final = ("body", "world", "mujoco")
 QUATERNIONS: Final = ("xyzw", "wxyz")
@@ -47,12 +46,7 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
     if not path.exists():
         return Answers(present=False)
     try:
-        top = Fields(json_read(path))
-        top.text("format", choices=(ANSWERS,))
-        version = top.integer("version")
-        if version != VERSION:
-            raise top.fail("version", f"is not known here; this program reads {VERSION}", version)
-        top.text("layer", choices=(layer,))
+        top = opened(path, ANSWERS, layer)
         implementation = top.text("implementation")
         tangent = top.text("tangent", "body", choices=TANGENTS)
         quaternion = top.text("quaternion", "xyzw", choices=QUATERNIONS)

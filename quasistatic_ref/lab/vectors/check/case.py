@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.check.certificates import certificate_problem
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.compare import differences, shape_problem
 from quasistatic_ref.lab.vectors.check.freedoms import (
     FREEDOMS,
@@ -113,3 +113,27 @@ def _infeasible(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     if "certificate" in answer and answer["certificate"] != record["output"]["certificate"]:
         return failure("certificate", "certificate is another one; leave it out, farkas says it")
     return farkas_verdict(case, record, answer["farkas"])
+
+
+def certificate_problem(case: Json, answer: Json) -> str | None:
+    """Why a certificate does not hold; None if it does.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``qp``.
+    answer : dict
+        ``delta_q``, ``lam`` and ``certificate``; it claims the correctly rounded optimum.
+    """
+    from quasistatic_ref.certify.certificate import verify
+    from quasistatic_ref.lab.vectors.layers.qp import claimed, step_of
+
+    if "second_order" in case:
+        return "in second-order cones only the expected one is known"
+    try:
+        certificate = claimed(case, answer)
+        delta_q, lam = (np.array(answer[name], dtype=np.float64) for name in ("delta_q", "lam"))
+        verdict = verify(step_of(case), delta_q, certificate.active, lam, certificate)
+    except (InputError, KeyError, TypeError, ValueError, IndexError) as error:
+        return f"it cannot be read: {error}"
+    return None if verdict else str(verdict.reason)

@@ -12,11 +12,15 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.lab.vectors.check.compare import differences, tolerance_of
-from quasistatic_ref.lab.vectors.check.joints import quaternion_places
-from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem, wrench_problem
+from quasistatic_ref.lab.vectors.check.multipliers import (
+    multipliers_problem,
+    program_rows,
+    wrench_problem,
+)
 from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.expected import Json
 
 Failing = Mapping[str, Difference]
@@ -90,9 +94,8 @@ def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) 
     rest = {name: d for name, d in failing.items() if name != "lam"}
     if rest or record["flags"].get("unique_multipliers", True):
         return plain_failure(failing)
-    second_order = "second_order" in case
-    A = [row for block in case["second_order"] for row in block["F"]] if second_order else case["A"]
-    problem = multipliers_problem(A, record, answer["lam"], conic=second_order)
+    rows, conic = program_rows(case, record["output"]), "second_order" in case
+    problem = multipliers_problem(rows, record, answer["lam"], conic=conic)
     if problem:
         return failure("lam", f"lam is another one, and {problem}")
     return acceptable("other multipliers with the same A'lam")

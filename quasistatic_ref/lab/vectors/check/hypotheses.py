@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from quasistatic_ref.lab.vectors.check import wrong_contacts, wrong_frames
 from quasistatic_ref.lab.vectors.check.predictions import (
     Prediction,
     again,
@@ -15,34 +16,7 @@ from quasistatic_ref.lab.vectors.check.predictions import (
     opposite,
     times,
 )
-from quasistatic_ref.lab.vectors.check.wrong_contacts import (
-    interleaved,
-    interleaved_lam,
-    mu_omega,
-    of_rows,
-    reversed_rows,
-    reversed_spin,
-    reversed_wrench,
-    swapped_points,
-    swapped_wrench,
-    unsigned,
-    unsigned_selection,
-    with_mu_omega,
-    without_spin,
-)
-from quasistatic_ref.lab.vectors.check.wrong_frames import (
-    answered_wxyz,
-    misread,
-    other_delta_q,
-    other_tangents,
-    other_tangents_of_step,
-    straight,
-    transposed_J,
-    transposed_J_of_step,
-    transposed_rows,
-    unactuated_first,
-    world_integrate,
-)
+from quasistatic_ref.lab.vectors.check.wrong_contacts import mu_omega, of_rows, with_mu_omega
 
 
 @dataclass(frozen=True)
@@ -89,7 +63,7 @@ HYPOTHESES: Final = (
         "delta_q is a displacement in one step [m, rad], not a velocity: multiply by h once",
         {
             "qp": by_h("delta_q"),
-            "integrate": other_delta_q,
+            "integrate": wrong_frames.other_delta_q,
             "step": by_h("delta_q"),
         },
     ),
@@ -109,9 +83,9 @@ HYPOTHESES: Final = (
         "n points from alpha's body to beta's, also in penetration",
         {
             "distance": opposite("n"),
-            "jacobian": reversed_spin,
-            "rows": reversed_rows,
-            "wrench": reversed_wrench,
+            "jacobian": wrong_contacts.reversed_spin,
+            "rows": wrong_contacts.reversed_rows,
+            "wrench": wrong_contacts.reversed_wrench,
             "step": contacts_changed(lambda c: {"n": times(c["n"], -1.0)}),
         },
     ),
@@ -119,8 +93,8 @@ HYPOTHESES: Final = (
         "unsigned phi",
         "phi is negative in penetration, and n keeps its direction there",
         {
-            "distance": unsigned,
-            "selection": unsigned_selection,
+            "distance": wrong_contacts.unsigned,
+            "selection": wrong_contacts.unsigned_selection,
             "rows": lambda case, output: [{"b": [-abs(v) for v in output["b"]]}],
             "step": contacts_changed(lambda c: {"phi": abs(c["phi"])}),
         },
@@ -134,7 +108,7 @@ HYPOTHESES: Final = (
         "torsion rows missing",
         "a contact whose rows are 6 has two more, n'J +- mu_omega times its spin",
         {
-            **of_rows(without_spin),
+            **of_rows(wrong_contacts.without_spin),
             "jacobian": lambda case, output: [{"J": [J[:3] for J in output["J"]]}],
             "wrench": lambda case, output: [
                 again("wrench", with_mu_omega(lambda c: 0.0)(case)),
@@ -147,42 +121,45 @@ HYPOTHESES: Final = (
         "a floating base's delta_q is a twist in the body's own frame; or declare "
         '"tangent": "world" (linear and angular) or "mujoco" (linear) in the answers',
         {
-            "jacobian": other_tangents,
-            "integrate": world_integrate,
-            "step": other_tangents_of_step,
+            "jacobian": wrong_frames.other_tangents,
+            "integrate": wrong_frames.world_integrate,
+            "step": wrong_frames.other_tangents_of_step,
         },
     ),
     Hypothesis(
         "J transposed",
         "J of a contact has 4 rows and n_v columns, written row by row",
         {
-            "jacobian": transposed_J,
-            "rows": transposed_rows,
-            "step": transposed_J_of_step,
+            "jacobian": wrong_frames.transposed_J,
+            "rows": wrong_frames.transposed_rows,
+            "step": wrong_frames.transposed_J_of_step,
         },
     ),
     Hypothesis(
         "quaternion order",
         'quaternions are [x, y, z, w]; or declare "quaternion": "wxyz" in the answers',
         {
-            "distance": misread("distance"),
-            "jacobian": misread("jacobian"),
-            "integrate": both(answered_wxyz("q"), misread("integrate")),
-            "step": answered_wxyz("q_next"),
+            "distance": wrong_frames.misread("distance"),
+            "jacobian": wrong_frames.misread("jacobian"),
+            "integrate": both(wrong_frames.answered_wxyz("q"), wrong_frames.misread("integrate")),
+            "step": wrong_frames.answered_wxyz("q_next"),
         },
     ),
     Hypothesis(
         "rows interleaved",
         "a contact's rows are +d1, +d2, -d1, -d2, +spin, -spin; MuJoCo's are +d1, -d1, +d2, -d2",
-        {**of_rows(interleaved), "wrench": interleaved_lam},
+        {
+            **of_rows(wrong_contacts.interleaved),
+            "wrench": wrong_contacts.interleaved_lam,
+        },
     ),
     Hypothesis(
         "alpha and beta swapped",
         "J is the motion of beta relative to alpha, and the wrench acts on beta's body",
         {
-            "distance": swapped_points,
+            "distance": wrong_contacts.swapped_points,
             "jacobian": opposite("J"),
-            "wrench": swapped_wrench,
+            "wrench": wrong_contacts.swapped_wrench,
             "step": both(
                 contacts_changed(lambda c: {"alpha": c["beta"], "beta": c["alpha"]}),
                 contacts_changed(lambda c: {"J": times(c["J"], -1.0)}),
@@ -192,12 +169,12 @@ HYPOTHESES: Final = (
     Hypothesis(
         "un-actuated coordinates first",
         "delta_q holds the actuated joints first, then the others",
-        {"jacobian": unactuated_first},
+        {"jacobian": wrong_frames.unactuated_first},
     ),
     Hypothesis(
         "a straight line in the place of the screw",
         "T exp6(delta_q): the translation is V(w) v, not v",
-        {"integrate": straight},
+        {"integrate": wrong_frames.straight},
     ),
 )
 """Tried in this order; of equally good explanations all are named."""

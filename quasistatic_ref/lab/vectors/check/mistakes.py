@@ -16,6 +16,7 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES, Hypothesis
+from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.expected import Json
@@ -150,11 +151,7 @@ def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
 
 def _images(one: Failed, lam: Json) -> Json:
     """A'lam in the place of a lam that is not unique."""
-    case, output = one.case, one.record["output"]
-    if "second_order" in case:
-        A = [row for block in case["second_order"] for row in block["F"]]
-    else:
-        A = case.get("A", output.get("A"))
+    A = program_rows(one.case, one.record["output"])
     if len(lam) != len(A):
         return lam
     return list(np.array(lam, dtype=np.float64) @ np.array(A).reshape(len(lam), -1))

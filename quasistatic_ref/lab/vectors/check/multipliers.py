@@ -10,20 +10,26 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import cone_matrix
-
-Array = NDArray[np.float64]
 
 EPS: Final = float(np.finfo(np.float64).eps)
 NEGLIGIBLE: Final = 1e-9
 """Largest multiplier, relative to the largest, on a row that has a slack, or below zero: a method
 that reaches delta_q to rounding leaves 1e-14."""
+
+
+def program_rows(case: Json, output: Json) -> Json:
+    """The rows that the multipliers of a case belong to: its own, its blocks', or a step's A."""
+    if "second_order" in case:
+        return [row for block in case["second_order"] for row in block["F"]]
+    return case.get("A", output.get("A"))
 
 
 def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = False) -> str | None:
@@ -84,20 +90,17 @@ def _conic_problem(lam: Array, z: Array, small: float) -> str | None:
 
 def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
     """Whether the wrenches of a step belong to its own multipliers."""
-    pairs = {pair["name"]: pair for pair in case["pairs"]}
-    lam, at = np.array(answer["lam"], dtype=np.float64), 0
-    table = cone(case["cone"])
-    for j, contact in enumerate(record["output"]["contacts"]):
-        pair = pairs[contact["pair"]]
-        count = len(table.row_names) if pair["rows"] == 6 else table.short
-        part = lam[at : at + count] / case["h"]
-        at += count
+    by_name = {pair["name"]: pair for pair in case["pairs"]}
+    pairs = [by_name[contact["pair"]] for contact in record["output"]["contacts"]]
+    parts = by_contact(answer["lam"], case["cone"], pairs)
+    for j, (pair, lam) in enumerate(zip(pairs, parts, strict=True)):
+        part = np.array(lam, dtype=np.float64) / case["h"]
         if case["cone"] == ELLIPSOID:
             wrench = part[[1, 2, 0, 3]]
         else:
             mu_omega = pair["mu_omega"] if pair["rows"] == 6 else 0.0
             mu = np.array([1.0, pair["mu_v"], pair["mu_v"], mu_omega])
-            wrench = (part @ cone_matrix(case["cone"])[:count] * mu)[[1, 2, 0, 3]]
+            wrench = (part @ cone_matrix(case["cone"])[: len(part)] * mu)[[1, 2, 0, 3]]
         off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
         room = tolerance_of(record["tolerance"], "wrench")
         if not off <= room + 16 * EPS * float(np.abs(part).sum()) < np.inf:

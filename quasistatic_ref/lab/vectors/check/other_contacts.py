@@ -11,17 +11,16 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
+from quasistatic_ref.lab.vectors.distances.candidates import parts
 from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.lab.vectors.layers.step import shape_pose
-from quasistatic_ref.step.cones import cone
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.data import Array
 
 TIED: Final = 1e-9
 """Components of n that are that near to each other are the same to one who computes n."""
@@ -52,23 +51,20 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
         if len({c["index"] for c in own}) < len(own):
             return f"{pair['name']} names a candidate twice"
-        if any(abs(c["phi"] - phi) > 2 * room for c, phi in zip(_by_phi(own), due, strict=True)):
+        given = sorted(float(c["phi"]) for c in own)
+        if any(abs(one - other) > 2 * room for one, other in zip(given, due, strict=True)):
             return f"the distances of {pair['name']} are others"
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
             sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
-        candidates = _candidates(sides, pair["k"])
+        candidates = [one for part in parts(sides, pair["k"]) for one in solid_cases(part)]
         for contact in own:
             if not 0 <= contact["index"] < len(candidates):
                 return f"{pair['name']} has no candidate {contact['index']}"
             if problem := _contact_problem(candidates[contact["index"]], contact, room):
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
-
-
-def _by_phi(contacts: Json) -> list[Json]:
-    return sorted(contacts, key=lambda contact: float(contact["phi"]))
 
 
 def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
@@ -87,19 +83,6 @@ def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
 def _projected(axis: int, n: Array) -> Array:
     d = np.eye(3)[axis] - n[axis] * n
     return np.asarray(d / np.linalg.norm(d))
-
-
-def _candidates(sides: Json, k: int) -> list[Json]:
-    """Every candidate as a case of two solids: a cloud's points; corners, then the closest pair."""
-    if k == 1 or "cloud" in (sides["alpha"]["kind"], sides["beta"]["kind"]):
-        return solid_cases(sides)
-    signs = 2.0 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
-    found = []
-    for side in ("alpha", "beta"):
-        if sides[side]["kind"] == "box":
-            points = (signs * np.array(sides[side]["size"]) / 2).tolist()
-            found += solid_cases({**sides, side: {"kind": "cloud", "points": points}})
-    return [*found, sides]
 
 
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
@@ -126,18 +109,11 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     if "farkas" in solved.output:
         return {**record, "output": {**output, "farkas": solved.output["farkas"]}}
     output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
-    lam, at = output["lam"], 0
-    for entry in entries:
-        count = _rows(case["cone"], entry["rows"])
-        entry["lam"] = lam[at : at + count]
-        at += count
+    for entry, lam in zip(entries, by_contact(output["lam"], case["cone"], entries), strict=True):
+        entry["lam"] = lam
     loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
     output["wrench"] = layer("wrench").expected(loads).output["wrench"]
     after = layer("integrate").expected({**tree, "delta_q": output["delta_q"]})
     output["q_next"] = after.output["q"]
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}
-
-
-def _rows(name: str, rows: int) -> int:
-    return len(cone(name).row_names) if rows == 6 else cone(name).short

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Final
 
 from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
@@ -122,10 +122,7 @@ class LayerReport:
             "worst_digits": self.worst.digits if self.worst else None,
             "worst_case": self.worst.id if self.worst else None,
             "first_failure": self.first.record if self.present and self.first else None,
-            "mistakes": [
-                {"name": m.name, "sentence": m.sentence, "cases": m.cases, "of": m.of}
-                for m in self.mistakes
-            ],
+            "mistakes": [asdict(mistake) for mistake in self.mistakes],
             "cases": [v.record for v in self.verdicts] if self.present else [],
         }
 

@@ -10,12 +10,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.lab.vectors.expected import Json
-
-Array = NDArray[np.float64]
+from quasistatic_ref.step.data import Array
 
 
 def witness_problem(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -83,13 +83,7 @@ class Verdict:
     @property
     def record(self) -> dict[str, Json]:
         """As it stands in a JSON report."""
-        return {
-            "id": self.id,
-            "verdict": self.verdict,
-            "reason": self.reason,
-            "field": self.field,
-            "digits": None if self.digits is None else round(self.digits, 2),
-        }
+        return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
     def named(self, id: str) -> Verdict:
         """The same about a case of that id."""

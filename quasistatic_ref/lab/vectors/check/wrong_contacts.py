@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.lab.vectors.check.predictions import Prediction, again, each, scaled, times
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 MUJOCO_ORDER: Final = (0, 2, 1, 3, 4, 5)
 """Ours of +d1 -d1 +d2 -d2 +spin -spin."""
@@ -23,23 +23,13 @@ def _rows_case(case: Json, output: Json) -> Json:
     return {"cone": case["cone"], "contacts": contacts}
 
 
-def _counts(case: Json) -> list[int]:
-    """How many rows each contact has."""
-    table = cone(case["cone"])
-    return [
-        len(table.row_names) if contact["rows"] == 6 else table.short
-        for contact in case["contacts"]
-    ]
-
-
-def _kept_rows(case: Json, output: Json, keep: Callable[[int], list[int]]) -> Json:
+def _kept_rows(case: Json, output: Json, keep: Callable[[int], Iterable[int]]) -> Json:
     """A and b with the rows of each contact chosen, or in another order."""
-    A, b, at = [], [], 0
-    for count in _counts(case):
-        A += [output["A"][at + i] for i in keep(count)]
-        b += [output["b"][at + i] for i in keep(count)]
-        at += count
-    return {"A": A, "b": b}
+    kept: Json = {"A": [], "b": []}
+    for name, rows in kept.items():
+        for part in by_contact(output[name], case["cone"], case["contacts"]):
+            rows += [part[i] for i in keep(len(part))]
+    return kept
 
 
 def of_rows(change: Callable[[Json, Json], Iterable[Json]]) -> dict[str, Prediction]:
@@ -52,11 +42,11 @@ def of_rows(change: Callable[[Json, Json], Iterable[Json]]) -> dict[str, Predict
 
 def reversed_rows(case: Json, output: Json) -> Iterable[Json]:
     """Rows (-n~ + d~)' J."""
-    A, at = [], 0
-    for contact, count in zip(case["contacts"], _counts(case), strict=True):
+    A: Json = []
+    parts = by_contact(output["A"], case["cone"], case["contacts"])
+    for contact, part in zip(case["contacts"], parts, strict=True):
         normal = np.array(contact["n"]) @ np.array(contact["J"])[:3]
-        A += (np.array(output["A"][at : at + count]) - 2 * normal).tolist()
-        at += count
+        A += (np.array(part) - 2 * normal).tolist()
     return [{"A": A}]
 
 
@@ -126,12 +116,12 @@ def mu_omega(change: Callable[[Json], Json]) -> dict[str, Prediction]:
 
 def without_spin(case: Json, output: Json) -> Iterable[Json]:
     """Four rows for every contact of the pyramid."""
-    return [_kept_rows(case, output, lambda count: list(range(4 if count == 6 else count)))]
+    return [_kept_rows(case, output, lambda count: range(4 if count == 6 else count))]
 
 
 def interleaved(case: Json, output: Json) -> Iterable[Json]:
     """Rows in MuJoCo's order."""
-    return [_kept_rows(case, output, lambda count: [*MUJOCO_ORDER[:count]])]
+    return [_kept_rows(case, output, lambda count: MUJOCO_ORDER[:count])]
 
 
 def interleaved_lam(case: Json, output: Json) -> Iterable[Json]:

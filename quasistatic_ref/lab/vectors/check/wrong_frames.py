@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.check.joints import places
 from quasistatic_ref.lab.vectors.check.predictions import (
     TIME_STEPS,
     Prediction,
@@ -15,7 +14,7 @@ from quasistatic_ref.lab.vectors.check.predictions import (
     each,
     scaled,
 )
-from quasistatic_ref.lab.vectors.converters import tangent_map, wxyz, xyzw
+from quasistatic_ref.lab.vectors.converters import places, tangent_map, wxyz, xyzw
 from quasistatic_ref.lab.vectors.expected import Json
 
 

@@ -15,7 +15,6 @@ from itertools import product
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Json
@@ -66,15 +65,17 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
         If k > 1 is asked of a solid whose corners depend on where the other is.
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
-    if "cloud" in (alpha["kind"], beta["kind"]):
-        return _kept(_candidates(case), k)
-    corners = [] if k == 1 else [_corners(alpha), _corners(beta)]
-    parts = [
-        {**case, side: {"kind": "cloud", "points": points}}
-        for side, points in zip(("alpha", "beta"), corners, strict=False)
-        if points
-    ]
-    return _kept([one for part in (*parts, case) for one in _candidates(part)], k, solids=True)
+    candidates = [one for part in parts(case, k) for one in _candidates(part)]
+    return _kept(candidates, k, solids="cloud" not in (alpha["kind"], beta["kind"]))
+
+
+def parts(case: Json, k: int) -> list[Json]:
+    """The cases of the layer `distance` that the candidates of a pair come from, in their order."""
+    if k == 1 or "cloud" in (case["alpha"]["kind"], case["beta"]["kind"]):
+        return [case]
+    corners = {side: _corners(case[side]) for side in ("alpha", "beta")}
+    clouds = {s: {"kind": "cloud", "points": points} for s, points in corners.items() if points}
+    return [*({**case, side: cloud} for side, cloud in clouds.items()), case]
 
 
 def _corners(shape: Json) -> Json:
@@ -100,14 +101,7 @@ class _Candidate:
 
 
 def _candidates(case: Json) -> list[_Candidate]:
-    found, _ = rounded(
-        lambda: [
-            {**one.table(), "unique": one.unique}
-            for one in witnesses(
-                placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
-            )
-        ]
-    )
+    found, _ = rounded(lambda: [{**one.table(), "unique": one.unique} for one in witnesses(case)])
     for side in ("alpha", "beta"):
         if case[side]["kind"] == "cloud":
             alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]

@@ -10,18 +10,19 @@ edge the distance is convex, and its minimum is enclosed by bisection.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.flats import flat_of, shares_a_way
 from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
 from quasistatic_ref.lab.vectors.distances.stationary import minimum, rational_near
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import (
+    IDENTITY,
     Vector,
     along,
     cross,
@@ -103,7 +104,7 @@ def _with_uniqueness(flat: Core, curved: Placed, found: Witness) -> Witness:
     highest = [x for x in flat.vertices if sign(dot(found.n, x) - reach) == 0]
     ways = _independent([subtract(x, highest[0]) for x in highest[1:]])
     unique = not shares_a_way(ways, flat_of(curved, scaled(found.n, -1)))
-    return Witness(found.phi, found.alpha, found.beta, found.n, unique)
+    return replace(found, unique=unique)
 
 
 def _independent(ways: Sequence[Vector]) -> list[Vector]:
@@ -112,3 +113,35 @@ def _independent(ways: Sequence[Vector]) -> list[Vector]:
         return []
     others = [way for way in ways[1:] if any(cross(ways[0], way))]
     return [ways[0], *others[:1]]
+
+
+def flat_of(solid: Placed, direction: Vector) -> list[Vector]:
+    """Directions that span what of a curved solid is farthest along another: none, one or two.
+
+    A cylinder or cone has its cap (two), a generator (one) or a point there.
+    """
+    d = solid.local_direction(direction)
+    flat: list[Vector] = []
+    radial = root(squared(d[:2]))
+    if solid.kind == "ellipsoid":
+        return flat
+    if sign(radial) == 0:
+        if solid.kind == "cylinder" or sign(d[2]) < 0:
+            flat = IDENTITY[:2]
+    elif solid.kind == "cylinder":
+        flat = IDENTITY[2:] if sign(d[2]) == 0 else []
+    else:
+        radius, half = solid.sizes
+        slant = [-radius * x / radial for x in d[:2]]
+        generator = [*slant, 2 * half]
+        flat = [generator] if sign(dot(generator, d)) == 0 else []
+    return [solid.world_direction(way) for way in flat]
+
+
+def shares_a_way(a: Sequence[Vector], b: Sequence[Vector]) -> bool:
+    """Whether two spans of at most two directions, in one plane, have a direction in common."""
+    if not a or not b:
+        return False
+    if len(a) + len(b) > 2:
+        return True
+    return all(sign(x) == 0 for x in cross(a[0], b[0]))

@@ -9,13 +9,13 @@ its derivative changes from falling to rising.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.curved_pair import outside, slope
-from quasistatic_ref.lab.vectors.distances.flats import flat_of, shares_a_way
+from quasistatic_ref.lab.vectors.distances.curved_pair import flat_of, outside, shares_a_way, slope
 from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
@@ -52,8 +52,7 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
         if sign(candidate.phi) > 0 and _is_normal(cylinder, candidate):
             ways = flat_of(cylinder, candidate.n)
             unique = not shares_a_way(ways, flat_of(other, scaled(candidate.n, -1)))
-            phi, alpha, beta, n = (getattr(candidate, key) for key in ("phi", "alpha", "beta", "n"))
-            return Witness(phi, alpha, beta, n, unique)
+            return replace(candidate, unique=unique)
     raise InputError(
         "the solids meet, where this pair has no closed form",
         field="alpha, beta",

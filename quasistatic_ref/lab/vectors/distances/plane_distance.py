@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from flint import fmpq
 
@@ -21,13 +22,10 @@ def solid_on_plane(plane: Placed, solid: Placed) -> Witness:
         heights = [dot(down, x) for x in flat.vertices]
         lowest = heights.index(max(heights))
         found = point_on_solid(plane, flat.vertices[lowest])
-        return _with(found, heights.count(max(heights)) == 1).inflated(fmpq(0), flat.margin)
+        alone = replace(found, unique=heights.count(max(heights)) == 1)
+        return alone.inflated(fmpq(0), flat.margin)
     point, unique = SUPPORTS[solid.kind](solid.sizes, solid.local_direction(down))
-    return _with(point_on_solid(plane, solid.world(point)), unique)
-
-
-def _with(found: Witness, unique: bool) -> Witness:
-    return Witness(found.phi, found.alpha, found.beta, found.n, unique)
+    return replace(point_on_solid(plane, solid.world(point)), unique=unique)
 
 
 def cylinder_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:

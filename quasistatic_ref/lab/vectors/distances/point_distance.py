@@ -93,37 +93,24 @@ def _cone(sizes: Sequence[Real], at: Vector) -> Surface:
     side = [2 * half / slant, radius / slant]
     above_side = (r - radius) * side[0] + (at[2] + half) * side[1]
     above_base = -half - at[2]
+    below = Surface(above_base, [fmpq(0), fmpq(-1)], True)
     # From the rim along the side to the tip, and along the base to the axis.
     up_side = (radius - r) * side[1] + (at[2] + half) * side[0]
-    flat = _triangle(
-        [r - radius, at[2] + half], [r, at[2] - half], side, slant, above_side, above_base, up_side
-    )
+    if sign(above_side) <= 0 and sign(above_base) <= 0:
+        nearer = sign(above_side - above_base)
+        flat = Surface(above_side, side, nearer > 0) if nearer >= 0 else below
+    elif sign(above_side) > 0 and sign(up_side) >= 0 and sign(up_side - slant) <= 0:
+        flat = Surface(above_side, side, True)
+    elif sign(above_base) > 0 and sign(r - radius) <= 0:
+        flat = below
+    else:
+        beyond_tip = sign(up_side - slant) > 0
+        away = [r, at[2] - half] if beyond_tip else [r - radius, at[2] + half]
+        distance = root(squared(away))
+        flat = Surface(distance, [x / distance for x in away], True)
     lost = sign(r) == 0 and sign(flat.normal[0]) != 0
     normal = [*(flat.normal[0] * x for x in outward), flat.normal[1]]
     return Surface(flat.phi, normal, flat.unique and not lost)
-
-
-def _triangle(
-    from_rim: Vector,
-    from_tip: Vector,
-    side: Vector,
-    slant: Real,
-    above_side: Real,
-    above_base: Real,
-    up_side: Real,
-) -> Surface:
-    if sign(above_side) <= 0 and sign(above_base) <= 0:
-        nearer = sign(above_side - above_base)
-        if nearer >= 0:
-            return Surface(above_side, side, nearer > 0)
-        return Surface(above_base, [fmpq(0), fmpq(-1)], True)
-    if sign(above_side) > 0 and sign(up_side) >= 0 and sign(up_side - slant) <= 0:
-        return Surface(above_side, side, True)
-    if sign(above_base) > 0 and sign(from_rim[0]) <= 0:
-        return Surface(above_base, [fmpq(0), fmpq(-1)], True)
-    away = from_tip if sign(up_side - slant) > 0 else from_rim
-    distance = root(squared(away))
-    return Surface(distance, [x / distance for x in away], True)
 
 
 def _radial(at: Vector) -> tuple[Real, Vector]:

@@ -11,6 +11,8 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError, suggestion
 from quasistatic_ref.lab.vectors.exact.algebra import (
+    IDENTITY,
+    ZERO,
     Matrix,
     Vector,
     cross,
@@ -142,44 +144,34 @@ class Core:
 
 def core(solid: Placed) -> Core | None:
     """The polytope that a shape is, but for its margin; None where it is none."""
-    zero, one = fmpq(0), fmpq(1)
-    margin, local = zero, _Hull((), (), (), ())
+    zero = fmpq(0)
     match solid.kind:
         case "sphere":
-            margin, local = solid.sizes[0], _Hull(((zero, zero, zero),), (), (), ())
+            local = Core(solid.sizes[0], [ZERO], [], [], [])
         case "capsule":
             margin, half = solid.sizes
-            ends = (zero, zero, -half), (zero, zero, half)
-            local = _Hull(ends, (), ((zero, zero, one),), ((0, 1),))
+            ends = [scaled(IDENTITY[2], -half), scaled(IDENTITY[2], half)]
+            local = Core(margin, ends, [], [IDENTITY[2]], [(0, 1)])
         case "box":
-            corners = tuple(product(*((-half, half) for half in solid.sizes)))
-            axes = tuple(tuple(one if i == k else zero for i in range(3)) for k in range(3))
-            faces = (*axes, *(tuple(-x for x in axis) for axis in axes))
-            sides = tuple((k, k + step) for step in (4, 2, 1) for k in range(8) if not k & step)
-            local = _Hull(corners, faces, axes, sides)
+            corners = [list(x) for x in product(*((-half, half) for half in solid.sizes))]
+            faces = [*IDENTITY, *(scaled(axis, -1) for axis in IDENTITY)]
+            sides = [(k, k + step) for step in (4, 2, 1) for k in range(8) if not k & step]
+            local = Core(zero, corners, faces, IDENTITY, sides)
         case "convex":
             local = _hull(tuple(tuple(point) for point in solid.points))
         case _:
             return None
     return Core(
-        margin,
-        [solid.world(list(x)) for x in local.vertices],
-        [solid.world_direction(list(x)) for x in local.normals],
-        [solid.world_direction(list(x)) for x in local.edges],
-        list(local.sides),
+        local.margin,
+        [solid.world(x) for x in local.vertices],
+        [solid.world_direction(x) for x in local.normals],
+        [solid.world_direction(x) for x in local.edges],
+        local.sides,
     )
 
 
-@dataclass(frozen=True)
-class _Hull:
-    vertices: tuple[tuple[Real, ...], ...]
-    normals: tuple[tuple[Real, ...], ...]
-    edges: tuple[tuple[Real, ...], ...]
-    sides: tuple[tuple[int, int], ...]
-
-
 @lru_cache(maxsize=64)
-def _hull(points: tuple[tuple[Real, ...], ...]) -> _Hull:
+def _hull(points: tuple[tuple[Real, ...], ...]) -> Core:
     """Faces and edges of a convex hull, by trying the plane of every three points.
 
     Raises
@@ -215,7 +207,7 @@ def _hull(points: tuple[tuple[Real, ...], ...]) -> _Hull:
             way = subtract(vertices[ends[-1]], vertices[ends[0]])
             edges[_direction(way, signed=False)] = None
             ends_of.append((ends[0], ends[-1]))
-    return _Hull(points, tuple(faces), tuple(edges), tuple(ends_of))
+    return Core(fmpq(0), vertices, [*map(list, faces)], [*map(list, edges)], ends_of)
 
 
 def _direction(x: Vector, signed: bool) -> tuple[Real, ...]:

@@ -10,22 +10,24 @@ from quasistatic_ref.lab.vectors.distances.cylinder_pair import cylinder_and_cur
 from quasistatic_ref.lab.vectors.distances.plane_distance import solid_on_plane
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.polytope_pair import polytope_pair
-from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core
+from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core, placed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.expected import Json
 
 CLOSED_FORMS = ("box", "cylinder", "cone", "ellipsoid", "halfspace")
 """Shapes whose distance to a point has one of its own; that to the others is a polytope's."""
 
 
-def witnesses(a: Placed, b: Placed) -> list[Witness]:
-    """Closest points of two shapes, one for each point of a cloud.
+def witnesses(case: Json) -> list[Witness]:
+    """Closest points of the two shapes of a case, one for each point of a cloud.
 
     Raises
     ------
     InputError
         If both are clouds or half-spaces, or there is no closed form and no enclosure.
     """
+    a, b = (placed(case[side], case[f"pose_{side}"]) for side in ("alpha", "beta"))
     if a.kind == b.kind and a.kind in ("cloud", "halfspace"):
         raise InputError(f"two {a.kind}s have no distance", field="alpha, beta", value=a.kind)
     if b.kind == "cloud":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, scaled
@@ -37,13 +37,9 @@ class Witness:
 
     def inflated(self, margin_alpha: Real, margin_beta: Real) -> Witness:
         """The same of solids that have a ball about every point."""
-        return Witness(
-            self.phi - margin_alpha - margin_beta,
-            along(self.alpha, self.n, margin_alpha),
-            along(self.beta, self.n, -margin_beta),
-            self.n,
-            self.unique,
-        )
+        phi = self.phi - margin_alpha - margin_beta
+        alpha = along(self.alpha, self.n, margin_alpha)
+        return replace(self, phi=phi, alpha=alpha, beta=along(self.beta, self.n, -margin_beta))
 
     def table(self) -> dict[str, Any]:
         """The fields of the layer's output."""

@@ -26,17 +26,9 @@ _floats = np.frompyfunc(float, 1, 1)  # integers are divided with correct roundi
 _decimals = np.frompyfunc(lambda x: decimal_string(Fraction(x), DIGITS), 1, 1)
 
 
-def exact(value: Json, shape: tuple[int, ...] | None = None) -> Exact:
-    """Nested lists of float64 numbers as fractions.
-
-    Parameters
-    ----------
-    value : list
-    shape : tuple of int, optional
-        Where a list may be empty, the shape that it stands for.
-    """
-    array = np.array(value, dtype=np.float64)
-    return np.asarray(_fractions(array if shape is None else array.reshape(shape)), dtype=object)
+def exact(value: Json) -> Exact:
+    """Nested lists of float64 numbers as fractions."""
+    return np.asarray(_fractions(np.array(value, dtype=np.float64)), dtype=object)
 
 
 def rounded(array: Exact) -> Json:

@@ -8,13 +8,10 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.vectors.families.curved_corners import CURVED_CORNERS
-from quasistatic_ref.lab.vectors.families.mechanisms import random_pose
-from quasistatic_ref.lab.vectors.families.polytope_corners import POLYTOPE_CORNERS
-from quasistatic_ref.lab.vectors.families.shapes import SHAPES, Table, cloud, mixed_points
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case, by_hand
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, random_pose
 from quasistatic_ref.lab.vectors.layers.distance import answer
-
-Case = tuple[str, str, Table]
 
 CLOSE = 1e-9
 """Gap of the pairs that nearly touch [m]."""
@@ -22,8 +19,7 @@ CLOSE = 1e-9
 POSES = 40
 """Random poses that are tried for each kind of gap."""
 
-CORNERS = POLYTOPE_CORNERS | CURVED_CORNERS
-"""Name, provenance, alpha, its pose, beta, its pose."""
+SHAPES: dict[str, Json] = by_hand("distance")["shapes"]
 
 
 def distance_cases() -> Iterator[Case]:
@@ -35,19 +31,23 @@ def distance_cases() -> Iterator[Case]:
             if first != "halfspace" or second != "halfspace":
                 yield from _pair(rng, *((first, second) if rng.integers(2) else (second, first)))
     for kind, shape in SHAPES.items():
-        points = cloud(mixed_points(shape, rng, 14))
+        points = {"kind": "cloud", "points": mixed_points(rng, 14)}
         where = {"pose_alpha": random_pose(rng, 0.2), "pose_beta": random_pose(rng, 0.02)}
         sides = {"alpha": shape, "beta": points}
         if rng.integers(2):
             sides = {"alpha": points, "beta": shape}
         provenance = f"14 points in, on and around a {kind}, its centre and axis among them"
         yield f"distance/cloud/{kind}", provenance, sides | where
-    for name, (provenance, alpha, pose_alpha, beta, pose_beta) in CORNERS.items():
-        yield (
-            f"distance/corner/{name}",
-            provenance,
-            {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta},
-        )
+    for name, corner in by_hand("distance")["corners"].items():
+        poses = {pose: ORIGIN | corner.get(pose, {}) for pose in ("pose_alpha", "pose_beta")}
+        provenance = corner.pop("provenance")
+        yield f"distance/corner/{name}", provenance, corner | poses
+
+
+def mixed_points(rng: Rng, count: int) -> list[list[float]]:
+    """Points inside and outside a shape, its centre, and two on its axis among them."""
+    points = np.round(rng.uniform(-0.45, 0.45, (count - 3, 3)), 3) + 0.0
+    return [[0.0, 0.0, 0.0], [0.0, 0.0, 0.21], [0.0, 0.0, -0.6], *points.tolist()]
 
 
 def _pair(rng: Rng, first: str, second: str) -> Iterator[Case]:
@@ -83,7 +83,7 @@ def _has_depths(first: str, second: str) -> bool:
     return first in simple or second in simple or (first in straight and second in straight)
 
 
-def _nearly_touching(case: Table) -> Table:
+def _nearly_touching(case: Json) -> Json:
     found, _, _ = answer(case)
     pose = case["pose_beta"]
     shift = found["phi"][0] - CLOSE

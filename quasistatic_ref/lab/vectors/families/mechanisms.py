@@ -10,9 +10,16 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.vectors.families.shapes import Table, at
+from quasistatic_ref.lab.vectors.expected import Json
 
+UPRIGHT = [0.0, 0.0, 0.0, 1.0]
+ORIGIN: Json = {"xyz": [0.0, 0.0, 0.0], "quaternion": UPRIGHT}
 KINDS = ("revolute", "prismatic", "continuous", "fixed")
+
+
+def at(x: float, y: float, z: float) -> Json:
+    """A pose at x, y, z [m]."""
+    return {"xyz": [x, y, z], "quaternion": UPRIGHT}
 
 
 def few_digits(values: Any, digits: int = 3) -> list[float]:
@@ -25,19 +32,19 @@ def random_quaternion(rng: Rng) -> list[float]:
     return few_digits(rng.uniform(-1, 1, 4) + 0.05)
 
 
-def random_pose(rng: Rng, size: float = 1.0) -> Table:
+def random_pose(rng: Rng, size: float = 1.0) -> Json:
     """A pose within a cube of half the side `size` [m]."""
     return {"xyz": few_digits(rng.uniform(-size, size, 3)), "quaternion": random_quaternion(rng)}
 
 
-def link(name: str, parent: str | None, joint: str, **more: Any) -> Table:
+def link(name: str, parent: str | None, joint: str, **more: Any) -> Json:
     """One body of a mechanism, massless and at the parent's origin unless told."""
-    table: Table = {"name": name, "parent": parent, "placement": at(0.0, 0.0, 0.0), "joint": joint}
+    table: Json = {"name": name, "parent": parent, "placement": ORIGIN, "joint": joint}
     table |= {"axis": [0.0, 0.0, 1.0], "actuated": False}
     return table | more
 
 
-def mass(rng: Rng) -> Table:
+def mass(rng: Rng) -> Json:
     """Mass, centre and inertia that a body can have: that of two masses and a ball."""
     a, b = few_digits(rng.uniform(0.01, 0.05, 2)), few_digits(rng.uniform(-0.1, 0.1, 3), 2)
     (x, y, z), ball = b, a[0]
@@ -53,7 +60,7 @@ def mass(rng: Rng) -> Table:
     }
 
 
-def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False) -> Table:
+def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False) -> Json:
     """A tree of bodies: each hangs on one of the two before it."""
     bodies = []
     for k in range(count):
@@ -73,7 +80,7 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
     return {"bodies": bodies}
 
 
-def random_q(rng: Rng, mechanism: Table) -> list[float]:
+def random_q(rng: Rng, mechanism: Json) -> list[float]:
     """A configuration in the paper's order; quaternions and (cos, sin) not normalised."""
     q: list[float] = []
     for actuated in (True, False):
@@ -95,14 +102,14 @@ def _random_position(rng: Rng, kind: str) -> list[float]:
             return few_digits(rng.uniform(-2, 2, 1))
 
 
-def random_step(rng: Rng, mechanism: Table, size: float = 0.5) -> list[float]:
+def random_step(rng: Rng, mechanism: Json, size: float) -> list[float]:
     """Some delta_q of few significant digits, of about the `size` [m, rad]."""
     counts = {"floating": 6, "planar": 3, "fixed": 0}
     n_v = sum(counts.get(body["joint"], 1) for body in mechanism["bodies"])
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
 
 
-def gripper(base: str = "floating", actuated: bool = True) -> Table:
+def gripper() -> Json:
     """A base with two fingers that slide against each other."""
     names = ("left", "right")
     fingers = [
@@ -124,8 +131,8 @@ def gripper(base: str = "floating", actuated: bool = True) -> Table:
             link(
                 "base",
                 None,
-                base,
-                actuated=actuated,
+                "floating",
+                actuated=True,
                 mass=0.5,
                 com=[0.0, 0.0, 0.01],
                 inertia=[[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]],
@@ -135,7 +142,7 @@ def gripper(base: str = "floating", actuated: bool = True) -> Table:
     }
 
 
-def free_body(name: str = "object", **more: Any) -> Table:
+def free_body(name: str = "object", **more: Any) -> Json:
     """One floating body."""
     inertia = [[0.002, 0.0, 0.0], [0.0, 0.003, 0.0], [0.0, 0.0, 0.004]]
     return link(name, None, "floating", mass=1.0, com=[0.0] * 3, inertia=inertia, **more)

@@ -9,19 +9,19 @@ import numpy as np
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case, by_hand
 from quasistatic_ref.lab.vectors.families.steps import program
 from quasistatic_ref.step.data import Contacts
 
-Case = tuple[str, str, Json]
 CONES = ("product", "facets-8", "frictionless", "ellipsoid")
 ULP = 2.0**-52
 
 
 def qp_cases() -> Iterator[Case]:
     """Id, provenance and input of each case."""
-    for name, (H, g, A, b, why) in {**CLOSED, **TIED, **INFEASIBLE}.items():
-        yield f"qp/{name}", why, {"H": H, "g": g, "A": A, "b": b}
+    for kind, programs in by_hand("qp").items():
+        for name, written in programs.items():
+            yield f"qp/{kind}/{name}", written.pop("provenance"), written
     yield from _grasps(np.random.default_rng(51))
     yield from _random(np.random.default_rng(52))
     yield from _corners(np.random.default_rng(53))
@@ -72,11 +72,8 @@ def _corners(rng: np.random.Generator) -> Iterator[Case]:
     ):
         for n_a, n_u in ((6, 0), (0, 6), (2, 4)):
             what = {0: "nothing moves freely", 6: "nothing is actuated"}.get(n_u, "both kinds")
-            yield (
-                f"qp/corner/{name}_{n_a}_{n_u}",
-                f"{why}; {what}",
-                program(random_step(rng, n_a, n_u, at)),
-            )
+            step = random_step(rng, n_a, n_u, at)
+            yield f"qp/corner/{name}_{n_a}_{n_u}", f"{why}; {what}", program(step)
     heavy = random_contacts(rng, 4, 8, phi=abs(1e-3 * rng.standard_normal(4)))
     for ratio in (1e6, 1e9, 1e12):
         why = f"masses and stiffness {ratio:g} apart"
@@ -94,11 +91,8 @@ def _ellipsoid(rng: np.random.Generator) -> Iterator[Case]:
         why = f"a random step of {n_c} contacts in the ellipsoid"
         yield f"qp/ellipsoid/{i}", why, program(random_step(rng, 3, 3, at, cone="ellipsoid"))
     why = "a body squeezed between two fingers, in the ellipsoid"
-    yield (
-        "qp/ellipsoid/grasp",
-        why,
-        program(aligned_grasp_step(rng, 4, 2).replace(cone="ellipsoid")),
-    )
+    grasp = aligned_grasp_step(rng, 4, 2).replace(cone="ellipsoid")
+    yield "qp/ellipsoid/grasp", why, program(grasp)
     flat = random_contacts(rng, 2, 6, mu_omega=0.0, rows=6, phi=1e-4)
     why = "an ellipsoid without torsion: a second-order cone in the plane"
     yield "qp/ellipsoid/flat", why, program(random_step(rng, 2, 4, flat, cone="ellipsoid"))
@@ -107,97 +101,3 @@ def _ellipsoid(rng: np.random.Generator) -> Iterator[Case]:
 def _with(given: Contacts, **changes: float) -> Contacts:
     fields = {key: np.full(given.n_c, value) for key, value in changes.items()}
     return repeated(given, range(given.n_c), **fields)
-
-
-I2 = [[1.0, 0.0], [0.0, 1.0]]
-WEIGHT = 0.0981  # h m g of 1 kg in 0.01 s
-CLOSED = {
-    "closed/free_fall": (
-        [[100.0]], [-WEIGHT], [], [],
-        "1 kg falls: delta_q = -h^2 g, no contact",
-    ),
-    "closed/rest": (
-        [[100.0]], [-WEIGHT], [[1.0]], [0.0],
-        "1 kg on the floor: delta_q = 0, lam = h m g",
-    ),
-    "closed/drop": (
-        [[100.0]], [-WEIGHT], [[1.0]], [-0.0005],
-        "1 kg half a millimetre above the floor: it lands, lam = h m g - m phi / h",
-    ),
-    "closed/pushed_out": (
-        [[100.0]], [-WEIGHT], [[1.0]], [0.001],
-        "1 mm in the floor: pushed out in one step, lam = h m g + m |phi| / h",
-    ),
-    "closed/spring_against_wall": (
-        [[10.0]], [0.05], [[-1.0]], [-0.003],
-        "a spring of 1 kN/m whose target is 5 mm away, a wall at 3 mm: lam = h K 2 mm",
-    ),
-    "closed/stick": (
-        [[100.0, 0.0], [0.0, 100.0]], [0.03, -0.1], [[0.5, 1.0], [-0.5, 1.0]], [0.0, 0.0],
-        "a point pushed along a floor with 0.3 of its weight, mu = 0.5: it sticks",
-    ),
-    "closed/slide": (
-        [[100.0, 0.0], [0.0, 100.0]], [0.08, -0.1], [[0.5, 1.0], [-0.5, 1.0]], [0.0, 0.0],
-        "the same with 0.8 of its weight: it slides, and lifts off by the boundary layer",
-    ),
-    "closed/limit": (
-        [[128.0, 0.0], [0.0, 128.0]], [0.0625, -0.125], [[0.5, 1.0], [-0.5, 1.0]], [0.0, 0.0],
-        "the same exactly at the limit of friction: one multiplier is zero, delta_q too",
-    ),
-}  # fmt: skip
-TIED = {
-    "tied/just_touching": (
-        I2, [0.25, 0.5], [[1.0, 0.0]], [0.25],
-        "the unconstrained optimum lies exactly on the row: lam = 0, not differentiable",
-    ),
-    "tied/same_row_twice": (
-        I2, [-1.0, 0.0], [[1.0, 0.0], [1.0, 0.0]], [0.0, 0.0],
-        "one row twice: any split of lam = 1 is right; the least index has all of it",
-    ),
-    "tied/scaled_rows": (
-        I2, [-1.0, 0.0], [[1.0, 0.0], [4.0, 0.0], [0.5, 0.0]], [0.0, 0.0, 0.0],
-        "one half-space three times, its rows of different length",
-    ),
-    "tied/corner_of_three": (
-        I2, [-3.0, -2.0], [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]], [0.0, 0.0, 0.0],
-        "three rows through one corner of the plane",
-    ),
-    "tied/two_walls_meet": (
-        I2, [1.0, 1.0], [[1.0, 0.0], [-1.0, 0.0]], [0.5, -0.5],
-        "two opposite rows without any play: x = 0.5, an equation",
-    ),
-    "tied/row_of_zeros": (
-        I2, [1.0, -1.0], [[0.0, 0.0], [0.0, 1.0]], [0.0, 0.0],
-        "0 >= 0: a row that nothing moves and that holds",
-    ),
-    "tied/one_ulp_beyond": (
-        I2, [-1.0, 0.0], [[1.0, 0.0], [1.0 + ULP, 0.0]], [0.0, 0.0],
-        "two rows that one unit in the last place separates",
-    ),
-}  # fmt: skip
-INFEASIBLE = {
-    "infeasible/narrow": (
-        [[1.0]], [0.0], [[1.0], [-1.0]], [0.001, 0.001],
-        "two walls that overlap by 2 mm",
-    ),
-    "infeasible/one_ulp": (
-        [[1.0]], [0.0], [[1.0], [-1.0]], [0.5 + ULP, -0.5],
-        "two walls that overlap by one unit in the last place",
-    ),
-    "infeasible/row_of_zeros": (
-        I2, [0.0, 0.0], [[1.0, 0.0], [0.0, 0.0]], [0.0, 1e-6],
-        "0 >= 1e-6: a penetration that no coordinate opens",
-    ),
-    "infeasible/triangle": (
-        I2, [0.0, 0.0], [[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]], [1.0, 1.0, -1.0],
-        "three rows, any two of which can be satisfied",
-    ),
-    "infeasible/weights": (
-        I2, [3.0, -1.0], [[2.0, 0.0], [0.0, 3.0], [-5.0, -7.0]], [1.0, 1.0, 1.0],
-        "three rows whose Farkas vector is not made of ones",
-    ),
-    "infeasible/after_a_walk": (
-        I2, [-5.0, -5.0], [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [-1.0, -2.0]], [0.0, 0.0, 1.0, 0.0],
-        "only found after other rows were taken and dropped",
-    ),
-}  # fmt: skip

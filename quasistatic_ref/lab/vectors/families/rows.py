@@ -10,10 +10,10 @@ import numpy as np
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, repeated
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.steps import contact_entries
 from quasistatic_ref.step.data import Contacts
 
-Case = tuple[str, str, Json]
 CONES = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "facets-16", "frictionless")
 
 

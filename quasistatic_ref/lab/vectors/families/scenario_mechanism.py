@@ -12,22 +12,12 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.shapes import at
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
+from quasistatic_ref.model import shapes
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.rotation import quaternion
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    PlacedShape,
-    PointCloud,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.model.shapes import PlacedShape, Shape
 from quasistatic_ref.model.urdf_file import FileLink, UrdfFile, urdf_file
 from quasistatic_ref.model.urdf_tree import FileJoint
 from quasistatic_ref.model.world import world_of
@@ -42,7 +32,7 @@ def mechanism_of(scenario: Scenario) -> Json:
         bodies += _tree(entry.body, urdf_file(entry.body.urdf))
     by_name = {body["name"]: body for body in bodies}
     # Among the actuated and among the others the order of pinocchio counts.
-    joints = {joint.name: joint.v[0] for joint in world_of(scenario.system.bodies).joints}
+    joints = {joint.name: joint.v.start for joint in world_of(scenario.system.bodies).joints}
     moving = [body for body in bodies if body["joint"] != "fixed" and "mimic" not in body]
     ordered: list[Json] = []
     for body in [*sorted(moving, key=lambda body: joints[body["of"]]), *bodies]:
@@ -67,20 +57,20 @@ def pairs_of(scenario: Scenario) -> tuple[Json, Json]:
 def shape_of(shape: Shape) -> Json:
     """The table of a shape."""
     match shape:
-        case Sphere():
+        case shapes.Sphere():
             return {"kind": "sphere", "radius": shape.radius}
-        case Box():
+        case shapes.Box():
             return {"kind": "box", "size": (2 * shape.half_extents).tolist()}
-        case Capsule() | Cylinder() | Cone():
+        case shapes.Capsule() | shapes.Cylinder() | shapes.Cone():
             kind = type(shape).__name__.lower()
             return {"kind": kind, "radius": shape.radius, "length": 2 * shape.half_length}
-        case Ellipsoid():
+        case shapes.Ellipsoid():
             return {"kind": "ellipsoid", "half_axes": shape.half_axes.tolist()}
-        case HalfSpace():
+        case shapes.HalfSpace():
             return {"kind": "halfspace", "normal": shape.normal.tolist(), "offset": shape.offset}
         case ConvexMesh():
             return {"kind": "convex", "vertices": shape.vertices.tolist()}
-        case PointCloud():
+        case shapes.PointCloud():
             return {"kind": "cloud", "points": shape.points.tolist()}
 
 
@@ -119,7 +109,7 @@ def _tree(body: Body, file: UrdfFile) -> list[Json]:
 
 def _base(body: Body) -> tuple[Json, str]:
     if body.base == "floating":
-        return at(0.0, 0.0, 0.0), "floating"
+        return ORIGIN, "floating"
     xyz = np.asarray(body.xyz)
     if body.base == "planar":
         return at(0.0, 0.0, float(xyz[2])), "planar"

@@ -8,7 +8,6 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.rows import rows_input
@@ -18,8 +17,8 @@ from quasistatic_ref.lab.vectors.families.scenario_mechanism import (
     pose_of,
     shape_of,
 )
-from quasistatic_ref.lab.vectors.families.steps import program
-from quasistatic_ref.lab.vectors.families.wrench import wrench_input
+from quasistatic_ref.lab.vectors.families.steps import contact_entries, program
+from quasistatic_ref.lab.vectors.families.wrench import PLACE, wrench_input
 from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
@@ -28,7 +27,7 @@ from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import StepResult
 from quasistatic_ref.simulate.target import piecewise_linear
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Array
 
 Found = Iterator[tuple[str, Case]]
 Say = Callable[[str], None]
@@ -105,7 +104,7 @@ def _parts(
         for pair in zip(layout.link_alpha, layout.link_beta, strict=True)
     ]
     places = [
-        (*pair, alpha.tolist(), beta.tolist())
+        dict(zip(PLACE, (*pair, alpha.tolist(), beta.tolist()), strict=True))
         for pair, alpha, beta in zip(bodies, points.alpha, points.beta, strict=True)
     ]
     yield "rows", Case(f"rows/{name}", where, rows_input(at, scenario.cone))
@@ -115,30 +114,17 @@ def _parts(
     lam = result.solution.lam
     wrench = wrench_input(at, scenario.cone, scenario.h, lam, places, about)
     yield "wrench", Case(f"wrench/{name}", where, wrench)
-    contacts = _points(at, points, bodies)
-    jacobian = {"mechanism": case["mechanism"], "q": case["q"], "contacts": contacts}
-    yield "jacobian", Case(f"jacobian/{name}", where, jacobian)
-    after = {"mechanism": case["mechanism"], "q": case["q"]}
-    after["delta_q"] = result.solution.delta_q.tolist()
+    tree = {"mechanism": case["mechanism"], "q": case["q"]}
+    frames = contact_entries(at, ("n", "d1", "d2"))
+    contacts = [place | frame for place, frame in zip(places, frames, strict=True)]
+    yield "jacobian", Case(f"jacobian/{name}", where, {**tree, "contacts": contacts})
+    after = {**tree, "delta_q": result.solution.delta_q.tolist()}
     yield "integrate", Case(f"integrate/{name}", where, after)
     groups = [_cloud_distances(pair, kinematics) for pair in scenario.pairs]
     clouds = [phi for phi in groups if phi is not None]
     if clouds:
         selection = {"phi": clouds, "k": scenario.pairs[0].k}
         yield "selection", Case(f"selection/{name}", where, selection)
-
-
-def _points(at: Contacts, points: ClosestPoints, bodies: list[tuple[str | None, ...]]) -> Json:
-    return [
-        {
-            "alpha_body": bodies[j][0],
-            "beta_body": bodies[j][1],
-            "alpha": points.alpha[j].tolist(),
-            "beta": points.beta[j].tolist(),
-            **{key: getattr(at, key)[j].tolist() for key in ("n", "d1", "d2")},
-        }
-        for j in range(at.n_c)
-    ]
 
 
 def _distances(
@@ -152,13 +138,8 @@ def _distances(
             if isinstance(placed.shape, PointCloud):
                 points = shape["points"]
                 shape = {**shape, "points": points[:: -(-len(points) // FEW)]}
-            case |= {side: shape, f"pose_{side}": _pose(placed, kinematics)}
+            case |= {side: shape, f"pose_{side}": pose_of(*_frame(placed, kinematics))}
         yield "distance", Case(f"distance/{name}/{i}", f"{where}: {pair.name}", case)
-
-
-def _pose(placed: PlacedShape, kinematics: Kinematics) -> Json:
-    R, t = kinematics.R[placed.link], kinematics.t[placed.link]
-    return pose_of(R @ placed.R, R @ placed.t + t)
 
 
 def _cloud_distances(pair: ContactPair, kinematics: Kinematics) -> Json | None:

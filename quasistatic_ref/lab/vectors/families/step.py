@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import link
-from quasistatic_ref.lab.vectors.families.shapes import FLOOR, UPRIGHT, at, box, cloud, sphere
+from quasistatic_ref.lab.vectors.families.by_hand import Case
+from quasistatic_ref.lab.vectors.families.mechanisms import UPRIGHT, at, link
 
-Case = tuple[str, str, Json]
 GRAVITY = [0.0, 0.0, -9.81]
-BALL, BRICK = sphere(0.05), box(0.1, 0.08, 0.06)
+BALL: Json = {"kind": "sphere", "radius": 0.05}
+BRICK: Json = {"kind": "box", "size": [0.1, 0.08, 0.06]}
+FLOOR: Json = {"kind": "halfspace", "normal": [0.0, 0.0, 1.0], "offset": 0.0}
 MASS: Json = {
     "mass": 0.5,
     "com": [0.0, 0.0, 0.0],
@@ -61,7 +62,10 @@ def _bricks() -> Iterator[Case]:
         yield f"step/brick/{name}", why, _scene([brick], shapes, q, pairs=pairs)
     rng = np.random.default_rng(81)
     points = [[round(float(x), 4) for x in row] for row in rng.uniform(-0.05, 0.05, (60, 3))]
-    sampled = {"floor": _on(None, FLOOR), "brick": _on("brick", cloud(points))}
+    sampled = {
+        "floor": _on(None, FLOOR),
+        "brick": _on("brick", {"kind": "cloud", "points": points}),
+    }
     for quaternion in (UPRIGHT, TILTED):
         pairs = [{**_pair("brick"), "k": 5}]
         name = "upright" if quaternion is UPRIGHT else "tilted"
@@ -73,19 +77,10 @@ def _bricks() -> Iterator[Case]:
 
 def _mechanisms() -> Iterator[Case]:
     wall = _on(None, {"kind": "halfspace", "normal": [-1.0, 0.0, 0.0], "offset": -0.3})
-    tip = _on("tip", sphere(0.02), 0.1)
-    arm = [
-        link("upper", None, "revolute", axis=[0.0, 1.0, 0.0], actuated=True, **MASS),
-        link(
-            "tip",
-            "upper",
-            "revolute",
-            axis=[0.0, 1.0, 0.0],
-            actuated=True,
-            placement=at(0.2, 0.0, 0.0),
-            **MASS,
-        ),
-    ]
+    tip = _on("tip", {"kind": "sphere", "radius": 0.02}, 0.1)
+    swing = {"axis": [0.0, 1.0, 0.0], "actuated": True, **MASS}
+    lower = link("tip", "upper", "revolute", placement=at(0.2, 0.0, 0.0), **swing)
+    arm = [link("upper", None, "revolute", **swing), lower]
     touch = [{**_pair("tip"), "alpha": "wall"}]
     shapes = {"wall": wall, "tip": tip}
     stiff = {"K_q": [[50.0, 5.0], [5.0, 20.0]], "q_bar_a": [0.5, -0.5]}
@@ -96,49 +91,30 @@ def _mechanisms() -> Iterator[Case]:
     why = "the same with a passive elbow"
     yield "step/arm/passive_elbow", why, _scene(passive, shapes, [0.6, -0.55], pairs=touch, **half)
     loose = [{**body, "actuated": False} for body in arm]
-    yield (
-        "step/arm/n_a_0",
-        "the same without motors",
-        _scene(loose, shapes, [0.6, -0.55], pairs=touch),
-    )
+    why = "the same without motors"
+    yield "step/arm/n_a_0", why, _scene(loose, shapes, [0.6, -0.55], pairs=touch)
     round_ = [{**arm[0], "joint": "continuous"}, {**passive[1], "joint": "continuous"}]
-    q, target = [0.8, 0.6, 0.8, -0.6], [0.96, 0.28]
+    q, half = [0.8, 0.6, 0.8, -0.6], {"K_q": [[50.0]], "q_bar_a": [0.96, 0.28]}
     why = "joints without end stops: cosine and sine, of length one but for rounding"
-    yield (
-        "step/arm/continuous",
-        why,
-        _scene(round_, shapes, q, pairs=touch, K_q=[[50.0]], q_bar_a=target),
-    )
+    yield "step/arm/continuous", why, _scene(round_, shapes, q, pairs=touch, **half)
     pusher = link("tip", None, "planar", actuated=True, placement=at(0.0, 0.0, 0.05))
-    puck = link("ball", None, "floating", **MASS)
-    both = {"floor": _on(None, FLOOR), "tip": _on("tip", BALL), "ball": _on("ball", BALL)}
-    pairs = [_pair("ball"), {**_pair("ball"), "name": "push", "alpha": "tip"}]
-    yield (
-        "step/planar/push",
-        "a planar pusher against a ball on the floor",
-        _scene(
-            [pusher, puck],
-            both,
-            [-0.0999, 0.01, 0.8, 0.6, 0.0, 0.0, 0.05, *UPRIGHT],
-            pairs=pairs,
-            K_q=[[500.0, 0.0, 0.0], [0.0, 500.0, 0.0], [0.0, 0.0, 5.0]],
-            q_bar_a=[-0.09, 0.012, 0.6, 0.8],
-        ),
-    )
+    stiff = {"K_q": np.diag([500.0, 500.0, 5.0]).tolist(), "q_bar_a": [-0.09, 0.012, 0.6, 0.8]}
+    why = "a planar pusher against a ball on the floor"
+    yield "step/planar/push", why, _pushed(pusher, [-0.0999, 0.01, 0.8, 0.6], stiff)
     holder = link("tip", None, "floating", actuated=True)
-    floating = {"K_q": (np.diag([500.0] * 3 + [5.0] * 3)).tolist()}
-    yield (
-        "step/floating/push",
-        "an actuated floating base against a ball on the floor",
-        _scene(
-            [holder, puck],
-            both,
-            [-0.08, 0.03, 0.1, *TILTED, 0.0, 0.0, 0.05, *UPRIGHT],
-            pairs=pairs,
-            q_bar_a=[-0.07, 0.025, 0.095, 0.2, 0.1, -0.1, 0.95],
-            **floating,
-        ),
-    )
+    target = [-0.07, 0.025, 0.095, 0.2, 0.1, -0.1, 0.95]
+    stiff = {"K_q": np.diag([500.0] * 3 + [5.0] * 3).tolist(), "q_bar_a": target}
+    why = "an actuated floating base against a ball on the floor"
+    yield "step/floating/push", why, _pushed(holder, [-0.08, 0.03, 0.1, *TILTED], stiff)
+
+
+def _pushed(pusher: Json, q_a: list[float], stiff: Json) -> Json:
+    """A ball on the floor, and a pusher at q_a that touches it."""
+    puck = link("ball", None, "floating", **MASS)
+    shapes = {"floor": _on(None, FLOOR), "tip": _on("tip", BALL), "ball": _on("ball", BALL)}
+    pairs = [_pair("ball"), {**_pair("ball"), "name": "push", "alpha": "tip"}]
+    q = [*q_a, 0.0, 0.0, 0.05, *UPRIGHT]
+    return _scene([pusher, puck], shapes, q, pairs=pairs, **stiff)
 
 
 def _wedged() -> Json:
@@ -155,15 +131,8 @@ def _on(body: str | None, shape: Json, x: float = 0.0) -> Json:
 
 
 def _pair(beta: str) -> Json:
-    return {
-        "name": "floor",
-        "alpha": "floor",
-        "beta": beta,
-        "mu_v": 0.5,
-        "mu_omega": 0.01,
-        "rows": 6,
-        "k": 1,
-    }
+    friction = {"mu_v": 0.5, "mu_omega": 0.01, "rows": 6}
+    return {"name": "floor", "alpha": "floor", "beta": beta, **friction, "k": 1}
 
 
 def _scene(bodies: Json, shapes: Json, q: list[float], **more: Any) -> Json:

@@ -8,13 +8,15 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.steps import contact_entries
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Array, Contacts
 
-Case = tuple[str, str, Json]
 CONES = ("pyramid", "product", "facets-8", "frictionless", "ellipsoid")
 KEYS = ("n", "d1", "d2", "mu_v", "mu_omega", "rows")
+PLACE = ("alpha_body", "beta_body", "alpha", "beta")
 
 
 def wrench_cases() -> Iterator[Case]:
@@ -63,16 +65,15 @@ def wrench_input(at: Contacts, cone: str, h: float, lam: Array, points: Json, bo
         [s].
     lam : ndarray, shape (m,)
         Contact-major [N s].
-    points : list of (alpha_body, beta_body, alpha, beta)
-        One for each contact.
+    points : list of dict
+        The fields of PLACE, for each contact.
     bodies : dict
         Point of each body about which torques are taken.
     """
-    ends = np.cumsum(cone_of(cone).counts(at.rows))
     entries = contact_entries(at, KEYS)
-    for entry, point, lam_j in zip(entries, points, np.split(lam, ends[:-1]), strict=True):
-        entry |= dict(zip(("alpha_body", "beta_body", "alpha", "beta"), point, strict=True))
-        entry["lam"] = lam_j.tolist()
+    parts = by_contact(lam.tolist(), cone, entries)
+    for entry, point, part in zip(entries, points, parts, strict=True):
+        entry |= {**point, "lam": part}
     return {"h": h, "cone": cone, "contacts": entries, "bodies": bodies}
 
 
@@ -83,8 +84,9 @@ def _random(rng: np.random.Generator, n_c: int, cone: str, **fixed: float) -> Js
     for n, phi in zip(at.n, at.phi, strict=True):
         one, two = rng.choice(4, 2, replace=False)
         alpha = 0.2 * rng.standard_normal(3)
-        points.append((names[one], names[two], alpha.tolist(), (alpha + phi * n).tolist()))
-    touched = {body for point in points for body in point[:2] if body is not None}
+        place = (names[one], names[two], alpha.tolist(), (alpha + phi * n).tolist())
+        points.append(dict(zip(PLACE, place, strict=True)))
+    touched = {point[body] for point in points for body in PLACE[:2]} - {None}
     bodies = {body: {"point": rng.uniform(-1, 1, 3).tolist()} for body in sorted(touched)}
     count = int(cone_of(cone).counts(at.rows).sum())
     lam = rng.random(count) * (rng.random(count) < 0.6)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Final
 
-from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded
@@ -51,17 +50,11 @@ def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list
     found: list[Witness] = []
 
     def fields() -> dict[str, Any]:
-        found[:] = _witnesses(case)
+        found[:] = witnesses(case)
         return {key: [getattr(one, key) for one in found] for key in FIELDS}
 
     output, digits = rounded(fields)
     return output, digits, [one.unique for one in found]
-
-
-def _witnesses(case: dict[str, Any]) -> list[Witness]:
-    return witnesses(
-        placed(case["alpha"], case["pose_alpha"]), placed(case["beta"], case["pose_beta"])
-    )
 
 
 def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
@@ -73,17 +66,9 @@ def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
     """
     output, _, unique = answer(case)
     shapes = case["alpha"], case["beta"]
-    size = max(
-        abs(x)
-        for x in [
-            *case["pose_alpha"]["xyz"],
-            *case["pose_beta"]["xyz"],
-            *_leaves(output["alpha"]),
-            *_leaves(output["beta"]),
-            *_lengths(case["alpha"]),
-            *_lengths(case["beta"]),
-        ]
-    )
+    lengths = [value for shape in shapes for key, value in shape.items() if key != "kind"]
+    places = [case["pose_alpha"]["xyz"], case["pose_beta"]["xyz"], output["alpha"], output["beta"]]
+    size = max(abs(x) for x in _leaves([*lengths, *places]))
     moves, settled = dict.fromkeys(FIELDS, 0.0), True
     for seed in range(CHANGES):
         other, _, still = answer(_changed(case, _signs(seed), size))
@@ -96,10 +81,8 @@ def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
     # Where neither solid's own normal is at hand, n is (beta - alpha) / phi, of the axes if
     # there is a capsule; its error carries over to a point of the capsule.
     thickness = sum(shape["radius"] for shape in shapes if shape["kind"] == "capsule")
-    normal = 0.0
-    if not any(shape["kind"] in SIMPLE for shape in shapes) and any(
-        shape["kind"] in CURVED for shape in shapes
-    ):
+    normal, kinds = 0.0, {shape["kind"] for shape in shapes}
+    if kinds.isdisjoint(SIMPLE) and not kinds.isdisjoint(CURVED):
         normal = SHIFT * EPS * size / (output["phi"][0] + thickness)
     tolerance = {}
     for key in FIELDS:
@@ -152,10 +135,6 @@ def _each(value: Any, moved: Any) -> Any:
     return (
         [moved(x, abs(x)) for x in value] if isinstance(value, list) else moved(value, abs(value))
     )
-
-
-def _lengths(shape: dict[str, Any]) -> list[float]:
-    return [x for key, value in shape.items() if key != "kind" for x in _leaves(value)]
 
 
 def _distance(first: Any, second: Any) -> float:

@@ -30,6 +30,10 @@ from quasistatic_ref.step.solution import Certificate
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
+SMALLEST = ("smallest_inactive_slack", "smallest_active_multiplier")
+FACTS = ("multipliers_unique", "differentiable", *SMALLEST)
+"""What a certificate says of an optimum besides its working set."""
+FLAGS = ("degenerate", "unique_multipliers", "differentiable")
 FARKAS = 1e-9
 """Relative size of A'y at which y counts as a proof: solvers stop at 1e-8 to 1e-12."""
 
@@ -42,7 +46,7 @@ def expected(case_input: Json) -> Expected:
     optimum = exact_optimum(form, (), least_index)
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
-    x, _, net, _ = solution_of(form, optimum.working_set)
+    x, net = _solution(form, optimum.working_set)
     bound = bounds(form, optimum.working_set)
     return Expected(
         output={
@@ -118,15 +122,9 @@ def claimed(case_input: Json, output: Json) -> Certificate:
     written = output["certificate"]
     if "second_order" in case_input:
         return Certificate(kind="enclosure", error_bound=written["error_bound"])
-    return Certificate(
-        kind=written["kind"],
-        active=tuple((0, i) for i in written["working_set"]),  # of the step's own rows
-        multipliers_unique=written["multipliers_unique"],
-        differentiable=written["differentiable"],
-        smallest_inactive_slack=written["smallest_inactive_slack"],
-        smallest_active_multiplier=written["smallest_active_multiplier"],
-        error_bound=written["error_bound"],
-    )
+    active = tuple((0, i) for i in written["working_set"])  # of the step's own rows
+    facts = {name: written[name] for name in (*FACTS, "error_bound")}
+    return Certificate(kind=written["kind"], active=active, **facts)
 
 
 def tolerances(bound: Bounds) -> dict[str, Tolerance]:
@@ -150,19 +148,14 @@ def optimum_of(form: ExactForm) -> ExactOptimum:
     return optimum
 
 
-def solution_of(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact, Exact, Exact]:
-    """delta_q, lam on the working set, A'lam and slacks as fractions."""
+def _solution(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact]:
+    """delta_q and A'lam as fractions."""
     found = rational_solution(form, tuple(working))
-    x, lam, net, slack = (
+    x, net = (
         np.array([_fraction(unit * v / found.denominator) for v in values], dtype=object)
-        for unit, values in (
-            (form.x_unit, found.x),
-            (form.lam_unit, found.lam),
-            (form.net_unit, found.net),
-            (form.slack_unit, found.slack),
-        )
+        for unit, values in ((form.x_unit, found.x), (form.net_unit, found.net))
     )
-    return x, lam, net, slack
+    return x, net
 
 
 def _fraction(value: fmpq) -> Fraction:
@@ -170,15 +163,9 @@ def _fraction(value: fmpq) -> Fraction:
 
 
 def _certificate(optimum: ExactOptimum) -> Json:
-    return {
-        "kind": "exact",
-        "working_set": list(optimum.working_set),
-        "multipliers_unique": optimum.multipliers_unique,
-        "differentiable": optimum.differentiable,
-        "smallest_inactive_slack": optimum.smallest_inactive_slack,
-        "smallest_active_multiplier": optimum.smallest_active_multiplier,
-        "error_bound": 0.0,
-    }
+    facts = {name: getattr(optimum, name) for name in FACTS}
+    working_set = list(optimum.working_set)
+    return {"kind": "exact", "working_set": working_set, **facts, "error_bound": 0.0}
 
 
 def flags_of(optimum: ExactOptimum, bound: Bounds) -> dict[str, bool]:
@@ -203,23 +190,15 @@ def flags_of(optimum: ExactOptimum, bound: Bounds) -> dict[str, bool]:
 def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
     """A combination y >= 0 of the rows with A'y = 0 and b'y > 0, its largest entry being 1."""
     largest_y = max(proof.y.values())
+    why = "any y >= 0 whose A'y is that small beside |A|'y and b'y proves the same"
     y = [proof.y.get(i, fmpq(0)) / largest_y for i in range(form.m)]
     return Expected(
         output={
             "farkas": rounded(np.array([_fraction(v) for v in y], dtype=object)),
             "certificate": {"kind": "exact", "farkas": [str(v) for v in y]},
         },
-        flags={
-            "infeasible": True,
-            "degenerate": False,
-            "unique_multipliers": False,
-            "differentiable": False,
-        },
-        tolerance={
-            "farkas": Tolerance(
-                FARKAS, "any y >= 0 whose A'y is that small beside |A|'y and b'y proves the same"
-            )
-        },
+        flags={"infeasible": True, **dict.fromkeys(FLAGS, False)},
+        tolerance={"farkas": Tolerance(FARKAS, why)},
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import NUMBERS
@@ -54,8 +56,18 @@ def row_coefficients(contact: Json, name: str, table: np.ndarray) -> np.ndarray:
     """
     torsion = contact["rows"] == 6
     mu = exact([contact["mu_v"], contact["mu_v"], contact["mu_omega"] if torsion else 0.0])
-    count = len(cone(name).row_names) if torsion else cone(name).short
-    return np.asarray(table[:count] * mu)
+    return np.asarray(table[: row_count(name, contact["rows"])] * mu)
+
+
+def row_count(name: str, rows: int) -> int:
+    """How many rows a contact has in a cone, its ``rows`` being 6 or 4."""
+    return len(cone(name).row_names) if rows == 6 else cone(name).short
+
+
+def by_contact(values: Json, name: str, contacts: Json) -> list[Json]:
+    """What stands row by row, as lam does, parted by contact."""
+    rest = iter(values)
+    return [list(islice(rest, row_count(name, contact["rows"]))) for contact in contacts]
 
 
 def own(case_input: Json) -> Json:

@@ -24,7 +24,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     unit,
 )
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
-from quasistatic_ref.lab.vectors.exact.difference import difference
+from quasistatic_ref.lab.vectors.exact.integration import difference
 from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
 from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
 from quasistatic_ref.lab.vectors.exact.precision import Real, least, number, numbers, rounded
@@ -33,7 +33,7 @@ from quasistatic_ref.lab.vectors.exact.rotation import quaternion_of, rotation
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
 ROUNDINGS: Final = 16
@@ -45,9 +45,8 @@ def expected(case_input: Json) -> Expected:
     tree, q = mechanism(case_input["mechanism"]), case_input["q"]
     found = _chosen(tree, case_input)
     contacts, friction = _contacts(case_input, found)
-    jacobian = layer("jacobian").expected(
-        {"mechanism": case_input["mechanism"], "q": q, "contacts": contacts}
-    )
+    place = {"mechanism": case_input["mechanism"], "q": q}
+    jacobian = layer("jacobian").expected({**place, "contacts": contacts})
     for contact, J in zip(contacts, jacobian.output["J"], strict=True):
         contact["J"] = J
     both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
@@ -75,14 +74,15 @@ def expected(case_input: Json) -> Expected:
             tolerance={**base_tolerance, **solved.tolerance},
         )
     wrenches = _wrenches(case_input, both, solved)
-    after = layer("integrate").expected(
-        {"mechanism": case_input["mechanism"], "q": q, "delta_q": solved.output["delta_q"]}
-    )
+    after = layer("integrate").expected({**place, "delta_q": solved.output["delta_q"]})
     step = solved.tolerance["delta_q"].absolute
+    wrench_bound = _wrench_bound(case_input, friction, solved, wrenches)
+    q_bound = _plus(after.tolerance["q"], 4 * step)
+    answered = ("delta_q", "lam", "A_lam")
     return Expected(
         output={
             **base,
-            **{name: solved.output[name] for name in ("delta_q", "lam", "A_lam")},
+            **{name: solved.output[name] for name in answered},
             "wrench": wrenches.output["wrench"],
             "q_next": after.output["q"],
         },
@@ -90,13 +90,9 @@ def expected(case_input: Json) -> Expected:
         flags={**solved.flags, **ties},
         tolerance={
             **base_tolerance,
-            **{name: solved.tolerance[name] for name in ("delta_q", "lam", "A_lam")},
-            "wrench": tolerance(
-                _wrench_bound(case_input, friction, solved, wrenches), "that of lam, over h"
-            ),
-            "q_next": tolerance(
-                _plus(after.tolerance["q"], 4 * step), "that of delta_q, and of the layer integrate"
-            ),
+            **{name: solved.tolerance[name] for name in answered},
+            "wrench": tolerance(wrench_bound, "that of lam, over h"),
+            "q_next": tolerance(q_bound, "that of delta_q, and of the layer integrate"),
         },
     )
 
@@ -212,8 +208,8 @@ def _errors(
         + pose * size_of.get(name, max(points, default=0.0))
         for name in FIELDS
     }
-    distances = {name: tolerance(worst[name], "that of the layer distance, and of the poses")
-                 for name in FIELDS}  # fmt: skip
+    why = "that of the layer distance, and of the poses"
+    distances = {name: tolerance(worst[name], why) for name in FIELDS}
     for name in ("d1", "d2"):
         distances[name] = tolerance(4 * worst["n"], "that of n")
     reach = max([abs(x) for J in jacobian.output["J"] for row in J for x in row], default=0.0)
@@ -236,20 +232,15 @@ def _solved(program: Json, errors: Errors) -> Expected:
         return solved
     form = form_of(program)
     bound = bounds(form, solved.output["certificate"]["working_set"], errors)
-    return Expected(
-        solved.output, solved.digits, flags_of(optimum_of(form), bound), tolerances(bound)
-    )
+    flags = flags_of(optimum_of(form), bound)
+    return Expected(solved.output, solved.digits, flags, tolerances(bound))
 
 
 def _wrenches(case: Json, contacts: list[Json], solved: Expected) -> Expected:
-    lam, entries, at, table = solved.output["lam"], [], 0, cone(case["cone"])
-    for contact in contacts:
-        count = len(table.row_names) if contact["rows"] == 6 else table.short
-        entries.append({**contact, "lam": lam[at : at + count]})
-        at += count
-    return layer("wrench").expected(
-        {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
-    )
+    parts = by_contact(solved.output["lam"], case["cone"], contacts)
+    entries = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
+    loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
+    return layer("wrench").expected(loads)
 
 
 def _wrench_bound(

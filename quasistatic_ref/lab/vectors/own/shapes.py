@@ -10,19 +10,9 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model import shapes
 from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    PlacedShape,
-    PointCloud,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.model.shapes import PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array
 
@@ -31,19 +21,19 @@ def own_shape(shape: dict[str, Any]) -> Shape:
     """The package's shape; InputError if it has none such."""
     match shape["kind"]:
         case "sphere":
-            return Sphere(shape["radius"])
+            return shapes.Sphere(shape["radius"])
         case "box":
-            return Box(np.array(shape["size"]) / 2)
+            return shapes.Box(np.array(shape["size"]) / 2)
         case "capsule":
-            return Capsule(shape["radius"], shape["length"] / 2)
+            return shapes.Capsule(shape["radius"], shape["length"] / 2)
         case "cylinder":
-            return Cylinder(shape["radius"], shape["length"] / 2)
+            return shapes.Cylinder(shape["radius"], shape["length"] / 2)
         case "cone":
-            return Cone(shape["radius"], shape["length"] / 2)
+            return shapes.Cone(shape["radius"], shape["length"] / 2)
         case "ellipsoid":
-            return Ellipsoid(np.array(shape["half_axes"]))
+            return shapes.Ellipsoid(np.array(shape["half_axes"]))
         case "halfspace":
-            return HalfSpace(np.array(shape["normal"]), shape["offset"])
+            return shapes.HalfSpace(np.array(shape["normal"]), shape["offset"])
         case "convex":
             return convex_hull(shape["vertices"])
         case "cloud":
@@ -67,11 +57,11 @@ def own_rotation(quaternion: Sequence[float]) -> Array:
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
     poses = [case["pose_alpha"], case["pose_beta"]]
-    shapes = [own_shape(case["alpha"]), own_shape(case["beta"])]
-    clouds = [shape for shape in shapes if isinstance(shape, PointCloud)]
+    solids = [own_shape(case["alpha"]), own_shape(case["beta"])]
+    clouds = [shape for shape in solids if isinstance(shape, PointCloud)]
     alpha, beta = (
         PlacedShape(name, link, np.eye(3), np.zeros(3), shape)
-        for link, (name, shape) in enumerate(zip(("alpha", "beta"), shapes, strict=True))
+        for link, (name, shape) in enumerate(zip(("alpha", "beta"), solids, strict=True))
     )
     k = len(clouds[0].points) if clouds else 1
     pair = ContactPair("pair", alpha, beta, 0.0, 0.0, 4, k)

@@ -1,0 +1,36 @@
+"""An orthographic camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(frozen=True)
+class Camera:
+    """An orthographic camera that looks at the origin.
+
+    Parameters
+    ----------
+    azimuth : float
+        Angle of the camera about z from the x axis [deg].
+    elevation : float
+        Angle of the camera above the horizon [deg].
+    """
+
+    azimuth: float
+    elevation: float
+
+    def axes(self) -> Array:
+        """Rows: to the right, upwards, towards the camera; shape (3, 3), world frame."""
+        a, e = np.radians([self.azimuth, self.elevation])
+        right = np.array([-np.sin(a), np.cos(a), 0.0])
+        towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+        return np.array([right, np.cross(towards, right), towards])
+
+    def seen(self, points: Array) -> Array:
+        """Right, up and nearness of world points, shape (N, 3) [m]."""
+        return np.asarray(points @ self.axes().T)

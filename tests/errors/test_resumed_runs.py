@@ -1,0 +1,293 @@
+"""Runs that were killed go on from what they saved, and end with the bits of any other run."""
+
+import contextlib
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.simulate import rollout as module
+from quasistatic_ref.simulate import saved
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.saved import saved_folder, saved_steps
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.step.extension import Extension
+from tests.errors.scene import SCENE, changed, scene_written
+
+STEPS, STRETCH = 9, 4
+PATIENCE = 120.0
+"""For a process to take its first steps, on a machine that is busy with others [s]."""
+
+
+class Killed(BaseException):
+    """What ends a run here as a signal would: nothing in the package catches it."""
+
+
+@pytest.fixture(autouse=True)
+def _short_stretches(monkeypatch):
+    monkeypatch.setattr(module, "STRETCH", STRETCH)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    return scene_written(tmp_path)
+
+
+def ran(scenario, path, *, killed_at=None, resume=False, every=0.0, extension=None):
+    """A run that saves every step, and is perhaps killed in one of them."""
+
+    def target(t):
+        if killed_at is not None and t > (killed_at + 0.5) * scenario.h:
+            raise Killed
+        return scenario.targets(t)
+
+    with contextlib.suppress(Killed):
+        return rollout(
+            scenario.simulator(extension), scenario.system.q_start, target, scenario.steps,
+            force=scenario.force, record=scenario.record, progress=False,
+            save=path, save_every=every, resume=resume,
+        )  # fmt: skip
+
+
+def above_the_floor(q):
+    """An extension that is one row: the ball rises by no more than 1 mm in a step."""
+    return Extension(lambda s: [s.delta_q[3] <= 1e-3])
+
+
+KINDS = {
+    "certified": ({}, None),
+    "light": ({"record": "light"}, None),
+    "warm and uncertified": ({"solver.backend": "daqp", "solver.certify": "off"}, None),
+    "scaled by the first step": (
+        {"solver.backend": "clarabel", "solver.certify": "residual"}, None,
+    ),
+    "by splitting": ({"solver.backend": "osqp", "solver.certify": "off", "record": "light"}, None),
+    "through CVXPY": (
+        {"solver.engine": "cvxpy", "solver.backend": "osqp", "solver.certify": "off"}, None,
+    ),
+    "with an extension": ({}, above_the_floor),
+    "in the ellipsoid": ({"cone": "ellipsoid"}, None),
+    "without a backend": ({"solver.backend": "none"}, None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_path, scene, kind):
+    settings, extension = KINDS[kind]
+    scenario = load_scenario(scene, {**settings, "steps": STEPS})
+    whole, parted = tmp_path / "whole.npz", tmp_path / "parted.npz"
+    ran(scenario, whole, extension=extension)
+    # Within the first stretch, and where another has just begun and gone on by two steps.
+    for killed_at in (STRETCH - 1, STRETCH + 2):
+        assert ran(scenario, parted, killed_at=killed_at, resume=True, extension=extension) is None
+        assert saved_steps(parted) == killed_at
+    resumed = ran(scenario, parted, resume=True, extension=extension)
+    assert parted.read_bytes() == whole.read_bytes()
+    assert {part: len(seconds) for part, seconds in resumed.seconds.items()} == dict.fromkeys(
+        ("distances", "rows", "solve", "integrate"), STEPS
+    )
+
+
+def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, monkeypatch):
+    """So that the test above would fail if a resumed run did not ask the solver again."""
+    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS})
+    ran(scenario, tmp_path / "whole.npz")
+    monkeypatch.setattr(module, "STRETCH", 1)  # cold at each step
+    ran(scenario, tmp_path / "cold.npz")
+    assert (tmp_path / "cold.npz").read_bytes() != (tmp_path / "whole.npz").read_bytes()
+
+
+def test_a_killed_process_is_resumed_from_the_command_line(tmp_path, scene, capsys, monkeypatch):
+    monkeypatch.setattr(module, "STRETCH", 1000)  # as in the other process
+    arguments = ["run", str(scene), "--set", "steps=200"]
+    once, again = tmp_path / "once", tmp_path / "again"
+    command = [sys.executable, "-m", "quasistatic_ref.cli.main", *arguments, "--save-every", "0"]
+    process = subprocess.Popen([*command, "--out", str(again)], stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + PATIENCE
+    while saved_steps(again / "scene.npz") < 20 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    process.kill()
+    assert process.wait() == -signal.SIGKILL
+    assert not (again / "scene.npz").exists()
+
+    taken = saved_steps(again / "scene.npz")
+    assert 20 <= taken < 200
+    assert main([*arguments, "--out", str(again)]) == 2  # nothing is lost for want of an option
+    said = capsys.readouterr().err
+    assert f"holds the first {taken} steps of a run that did not end; go on from there" in said
+    assert main([*arguments, "--out", str(again), "--resume", "--json"]) == 0
+    captured = capsys.readouterr()
+    assert captured.err.splitlines()[0] == f"goes on from step {taken}"
+    summary = json.loads(captured.out)
+    assert (summary["steps"], summary["certified"]) == (200, "200 of 200 steps exact")
+
+    assert main([*arguments, "--out", str(once), "--resume", "--quiet"]) == 0
+    assert "nothing is saved" not in capsys.readouterr().err
+    assert (again / "scene.npz").read_bytes() == (once / "scene.npz").read_bytes()
+    assert not saved_folder(again / "scene.npz").exists()
+
+
+def test_nothing_saved_is_a_run_from_the_start(tmp_path, scene, capsys):
+    assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--resume"]) == 0
+    said = capsys.readouterr().err.splitlines()
+    assert said[0] == "nothing is saved; begins from the start"
+
+
+WEIGHT = {"bodies.ball.wrenches": [{"t": 0.0, "force": [0.0, 0.2, 0.0]}]}
+OTHERS = {
+    # name: (changed fields, what the sentence says)
+    "h": ({"h": 0.02}, "differs in h: 0.01 then, 0.02 now"),
+    "friction": (
+        {"contacts.floor.mu_v": 0.4},
+        "differs in mu_v of floor(floor, ball/ball#0): 0.5 then, 0.4 now",
+    ),
+    "a shape": (
+        {"shapes.floor.halfspace.offset": -0.01}, "differs in shapes of floor(floor, ball/ball#0);",
+    ),
+    "a contact less": (
+        {"contacts": {"floor": SCENE["contacts"]["floor"]}},
+        "differs in mu_v of push(rail/plate#0, ball/ball#0): 0.3 then, nothing now",
+    ),
+    "stiffness": ({"bodies.rail.K_q.slide": 400.0}, "differs in K_q;"),
+    "where it starts": ({"bodies.ball.pose.xyz": [0.066, 0.0, 0.05]}, "differs in bodies.ball;"),
+    "a joint": ({"bodies.rail.positions.slide": 0.001}, "differs in start;"),
+    "the judge": ({"solver.certify": "residual"}, "differs in certify: full then, residual now"),
+    "a limit": ({"limits.reach": 50.0}, "differs in limits.reach: 100.0 then, 50.0 now"),
+    "targets": (
+        {"bodies.rail.targets": [{"t": 0.0, "slide": 0.0}, {"t": 0.1, "slide": 0.03}]},
+        "target: is not what the saved steps were taken with, from step 0 on",
+    ),
+    "wrenches": (WEIGHT, "force: is not what the saved steps were taken with, from step 0 on"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("record", ["full", "light"])
+@pytest.mark.parametrize("other", OTHERS)
+def test_another_run_is_not_resumed_and_what_differs_is_named(tmp_path, scene, record, other):
+    changes, says = OTHERS[other]
+    path, settings = tmp_path / "run.npz", {"steps": STEPS, "record": record}
+    ran(load_scenario(scene, settings), path, killed_at=STRETCH + 1)
+    before = sorted(saved_folder(path).iterdir())
+    with pytest.raises(InputError) as caught:
+        ran(load_scenario(scene, settings | changes), path, resume=True)
+    assert says in str(caught.value)
+    assert sorted(saved_folder(path).iterdir()) == before
+
+
+def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, scene, monkeypatch):
+    path = tmp_path / "run.npz"
+    ran(load_scenario(scene), path, killed_at=2)
+    urdf = tmp_path / "ball.urdf"
+    text = urdf.read_text()
+    urdf.write_text(text.replace('"0.3"', '"0.4"'))
+    with pytest.raises(InputError, match=r"differs in bodies\.ball; run what it is of"):
+        ran(load_scenario(scene), path, resume=True)
+    urdf.write_text(text)
+    with pytest.raises(InputError, match="differs in record: full then, light now"):
+        ran(load_scenario(scene, {"record": "light"}), path, resume=True)
+    monkeypatch.setattr(saved, "__version__", "9.9")
+    says = r"differs in version of quasistatic_ref: 0\.1\.0 then, 9\.9 now; run what it is of"
+    with pytest.raises(InputError, match=says):
+        ran(load_scenario(scene), path, resume=True)
+
+
+@pytest.mark.parametrize("steps", [2, 4, STEPS])
+def test_a_resumed_run_may_be_shorter_or_longer(tmp_path, scene, steps):
+    path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
+    ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
+    other = load_scenario(scene, {"steps": steps})
+    ran(other, path, resume=True)
+    ran(other, plain)
+    assert path.read_bytes() == plain.read_bytes()
+
+
+def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, scene):
+    path = tmp_path / "out" / "run.npz"
+    ran(load_scenario(scene), path)
+    assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
+    sunk = scene_written(tmp_path, changed(SCENE, ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])))
+    with pytest.raises(RunFailed):
+        ran(load_scenario(sunk), path)
+    assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
+
+
+@pytest.mark.parametrize(("every", "kept"), [(0.0, True), (3600.0, False)])
+def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept, capsys):
+    scenario, path = load_scenario(scene), tmp_path / "run.npz"
+
+    def target(t):
+        if t > 0.025:
+            raise KeyboardInterrupt
+        return scenario.targets(t)
+
+    with pytest.raises(RunFailed, match="step 2: interrupted"):
+        rollout(
+            scenario.simulator(), scenario.system.q_start, target, 3,
+            force=scenario.force, progress=False, save=path, save_every=every,
+        )  # fmt: skip
+    assert saved_steps(path) == (2 if kept else 0)
+    assert saved_folder(path).exists() == kept
+
+
+def test_a_full_disk_ends_no_run(tmp_path, scene, monkeypatch, capsys):
+    def full(path, write):
+        raise InputError("cannot be written: No space left on device", file=path)
+
+    monkeypatch.setattr(saved, "written_whole", full)
+    run = ran(load_scenario(scene), tmp_path / "run.npz")
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1
+    assert said[0].endswith("No space left on device; the run goes on")
+    assert (run.steps, (tmp_path / "run.npz").exists()) == (3, True)
+
+
+def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, monkeypatch):
+    honest, calls = saved.written_whole, []
+
+    def now_and_then(path, write):
+        calls.append(path.name)
+        if len(calls) in (2, 3):
+            raise InputError("cannot be written: No space left on device", file=path)
+        return honest(path, write)
+
+    monkeypatch.setattr(saved, "written_whole", now_and_then)
+    path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
+    scenario = load_scenario(scene, {"steps": STEPS})
+    ran(scenario, path, killed_at=6)
+    assert calls == ["000000000.npz", *["000000001.npz"] * 3, "000000004.npz", "000000005.npz"]
+    ran(scenario, path, resume=True)
+    ran(scenario, plain)
+    assert path.read_bytes() == plain.read_bytes()
+
+
+SPOILT = {
+    "cut": lambda file: file.write_bytes(file.read_bytes()[:-100]),
+    "empty": lambda file: file.write_bytes(b""),
+    "another archive": lambda file: np.savez(file, t=np.zeros(3)),
+    "a header of words": lambda file: np.savez(file, header=np.frombuffer(b"x", dtype=np.uint8)),
+    "a list": lambda file: np.savez(file, header=np.frombuffer(b"[]", dtype=np.uint8)),
+    "a file less": lambda file: file.with_name("000000000.npz").unlink(),
+}
+
+
+@pytest.mark.parametrize("spoil", SPOILT)
+def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil):
+    path = tmp_path / "scene.npz"
+    ran(load_scenario(scene), path, killed_at=2)
+    SPOILT[spoil](saved_folder(path) / "000000001.npz")
+    assert main(["run", str(scene), "--out", str(tmp_path), "--resume", "--quiet"]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1
+    assert f"{saved_folder(path)}/000000001.npz: " in said[0]
+
+
+@pytest.mark.parametrize("every", [-1.0, float("nan")])
+def test_a_time_that_is_none_is_refused(tmp_path, scene, every):
+    with pytest.raises(InputError, match="save_every: must be at least 0"):
+        ran(load_scenario(scene), tmp_path / "run.npz", every=every)

@@ -1,0 +1,59 @@
+"""Whoever types the page `from a URDF to a picture` gets what it says."""
+
+import runpy
+import shlex
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+from quasistatic_ref import trajectory_read
+from quasistatic_ref.cli.main import main
+from tests.tolerances import CLOSED_FORM
+from validation.installs import WALK, WALK_FILES, shell_lines
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The page's files in an empty folder, and all its commands run there, in its order."""
+    place = tmp_path_factory.mktemp("first_scene")
+    for name, text in WALK_FILES.items():
+        (place / name).write_text(text, "utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(place)
+        for line in shell_lines(WALK):
+            program, *words = shlex.split(line)
+            if program == "python":
+                runpy.run_path(*words)
+            else:
+                assert program == "quasistatic-ref"
+                assert main(words) == 0
+    return place
+
+
+def test_the_page_has_five_files_and_a_command_for_each_step(folder):
+    assert {*WALK_FILES} == {"gripper.urdf", "can.urdf", "cloud.py", "scene.toml", "picture.py"}
+    assert [line.split()[1] for line in shell_lines(WALK)] == [
+        "inspect", "cloud.py", "inspect", "run", "picture.py",
+    ]  # fmt: skip
+
+
+def test_the_can_rises_with_the_lift_less_what_its_weight_and_its_drag_stretch_the_spring(folder):
+    run = trajectory_read(folder / "results" / "scene.npz")
+    assert run.header["warnings"] == []
+    assert set(run["certificate"]) == {"exact"}
+    mass, gravity, h, K_lift, rise, speed = 0.2, 9.81, 0.02, 2000.0, 0.03, 0.01
+    drag = mass * speed / h  # (R13); the lift still moves in the last step
+    # Balance of the lift: K (target - lift) = m g + m v / h. The can goes with the fingers, but
+    # for what they lifted before it hung in them: nothing, the target stands still until t = 1.
+    expected = rise - (mass * gravity + drag) / K_lift
+    can = run["q"][-1][3 + 2] - run["q"][0][3 + 2]
+    assert abs(can - expected) < CLOSED_FORM
+    assert round(1e3 * can) == 29  # mm, as the page says
+    assert np.round(1e3 * mass * gravity / K_lift) == 1
+
+
+def test_the_picture_shows_something(folder):
+    pixels = image.imread(folder / "picture.png")
+    assert (folder / "picture.pdf").stat().st_size > 0
+    assert 0.02 < float((pixels[..., :3].min(axis=2) < 0.9).mean()) < 0.9

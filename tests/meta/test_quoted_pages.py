@@ -1,0 +1,117 @@
+"""Numbers and printed output in README and docs/ are those of the results that they come from."""
+
+import json
+import re
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from tests.quoted import NUMBER, ROOT, filled, flat, printed, stale
+from tests.quoted_pages import MEANT, OTHERS, QUOTED
+from tests.vectors.material import cases, runner
+
+FENCE = re.compile(r"^( *)(```+).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
+UNITS = r"(?:ms|us|µs|μs|%|degrees|deg|digits|MB|GB|mm/s|mm|µm|times|claims|cases|calls)(?![\w^])"
+"""Units of what is measured here; seconds and newtons are mostly those of a scene."""
+MEASURED = re.compile(rf"({NUMBER.pattern})\s*{UNITS}")
+ELSEWHERE = {"docs/solver_study.md": "tests/study/test_solver_study_page.py holds every number"}
+PAGES = sorted(
+    name
+    for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
+    if (name := str(path.relative_to(ROOT))) not in ELSEWHERE
+)
+
+
+PRINTED = {
+    "docs/quickstart.md": "tests/quoted_pages.py: the lines of demo",
+    "docs/guides/check_your_implementation.md": "below",
+    "docs/guides/run_a_study.md": "below",
+    "docs/guides/write_a_scenario.md": "tests/unit/test_warnings.py",
+}
+"""Pages with text that a command printed, and what holds it."""
+
+STALE = pytest.mark.xfail(
+    strict=True, reason="docs/speed.md is older than the committed times: write it anew with them"
+)
+IN_WORK = {"docs/speed.md": STALE}
+
+
+def pages(names):
+    return [pytest.param(name, marks=IN_WORK.get(name, ())) for name in sorted(names)]
+
+
+def text(page):
+    return (ROOT / page).read_text("utf-8")
+
+
+def held(page):
+    """The phrases of a page that a test holds, as they ought to read."""
+    others = OTHERS[page]() if page in OTHERS else []
+    return filled([*QUOTED.get(page, []), *others])
+
+
+def unheld(page, phrases, meant):
+    """Measured numbers of a text, each with its words, in none of the phrases; fences left out."""
+    rest = flat(FENCE.sub(" ", page))
+    for phrase in sorted((*phrases, *meant), key=len, reverse=True):
+        rest = rest.replace(phrase, " ; ")
+    rest = re.sub(r"`[^`]*`", "`", rest)
+    found = MEASURED.finditer(rest)
+    return [rest[max(m.start() - 60, 0) : m.end()] for m in found]
+
+
+@pytest.mark.parametrize("page", pages({*QUOTED, *OTHERS} - set(ELSEWHERE)))
+def test_every_quoted_number_is_that_of_its_source(page):
+    wrong = stale(text(page), held(page))
+    assert not wrong, f"{page} ought to read:\n" + "\n".join(wrong)
+
+
+@pytest.mark.parametrize("page", pages(PAGES))
+def test_every_measured_number_of_a_page_has_a_source_or_is_meant(page):
+    assert unheld(text(page), held(page), MEANT.get(page, ())) == []
+
+
+@pytest.mark.parametrize("page", sorted(MEANT))
+def test_what_is_meant_still_stands_on_its_page(page):
+    assert stale(text(page), MEANT[page]) == []
+
+
+def test_every_page_with_printed_text_has_a_test_of_it():
+    assert [page for page in PAGES if printed(text(page))] == sorted(PRINTED)
+
+
+def test_the_study_of_the_guide_prints_what_the_page_shows(tmp_path, monkeypatch, capsys):
+    page = text("docs/guides/run_a_study.md")
+    monkeypatch.chdir(tmp_path)
+    (study,) = re.findall(r"^```toml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    (tmp_path / "my_study.toml").write_text(study)
+    assert main(["study", "run", "my_study.toml", "--out", "my_study", "--quiet"]) == 0
+    assert capsys.readouterr().out.splitlines() == printed(page)[0].splitlines()
+
+
+def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys):
+    module = runner()
+    for layer, change in (("rows", {}), ("wrench", {"h": 1.0})):
+        outputs = {
+            c.id: module.plain(getattr(module, layer)(c.input | change)) for c in cases(layer)
+        }
+        answers = [{"id": name, "output": output} for name, output in outputs.items()]
+        head = {"format": "quasistatic-ref/vectors-answers", "version": 1, "layer": layer}
+        record = head | {"implementation": "mine", "answers": answers}
+        (tmp_path / f"{layer}.json").write_text(json.dumps(record))
+    layers = ["--layer", "rows", "--layer", "wrench"]
+    assert main(["vectors", "check", str(tmp_path), *layers]) == 1
+    said = capsys.readouterr()
+    (shown,) = printed(text("docs/guides/check_your_implementation.md"))
+    assert flat(said.out + said.err) == flat(shown)
+
+
+def test_a_number_that_changed_is_named_with_its_sentence():
+    phrases = filled([("turns by {:.1f} degrees in {} steps", lambda: (49.93, 300))])
+    assert stale("It\nturns by 49.9 degrees in 300 steps.", phrases) == []
+    assert stale("It turns by 49.8 degrees in 300 steps.", phrases) == phrases
+
+
+def test_a_number_without_a_source_is_found():
+    page = "It turns by 49.9 degrees\nin 12 ms.\n```sh\n9 ms\n```\n| 40 % | `3 ms` | 5 s |"
+    assert [one[-7:] for one in unheld(page, ["49.9 degrees"], ["40 %"])] == ["n 12 ms"]

@@ -1,0 +1,43 @@
+"""The sdist has everything, and the program that checks an sdist notices what lacks."""
+
+import io
+import re
+import tarfile
+import tomllib
+from pathlib import Path
+
+from validation.check_sdist import TESTS, differences, members
+
+ROOT = Path(__file__).parents[2]
+TARGETS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
+ALWAYS = {"pyproject.toml", ".gitignore"}  # taken by hatchling without being asked
+READ = re.compile(r"\bROOT / \"([\w.]+)\"")
+
+
+def test_the_sdist_takes_all_that_the_tests_read():
+    taken = {name.removeprefix("/") for name in TARGETS["targets"]["sdist"]["include"]}
+    assert [name for name in taken if not (ROOT / name).exists()] == []
+    sources = [path.read_text("utf-8") for path in (ROOT / "tests").rglob("*.py")]
+    read = {name for text in sources for name in READ.findall(text) if (ROOT / name).exists()}
+    assert {"docs", "models", "validation", "quasistatic_ref", ".ci", "README.md"} <= read
+    assert read | {"tests", "LICENSE"} <= taken | ALWAYS
+
+
+def test_the_tests_that_run_in_an_sdist_exist():
+    assert [name for name in TESTS if not (ROOT / name).exists()] == []
+
+
+def test_a_file_that_only_one_side_has_is_named(tmp_path):
+    sdist = tmp_path / "one-1.0.tar.gz"
+    with tarfile.open(sdist, "w:gz") as archive:
+        for name in ("one-1.0/README.md", "one-1.0/models/scene.toml"):
+            archive.addfile(tarfile.TarInfo(name), io.BytesIO())
+        folder = tarfile.TarInfo("one-1.0/models")
+        folder.type = tarfile.DIRTYPE
+        archive.addfile(folder)
+    found = members(sdist)
+    assert found == {"README.md", "models/scene.toml"}
+    assert differences({"README.md", "LICENSE"}, found, "lacks", "is more") == [
+        "LICENSE lacks",
+        "models/scene.toml is more",
+    ]

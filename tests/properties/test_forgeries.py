@@ -1,0 +1,180 @@
+"""Whatever stands in a solution file is proved: every field of every kind is forged."""
+
+import json
+from collections import Counter
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.solution import Certificate
+from quasistatic_ref.step.solution_files import claims_in, solution_read, solution_text
+from quasistatic_ref.tolerances import ENCLOSED
+from tests.helpers import pinch, point_on_floor
+from validation import forgeries
+from validation.forged_scenes import between_walls, scenes
+from validation.forgeries import at_random, good_file, outcomes, places, refused
+from validation.solution_truth import truth_of, wrenches
+
+SCENES = scenes()
+PROVES_NOTHING = ("none", "residual in the ellipsoid")
+RANDOM = 40
+"""Random forgeries of each file: 2 s in all."""
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "solution.json"
+
+
+def named(record):
+    """The names of all fields that stand in a record."""
+    return {".".join(k for k in where if isinstance(k, str)) for where in places(record) if where}
+
+
+@pytest.mark.parametrize(("kind", "name"), SCENES)
+def test_no_false_file_passes(path, kind, name):
+    step = SCENES[kind, name]
+    good = good_file(step, kind)
+    assert refused(step, good, path) == (kind in PROVES_NOTHING)
+    counts = {}
+    for field, said, forged in outcomes(step, good, path):
+        assert said != "PASSED", (field, forged)
+        counts.setdefault(field, Counter())[said] += 1
+    assert counts.keys() >= named(good)
+    assert all(said["refused"] for said in counts.values())
+    freely = {field for field, said in counts.items() if said["still true"]}
+    allowed = {"delta_q", "lam", "lam and wrench", "certificate.error_bound", "certificate.gap"}
+    assert freely <= ({"farkas"} if kind == "infeasible" else allowed)
+    if kind == "exact":
+        assert not freely
+
+
+@pytest.mark.parametrize(("kind", "name"), SCENES)
+def test_no_random_forgery_passes(path, kind, name):
+    step = SCENES[kind, name]
+    good = good_file(step, kind)
+    rng, truth, tried = np.random.default_rng(1), truth_of(step, good), 0
+    for forged in (at_random(rng, step, good) for _ in range(RANDOM)):
+        tried += forged != good
+        assert refused(step, forged, path) or truth(forged), forged
+    assert tried > RANDOM / 2
+
+
+def test_every_kind_and_every_claim_of_a_certificate_is_forged():
+    """A kind without a scene, or a claim that is in no kind of file, would not be attacked."""
+    in_files = {"kind"}
+    for cone, label in ((PYRAMID, ""), (ELLIPSOID, " in the ellipsoid")):
+        for kind, names in claims_in(cone).items():
+            short = kind in ("none", "enclosure")
+            assert any(kind + label * (not short) == scene for scene, _ in SCENES), (kind, cone)
+            in_files |= set(names)
+    in_memory = {"residuals"}
+    assert in_files | in_memory == {field.name for field in fields(Certificate)}
+
+
+def test_a_new_field_of_the_format_is_attacked():
+    record = {"certificate": {"new": 1.0}, "newer": [2.0]}
+    tried = Counter(field for field, _ in forgeries.forgeries(None, record))
+    assert {"certificate", "certificate.new", "newer"} <= set(tried)
+    assert min(tried["certificate.new"], tried["newer"]) > 15
+
+
+def test_the_forger_notices_a_verification_that_believes_everything(monkeypatch, path):
+    step = SCENES["exact", "touches, but bears nothing"]
+    good = good_file(step, "exact")
+    monkeypatch.setattr(forgeries, "refutation", lambda *_: None)
+    said = Counter(said for _, said, _ in outcomes(step, good, path))
+    assert said["PASSED"] > 50
+
+
+def forged(step, path, **changes):
+    """What is wrong with a true solution of a step in which some fields are changed."""
+    record = json.loads(solution_text(step, solve_step(step)))
+    certificate = record["certificate"]
+    for name, value in changes.items():
+        (certificate if name in certificate else record)[name] = value
+    path.write_text(json.dumps(record))
+    return refutation(step, solution_read(path, step))
+
+
+def test_a_force_between_walls_that_nothing_touches_is_refused(path):
+    """1,000 N on both walls, 1 m away: balanced, in their cones, and at work over 1 m each."""
+    step = between_walls()
+    record = json.loads(solution_text(step, solve_step(step)))
+    assert forged(step, path) is None
+    lam = record["lam"]
+    for wall in (1, 2):
+        lam[wall][0] += 1000.0 * step.h
+    both = {"lam": lam, "wrench": wrenches(step, lam)}
+    for gap in (record["certificate"]["gap"], 1e9):
+        for error in (record["certificate"]["error_bound"], 1e9):
+            reason = forged(step, path, **both, gap=gap, error_bound=error)
+            assert "error_bound is 1" in reason or "presses where nothing touches" in reason
+
+
+@pytest.mark.parametrize("error_bound", [1e9, 2 * ENCLOSED, -1.0, 0.0])
+def test_nothing_else_is_called_an_enclosure(path, error_bound):
+    step = point_on_floor(force=(4.0, 1.0, -2.943)).replace(cone=ELLIPSOID)
+    assert "error_bound is" in forged(step, path, error_bound=error_bound)
+    assert forged(step, path, error_bound=ENCLOSED) is None
+
+
+@pytest.mark.parametrize("error_bound", [-1.0, 5.0, 5e-324, -0.0])
+@pytest.mark.parametrize("cone", [PYRAMID, ELLIPSOID])
+def test_an_exact_answer_has_no_error(path, cone, error_bound):
+    step = pinch(grip=5.0, offset=0.02).replace(cone=cone)
+    assert "error_bound is claimed" in forged(step, path, error_bound=error_bound)
+
+
+UNPROVED = {
+    "multipliers_unique": True, "differentiable": True, "smallest_inactive_slack": 0.0,
+    "smallest_active_multiplier": 1.0, "residuals": {},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("claim", UNPROVED)
+def test_the_ellipsoid_claims_nothing_that_is_not_proved(path, claim):
+    step = pinch(grip=5.0, offset=0.02).replace(cone=ELLIPSOID)
+    record = json.loads(solution_text(step, solve_step(step)))
+    assert not refused(step, record, path)
+    record["certificate"][claim] = UNPROVED[claim]
+    assert refused(step, record, path)
+
+
+def test_other_rows_than_those_of_the_loaded_contacts_are_refused(path):
+    step = pinch(grip=5.0, offset=0.02).replace(cone=ELLIPSOID)
+    assert "active is claimed" in forged(step, path, active=[[0, 0]])
+
+
+def test_tiny_wrenches_beside_large_ones_are_right_too(path):
+    """One contact bears 1e9 times what the other does: the small one is compared bit for bit."""
+    step = pinch(grip=5.0, offset=0.02)
+    record = json.loads(solution_text(step, solve_step(step)))
+    wrench = [[v + 1e-15 for v in record["wrench"][0]], *record["wrench"][1:]]
+    assert "wrench[0][0] is" in forged(step, path, wrench=wrench)
+
+
+def test_what_stands_in_a_file_is_the_same_whatever_was_asked_for_it():
+    step = SCENES["exact", "held back by a row of its own"]
+    texts = {solution_text(step, solve_step(step, backend)) for backend in ("clarabel", "daqp")}
+    assert len(texts) == 1
+    assert "clarabel" not in texts.pop()
+
+
+def test_verify_in_python_holds_an_uncertified_answer_to_its_bound():
+    """The bound that comes with an answer holds; a tenth of a correct one does not."""
+    step = SCENES["residual", "slides"]
+    answer = solve_step(step, certify="residual")
+    lam = np.maximum(np.concatenate([answer.lam, answer.lam_extra]), 0.0)
+    claims = answer.certificate
+    assert verify(step, answer.delta_q, (), lam, claims)
+    short = Certificate("residual", error_bound=claims.error_bound * 1e-3)
+    assert "the error is larger" in verify(step, answer.delta_q, (), lam, short).reason
+    wide = Certificate("residual", error_bound=1.5)
+    assert "from 0 to 1" in verify(step, answer.delta_q, (), lam, wide).reason
+    assert "negative" in verify(step, answer.delta_q, (), lam - 1e-3, claims).reason

@@ -1,0 +1,266 @@
+"""What README and the pages of docs/ say in numbers, and where each number comes from.
+
+``QUOTED`` has for each page its phrases, with braces in place of the numbers, and a function that
+returns what fills the braces: of a committed result, of a run, or of the formula that the page
+names. When a result changes, the test lists the phrases as they ought to read. Some pages have
+more phrases beside the tests of their results: ``OTHERS``.
+
+``MEANT`` has what else on a page stands before a unit of measurement: numbers that were chosen, or
+are part of a formula, an example or a definition. A number in neither fails the test.
+"""
+
+import math
+
+from quasistatic_ref.contact import ball_tree, cloud_tracker, shortlist
+from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
+from quasistatic_ref.lab.grasp import TOP
+from quasistatic_ref.lab.study.columns import size
+from quasistatic_ref.lab.validate.registry import BY_NAME
+from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
+from tests import quoted_sources as of
+from tests import quoted_speed as speed
+from tests.quoted import claim, word
+from tests.quoted_sources import G, H
+from tests.study import test_known_issues as known_issues
+from tests.study import test_solver_study_page as solver_study
+from tests.unit import test_digits_figure as digits
+from tests.unit import test_options_of_backends as options
+from validation.bench_exact import PROMISED
+
+GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]
+
+SOFT = ("250", "500")
+"""Stiffnesses of the sweep that are too small [N/m]."""
+
+QUOTED = {
+    "README.md": [
+        ("pivots about the points by which the fingers hold it (by {:.1f} degrees while it is "
+         "lifted); with torsional friction it does not ({:.1f} degrees)", of.both_turns),
+        ("({:.0f} points, as in the paper)", lambda: [claim("structure", "points of the cloud")]),
+        ("{:,} contact problems with known answers (exact for all but {})",
+         lambda: [of.problems(), solver_study.of.enclosed()]),
+        ("and {} gigabyte of disk: more than a third of it is pinocchio and coal with their C++ "
+         "libraries, then SciPy, SCS (through CVXPY) and NumPy", of.base),
+        ("measures {} claims", lambda: [len(BY_NAME)]),
+        ("(certified steps meet them to {:.0e})", lambda: [CLOSED_FORM]),
+    ],
+    "docs/index.md": [
+        ("the bunny turns by {:.1f} degrees about the points by which the fingers hold it while it "
+         "is lifted, with it by {:.1f} (the largest angle from the closed grip to t = {:g} s)",
+         lambda: [*of.both_turns(), TOP]),
+    ],
+    "docs/changelog.md": [
+        ("{} scenarios, among them", lambda: [word(len(scenario_names())).capitalize()]),
+        ("vectors of {} layers, {:,} cases",
+         lambda: [word(len(LAYERS)), sum(map(of.cases_of, LAYERS))]),
+        ("`validate`: {} claims", lambda: [len(BY_NAME)]),
+        ("on {:,} contact problems", lambda: [of.problems()]),
+    ],
+    "docs/quickstart.md": [
+        ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
+        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; the points "
+         "that they come to hold it by, one under each, are {:.0f} and {:.0f} mm behind it",
+         lambda: of.levers()[:3]),
+        ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
+        ("With 1 mm the bunny turns by {:.0f} degrees, with 1.75 mm by {:.1f}, with 1.8 mm by "
+         "{:.1f}:", lambda: map(of.turned, (1, 1.75, 1.8))),
+        ("At most 3 pi / 16 mu_v r = {:.1f} mm by (R15)", lambda: [1e3 * physical_limit()]),
+        ("The scene's 3 mm take a patch with a radius of {:.1f} mm",
+         lambda: [3 / (3 * math.pi / 16 * 0.6)]),
+        ("the origin of the bunny's frame, {:.0f} mm below its centre of mass",
+         lambda: [of.levers()[3]]),
+        ("a foot stays on the floor until t = {:.2f} s", lambda: [of.foot_on_the_floor()]),
+        ("During the lift this drag is {:.2f} N, {:.1f} % of the friction that the grip can bear; "
+         "at most it is {:.1f} %", lambda: [of.drag()[0], *(100 * of.drag()[i] for i in (2, 3))]),
+        ("Above {:.0f} % a run warns", lambda: [100 * SLOW]),
+        ("its angle, {:.2f} degrees,", lambda: [of.since_the_start()]),
+    ],
+    "docs/tour.md": [
+        ("h^2 g = {:.0f} µm *down*", lambda: [1e6 * H**2 * G]),
+        ("the point slides by {:.0f} µm and rises by half of that",  # (R8)
+         lambda: [1e6 * H**2 * (8 - 0.5 * G) / 1.25]),
+        ("the bunny turns by {1:.1f} degrees at most from the closed grip to t = {2:g} s, without "
+         "it by {0:.1f}:", lambda: [*of.both_turns(), TOP]),
+        ("a foot on the floor until t = {:.2f} s", lambda: [of.foot_on_the_floor()]),
+    ],
+    "docs/exercises.md": [
+        ("h g in all, {:.0f} mm and {:.1f} mm. Right is g/2 = {:.1f} m",
+         lambda: [1e3 * H * G, 1e3 * 1e-3 * G, G / 2]),
+        ("= {:.2f} mm a step. The tight row is phi + dz = mu_v dx, so it floats at phi = mu_v dx = "
+         "{:.3f} mm", lambda: [x := 1e3 * H**2 * (8 - 0.5 * G), x / 2]),
+        ("l = mu_omega (2 N / (m g) - 1 / mu_v) = {:.1f} mm", lambda: [20 * (10 / (0.2 * G) - 2)]),
+        ("2 and 4 mm hold the bunny ({:.1f} degrees), 1 mm does not ({:.0f} degrees)",
+         lambda: map(of.turned, (2, 1))),
+        ("it lies between 1.75 mm (the bunny turns by {:.1f} degrees) and 1.80 mm (by {:.1f})",
+         lambda: map(of.turned, (1.75, 1.8))),
+        ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
+         "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),
+        ("tau_n over the vertical force is {:.0f} mm", lambda: [of.levers()[4]]),
+        ("the fingers lift the bunny at {:.0f} mm/s, for which the model asks m v / h = {:.2f} N "
+         "besides the {:.2f} N of the weight", lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
+        ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
+        ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
+    ],
+    "docs/artifacts.md": [
+        ("h = 10 ms: {:.0f} mm a step, a terminal velocity of {:.0f} mm/s",
+         lambda: [1e3 * H**2 * G, 1e3 * H * G]),
+        ("0.2 kg at 50 mm/s, h = 10 ms: {:.1f} N beside {:.2f} N of friction at",
+         lambda: [0.2 * 0.05 / H, 0.5 * 0.2 * G]),
+        ("A warning is given above {:g}", lambda: [SLOW]),
+        ("for the same velocity {:.0f} % less turn",
+         lambda: [100 - 100 * 4 / ((4 + 0.1 * 9) / 1.1)]),
+        ("50 mm/s, h = 10 ms, $\\mu_v$ = 0.5: {:.2f} mm", lambda: [0.5 * H * 50]),
+        ("a block on 25° with $\\mu_v$ = 0.2: {:.2f} mm a step of 10 ms", lambda: [
+            1e3 * H**2 * G * (math.sin(a := math.radians(25)) - 0.2 * math.cos(a))]),
+        ("{:.0f} % less at 45°", lambda: [100 * (1 - math.sqrt(0.5))]),
+        ("0.1 mm, h = 10 ms: {:.0f} N per kilogram", lambda: [1e-4 / H**2]),
+        ("r = 50 mm rolling 0.6 mm a step: {:.0f} µm, {:.2f} N per kilogram",
+         lambda: [x := 1e6 * 0.05 * 0.012**2 / 2, 1e-6 * x / H**2]),
+        ("24 points of equal area: {:.2f} of a uniform load",
+         lambda: [claim("flat_patch", "its torque over that of a uniform load [-]")]),
+        ("0.1 mm and 1 N of friction: {:.1f} mN m", lambda: [0.1]),
+        ("{:.1f}° for each millimetre", lambda: [math.degrees(2 * 0.3 / 20)]),
+        ("loads the torsional friction by {:.1f} % more than the weight does",
+         lambda: [100 * of.drag()[1]]),
+        ("The largest share, {:.3f}, is not of the lift", lambda: [of.drag()[3]]),
+        ("the fingers carry the bunny by {:.1f} mm a step", lambda: [40 / 220]),
+    ],
+    "docs/cones.md": [
+        ("At d = 40 mm the pyramid needs {:.1f} N where the product needs {:.1f} N",
+         lambda: [of.pinch("pyramid", 0.04), of.pinch("product", 0.04)]),
+        ("is mu_omega = {:.1f} mm or {:.1f} mm",
+         lambda: [5 * 3 * math.pi / 16, 5 * 2 / 3]),
+    ],
+    "docs/conventions.md": [
+        ("and to {:.0f} to {:.0f} % of those of the table that overlap", of.refused),
+    ],
+    "docs/distances.md": [
+        ("`UNSEEN` is {:.0e} of L", lambda: [UNSEEN]),
+        ("a distance {:.0f} times as large beyond the k-th", lambda: [shortlist.RATIO]),
+        ("Up to {:,} points all are measured", lambda: [ball_tree.SMALL]),
+        ("leaves of up to {} points", lambda: [ball_tree.LEAF]),
+        ("the next best up to a width of {}", lambda: [shortlist.BEAM]),
+        ("lasted for fewer than {} steps are made twice as long, up to {} points",
+         lambda: [cloud_tracker.SHORT, cloud_tracker.WIDE]),
+    ],
+    "docs/exactness.md": [
+        ("of `sphere_spin`, and on {:,} random steps", lambda: of.steps_with_equal_bits()[-1:]),
+        ("more than 1e{:.0f} times longer", lambda: [math.log10(ILL_POSED)]),
+        ("a median of at most {:.0f} ms and a 99th percentile of at most {:.0f} ms",
+         lambda: GRASP_EXACT),
+        ("a median of at most {:.0f} ms for 30 contacts", lambda: LARGE_EXACT[:1]),
+        *((row.replace("{", "{{"), list) for row in of.exact_rows()),
+        ("Verification in rational numbers takes {:.0f} ms at 13 x 80 and {:.0f} ms at 24 x 180",
+         lambda: map(of.verification, ("13 x 80", "24 x 180"))),
+        ("each backend claims at least one answer without a single correct digit; OSQP leaves {} "
+         "unsolved, PIQP {}.", lambda: of.unsolved_random_steps("osqp", "piqp")),
+    ],
+    "docs/release.md": [
+        ("equal bits of all backends on {:,} steps", lambda: [sum(of.steps_with_equal_bits())]),
+    ],
+    "docs/studies.md": [
+        ("HiGHS 1.15 solves {} of {} random problems of 13 x 80 in raw units",
+         known_issues.highs_solved),
+        ("None of its {:,} calls in the committed study",
+         lambda: [size(solver_study.of.of_solver("highs"))]),
+        ("without torsional friction the bunny turns by {0:.0f} degrees at h = 0.01 s and at 0.02 "
+         "s, and by {2:.0f} at 0.04 s", lambda: of.sweep_turns(0.0)),
+        ("it still turns, by {:.0f} to {:.0f} degrees",
+         lambda: [min(turns := of.sweep_turns(1e-3)), max(turns)]),
+        ("from 2 mm on by {:.2f} degrees or less at every h",
+         lambda: [max(of.sweep_turns(2e-3, 3e-3, 5e-3, 1e-2, 2e-2))]),
+        ("A grip of 500 N/m or less is too light: the bunny turns by {:.0f} degrees and more",
+         lambda: [min(map(of.sweep_of("stiffness", "largest rotation [deg]").get, SOFT))]),
+        ("At k = 1 and 2 points that were not among the closest sink in by {:.1f} mm",
+         lambda: [max(of.sweep_of("closest points", "deepest penetration [um]").values()) / 1e3]),
+        ("the cone changes the {:.2f} degrees by less than {:.3f}", lambda: [
+            (turns := of.sweep_of("cone", "largest rotation [deg]"))["pyramid"],
+            math.ceil(1e3 * (max(turns.values()) - turns["pyramid"])) / 1e3]),
+    ],
+    "docs/guides/choose_a_backend.md": [
+        ("where it does [not solve {} of the grasp's steps]",
+         lambda: [of.one_in(of.highs_unsolved())]),
+        ("{:.0f} to {:.0f} times as fast by the backend", of.native_gains),
+    ],
+    "docs/guides/check_your_implementation.md": [
+        *(("| `{}` | {} |", lambda layer=layer: [layer, of.cases_of(layer)]) for layer in LAYERS),
+    ],
+}  # fmt: skip
+
+OTHERS = {
+    "docs/speed.md": lambda: speed.HELD,
+    "docs/exactness.md": digits.quoted,
+    "docs/conventions.md": options.quoted,
+    "docs/solver_study.md": lambda: solver_study.HELD,
+}
+
+MEANT = {
+    "docs/artifacts.md": [
+        "c = 20 mm, $\\rho$ = 30 mm",
+        "$\\mu$ = 0.3, l = 20 mm",
+        "slides down 25 degrees",
+    ],
+    "docs/cones.md": [
+        "tangents by 90 degrees",
+        "; 45 degrees",
+        "d of 0, 5, 20 and 50 mm",
+        "a patch of 5 mm",
+    ],
+    "docs/conventions.md": [
+        "more by 0.1 %",
+        "poses that overlap by 1 mm",
+        "costs 10 ms and more",
+    ],
+    "docs/derivations.md": ["A body 1 mm deep with h = 10 ms"],
+    "docs/distances.md": ["sqrt 3 times"],
+    "docs/exactness.md": ["a step lifts the bunny by 0.2 mm"],
+    "docs/exercises.md": [
+        "with h = 10 ms",
+        "with h = 1 ms",
+        "with h = 5 ms",
+        "mu_omega = 20 mm",
+        "Use 1, 2 and 4 mm",
+        "the rotation for 2 mm",
+    ],
+    "docs/extensions.md": ["0.2 kg, 20 mm off the axis"],
+    "docs/guides/add_a_scenario.md": ["under 1 MB"],
+    "docs/guides/first_scene.md": [  # tests/meta/test_first_scene.py has its motion
+        "target lies 5 mm inside the can",
+        "K_q times 5 mm",
+        "rose by 29 mm",
+        "The target rises by 30 mm",
+        "stretch by 1 mm",
+    ],
+    "docs/guides/in_python.md": ["1 mm above the ground", "h^2 g = 3.9 mm"],
+    "docs/guides/write_a_scenario.md": ["deeper than 1 %", "the same 1 %"],
+    "docs/quickstart.md": [
+        "mu_omega = 10 mm",
+        "0.5 times the weight",
+        "0.5 times the normal force",
+        "r = 12 mm",
+        "the gripper rises by 40 mm",
+        "the one with 3 mm",
+    ],
+    "docs/studies.md": [
+        "1 to 1e9 times as heavy",
+        "| 3 digits |",
+        "| 1, 2.5, 4 digits |",
+        "| 5.5 digits |",
+        "differs by up to 1 %",
+        "3, 6 and 9 digits",
+        "delivers 0 digits",
+        "mu_omega = 1 mm",
+        "ProxQP 0.8 calls",
+    ],
+    "docs/speed.md": ["a step takes less than 90 us", '"less than 90 μs"', "The paper's 90 us"],
+    "docs/theory/notation.md": ["6 or 4 times"],
+    "docs/theory/the_paper.md": ["less than 90 µs for a step", "and 90 µs where it is quoted"],
+    "docs/tour.md": [
+        "the height c = 40 mm",
+        "corners at w = 50 mm",
+        "h = 10 ms",
+        "mu_omega is a length: 20 mm",
+    ],
+}

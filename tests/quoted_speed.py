@@ -1,0 +1,84 @@
+"""The phrases of docs/speed.md, against the committed profile of a step and the benchmarks."""
+
+from tests.quoted import cell, cells, said
+
+PROFILE, BENCH = "validation/step_profile.md", "validation/benchmarks/bench.md"
+PAPERS = 90
+"""The paper's bound of its average step [us]."""
+NAMES = {
+    "DAQP, nothing certified, warm": "daqp", "PIQP, nothing certified": "piqp",
+    "OSQP, nothing certified, warm": "osqp", "Clarabel, nothing certified": "clarabel",
+    "Clarabel, certified": "clarabel certified",
+}  # fmt: skip
+
+
+def parts(which, backend, column):
+    """A column of the profile, with the tracker and by brute force."""
+    ways = ("tracker", "brute force")
+    return [cell(PROFILE, which, f"{backend}, {way}", column) for way in ways]
+
+
+def time(us):
+    return f"{us:.0f} us" if us < 995 else f"{us / 1e3:.1f} ms"
+
+
+def row(name, backend):
+    step = map(time, parts("Medians", backend, "step"))
+    solve, call = (parts("Medians", backend, c) for c in ("solve [%]", "call alone [%]"))
+    words = " (with the certificate)" if "certified" in backend else ""
+    shares = f"{solve[0]:.0f} %, {solve[1]:.0f} %{words} | {call[0]:.0f} %, {call[1]:.0f} %"
+    return f"| {name} | {' | '.join(step)} | {shares} |"
+
+
+def factors():
+    """Means of steps, and how many times the paper's bound each is at least."""
+    fastest, as_papers = parts("Means", "daqp", "step")
+    proved = parts("Means", "clarabel certified", "step")[0]
+    return (fastest, fastest / PAPERS, as_papers, as_papers / PAPERS,
+            proved / 1e3, proved / PAPERS)  # fmt: skip
+
+
+def promise(name):
+    return cell(BENCH, "", name, "measured")
+
+
+def distances():
+    """Signed distances of a step: all of them, and those of the tracker in the mean."""
+    return said(PROFILE, r"evaluates (\d+) signed distances, with the tracker (\d+) in the mean")
+
+
+def chains():
+    rows = [r for r in cells(BENCH, "Rows of boxes") if int(r["bodies"]) >= 10]
+    assert [r["bodies"] for r in rows] == ["10", "20", "40", "80", "160"]
+    steps = [float(r["step [ms]"]) for r in rows]
+    memory = [float(rows[i]["memory [MB]"]) for i in (0, -1)]
+    times = ", ".join(f"{ms:.1f}" if ms < 9.95 else f"{ms:.0f}" for ms in steps)
+    return times, *memory, promise("exponent in bodies, chains")
+
+
+def heap():
+    (largest,) = (r for r in cells(BENCH, "Heaps") if r["bodies"] == "5 x 5 x 4")
+    size = (int(largest[c]) for c in ("contacts", "coordinates", "rows"))
+    return *size, float(largest["step [ms]"])
+
+
+HELD = [
+    *((row(*pair).replace("{", "{{"), list) for pair in NAMES.items()),
+    ("all {:,.0f}, in NumPy, or the tracker's", lambda: distances()[:1]),
+    ("{:.0f} in the mean |", lambda: distances()[1:]),
+    ("takes {:.0f} us in the mean, {:.1f} times 90 us; if it evaluates what the paper's does, "
+     "{:.0f} us, {:.1f} times; Clarabel's, with a proof, {:.1f} ms, {:.0f} times", factors),
+    ("all distances, {:.0f} us in NumPy,",
+     lambda: parts("Medians", "daqp", "distances")[1:]),
+    ("the solve is {:.0f} % with the tracker and {:.0f} % without",
+     lambda: parts("Means", "osqp", "solve [%]")),
+    ("take about {} ms a step ({:.1f} to {:.1f} MB at once), {:.2f} as an exponent in bodies",
+     chains),
+    ("Of 16 boxes with 62 to 992 contacts: {:.2f} in contacts",
+     lambda: [promise("exponent in contacts, chains")]),
+    ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms", heap),
+    ("takes {:.1f} times the bare DAQP call", lambda: [promise("step over the bare solver")]),
+    ("through CVXPY {:.1f} times as long", lambda: [promise("through CVXPY over native")]),
+    ("the bare call takes {:.0f} us",
+     lambda: [cell(BENCH, "The step of the bunny", "DAQP alone", "median [us]")]),
+]  # fmt: skip

@@ -1,0 +1,156 @@
+"""Curved pairs: the same answer at every scale, and the calculus that settles a normal."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact import by_coal
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.faces import Face, curvature, face, kinks
+from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.settle import settled
+from quasistatic_ref.contact.solid_pair import solid_pair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
+from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Solid
+from tests import closest
+from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT
+
+SOLIDS = closest.solids()
+CURVED = {"cylinder", "cone", "ellipsoid"}
+PAIRS = [
+    names
+    for names in closest.pairs()
+    if CURVED & set(names) and not {"sphere", "half-space"} & set(names)
+]
+SCALES = (1e-5, 1e-3, 0.3, 10.0)
+HERE = np.eye(3), np.zeros(3)
+
+
+def enlarged(solid: Solid, scale: float) -> Solid:
+    match solid:
+        case Box():
+            return Box(scale * solid.half_extents)
+        case Ellipsoid():
+            return Ellipsoid(scale * solid.half_axes)
+        case ConvexMesh():
+            return convex_hull(scale * solid.vertices)
+        case Capsule() | Cylinder() | Cone():
+            return type(solid)(scale * solid.radius, scale * solid.half_length)
+    raise AssertionError(solid)
+
+
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_a_pair_enlarged_has_its_distance_enlarged_and_its_normal_as_it_was(names) -> None:
+    a, b = (SOLIDS[name] for name in names)
+    for R, t in closest.poses(6, 23):
+        try:
+            one = solid_pair("p", Placed(a, *HERE), Placed(b, R, t))
+        except ContactError:
+            continue
+        for k in SCALES:
+            A, B = enlarged(a, k), enlarged(b, k)
+            other = solid_pair("p", Placed(A, *HERE), Placed(B, R, k * t))
+            np.testing.assert_allclose(other.phi / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+            # Of several normals that are as good, which one is taken may be rounding.
+            gap = closest.gap(A, B, R, k * t, other.n[None])[0]
+            np.testing.assert_allclose(gap / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+
+
+@pytest.mark.parametrize("distance", [60.0, 20.0, 10.0, 2.5])
+def test_an_ellipsoid_in_a_cylinder_has_one_normal_at_all_scales(distance) -> None:
+    R = Rotation.from_euler("xyz", [1, 0.4, 0.2]).as_matrix()
+    found = []
+    for k in (1.0, 1e-2, 1e-3, 1e-5):
+        cylinder = Placed(Cylinder(0.04 * k, 0.025 * k), *HERE)
+        ellipsoid = Ellipsoid(k * np.array([0.05, 0.03, 0.02]))
+        at = Placed(ellipsoid, R, 1e-3 * k * np.array([distance, 0.2 * distance, 0.1 * distance]))
+        witness = solid_pair("p", cylinder, at)
+        found.append([witness.phi / k, *witness.n])
+    np.testing.assert_allclose(found[1:], [found[0]] * 3, rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_a_hair_of_penetration_is_not_nothing() -> None:
+    # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
+    a, b = Ellipsoid(np.array([0.1, 0.05, 0.04])), Ellipsoid(np.array([0.2, 0.03, 0.06]))
+    phi = -1.6e-10
+    found = solid_pair("p", Placed(a, *HERE), Placed(b, np.eye(3), np.array([0.3 + phi, 0, 0])))
+    np.testing.assert_allclose(found.phi, 0.3 + phi - 0.3, rtol=EXACT, atol=1e-16)
+    np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
+
+
+def directions(count: int) -> np.ndarray:
+    n = np.random.default_rng(3).normal(size=(count, 3))
+    return n / np.linalg.norm(n, axis=1)[:, None]
+
+
+@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
+def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    solid, h = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
+    for n in directions(20):
+        T = np.linalg.svd(n[None])[2][1:]
+        for way in T:
+            ahead, behind = (solid.farthest((n + s * h * way) / np.hypot(1, h)) for s in (1, -1))
+            difference = (ahead - behind) / (2 * h)
+            expected = curvature(solid, n) @ way
+            np.testing.assert_allclose(difference, expected, rtol=EXACT, atol=DIFFERENCE)
+
+
+def flat_normals(name: str) -> list[np.ndarray]:
+    of = kinks(SOLIDS[name])
+    found = list(of.normals)
+    for u, c in zip(of.axes, of.levels, strict=True):
+        m = np.linalg.svd(u[None])[2][1]
+        found.append(c * u + np.sqrt(1 - c * c) * m)
+    return found
+
+
+@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
+def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    solid = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
+    wide = 0
+    for own in flat_normals(name):
+        n = R @ own
+        found = face(solid, n)
+        height = float(solid.reach(n[None])[0])
+        np.testing.assert_allclose(found.corners @ n, height, rtol=EXACT, atol=CURVED_PAIR)
+        wide += len(found.corners) > 1 or found.radius > 0
+        for x in 0.3 * np.random.default_rng(5).normal(size=(20, 3)):
+            on = found.nearest(x)
+            depth = signed_distance(SOLIDS[name], (R.T @ (on - solid.t))[None])[0]
+            np.testing.assert_allclose(depth, 0, rtol=EXACT, atol=CURVED_PAIR)
+            # Nearest: no corner lies further towards x.
+            across = x - on - ((x - on) @ n) * n
+            assert ((found.corners - on) @ across).max() <= CURVED_PAIR + (
+                found.radius * np.linalg.norm(across)
+            )
+    assert wide
+
+
+def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> None:
+    corners = np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
+    square = Face(corners, 0.0, np.array([0.0, 0.0, 1.0]))
+    for x in np.random.default_rng(8).normal(size=(50, 3)) * 2:
+        expected = [*np.clip(x[:2], -1, 1), 0.0]
+        np.testing.assert_allclose(square.nearest(x), expected, rtol=EXACT, atol=CURVED_PAIR)
+
+
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> None:
+    a, b = (SOLIDS[name] for name in names)
+    random, settles = np.random.default_rng(4), 0
+    for R, t in closest.poses(6, 29):
+        here, there = Placed(a, *HERE), Placed(b, R, t)
+        try:
+            phi, alpha, beta, n = solid_pair("p", here, there)
+        except ContactError:
+            continue
+        off = n + 3e-4 * random.normal(size=3)
+        start = Witness(phi, alpha, beta, off / np.linalg.norm(off))
+        gaps = [by_coal.judged(here, there, *way) for way in settled(here, there, start)]
+        settles += any(
+            way.defect <= CURVED_PAIR and abs(way.phi - phi) <= CURVED_PAIR for way in gaps
+        )
+    assert settles >= 5

@@ -1,0 +1,97 @@
+"""Solution files of version 1, as the program wrote them, are read; what is unproved is listed."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.step.files import step_from_record
+from quasistatic_ref.step.solution_files import solution_read
+
+FILES = json.loads(Path(__file__).with_name("solutions_of_version_1.json").read_text())
+PROVED = ("exact", "exact in the ellipsoid", "enclosure", "infeasible")
+FREE = {"backend", "wrench", "residuals"}
+"""What nothing proves in a polyhedral cone."""
+
+
+def read(path, file, **changes):
+    """The step and the solution of a file, with fields of it or of its certificate changed."""
+    step = step_from_record(FILES[file]["step"])
+    record = json.loads(json.dumps(FILES[file]["solution"]))
+    for name, value in changes.items():
+        (record if name in record else record["certificate"])[name] = value
+    path.write_text(json.dumps(record))
+    return step, solution_read(path, step)
+
+
+def test_the_files_are_of_version_1_and_of_every_kind():
+    assert {one["solution"]["version"] for one in FILES.values()} == {1}
+    assert set(FILES) == {*PROVED, "residual", "none"}
+
+
+@pytest.mark.parametrize("kind", PROVED)
+def test_what_was_true_is_verified(tmp_path, capsys, kind):
+    step, solution = tmp_path / "step.json", tmp_path / "solution.json"
+    step.write_text(json.dumps(FILES[kind]["step"]))
+    solution.write_text(json.dumps(FILES[kind]["solution"]))
+    assert main(["verify", str(step), str(solution)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("verified: ")
+    assert "not checked: backend" in said
+    assert ("certificate.residuals" in said) == (kind != "infeasible")
+    assert ("certificate.multipliers_unique" in said) == (kind in PROVED[1:3])
+    assert main(["verify", str(step), str(solution), "--json"]) == 0
+    assert "backend" in json.loads(capsys.readouterr().out)["not_checked"]
+
+
+@pytest.mark.parametrize("kind", ["residual", "none"])
+def test_what_proved_nothing_is_refused_or_held_to_its_bound(tmp_path, kind):
+    step, solution = read(tmp_path / "x.json", kind)
+    assert (refutation(step, solution) is None) == (kind == "residual")
+
+
+@pytest.mark.parametrize("kind", ["exact", "exact in the ellipsoid", "enclosure"])
+@pytest.mark.parametrize("name", ["wrench", "backend", "residuals"])
+def test_what_is_listed_is_not_looked_at(tmp_path, kind, name):
+    record = FILES[kind]["solution"]
+    wrong = {"wrench": [[9.0] * 4] * len(record["wrench"]), "backend": "none", "residuals": {}}
+    step, solution = read(tmp_path / "x.json", kind, **{name: wrong[name]})
+    assert refutation(step, solution) is None
+    assert any(unchecked.endswith(name) for unchecked in solution.unchecked)
+
+
+FALSE = {
+    "multipliers_unique": False, "differentiable": False, "smallest_inactive_slack": 1e-3,
+    "smallest_active_multiplier": None, "error_bound": 5.0, "active": [], "kind": "enclosure",
+    "delta_q": [0.0] * 3, "lam": [[0.0] * 4] * 3, "lam_extra": [1.0],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_what_is_not_listed_is_proved(tmp_path, name):
+    step, solution = read(tmp_path / "x.json", "exact", **{name: FALSE[name]})
+    assert refutation(step, solution)
+
+
+def test_nothing_of_a_polyhedral_file_is_left_out_of_both_lists():
+    record = FILES["exact"]["solution"]
+    head = {"format", "version", "status", "cone", "step_sha256", "certificate"}
+    assert set(record) | set(record["certificate"]) == head | FREE | set(FALSE)
+
+
+@pytest.mark.parametrize("error_bound", [-1.0, 5.0, 1e9])
+@pytest.mark.parametrize("kind", ["exact in the ellipsoid", "enclosure"])
+def test_absurd_bounds_in_the_ellipsoid_are_refused(tmp_path, kind, error_bound):
+    step, solution = read(tmp_path / "x.json", kind, error_bound=error_bound)
+    assert "error_bound is" in refutation(step, solution)
+
+
+def test_a_force_where_nothing_touches_is_refused_in_old_files_too(tmp_path):
+    """1,000 N on both walls, 1 m away."""
+    lam = json.loads(json.dumps(FILES["enclosure"]["solution"]["lam"]))
+    for wall in (1, 2):
+        lam[wall][0] += 10.0
+    step, solution = read(tmp_path / "x.json", "enclosure", lam=lam)
+    assert "presses where nothing touches" in refutation(step, solution)

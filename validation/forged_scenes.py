@@ -1,0 +1,78 @@
+"""Small steps whose solutions are forged: one or more for each kind of certificate."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quasistatic_ref.lab.scenes.at_random import random_frames
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.lab.scenes.rigid import free_step, point_step
+from quasistatic_ref.step.data import Extra, StepData
+
+
+def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
+    """Steps by the kind of their solution and a name; `every` adds larger ones."""
+    slides, sticks, flies = (4.0, 1.0, -2.943), (1.0, 0.5, -2.943), (1.0, 0.0, 1.0)
+
+    def on_floor(force: tuple[float, float, float], mu_v: float = 0.5) -> StepData:
+        return point_step(0.3, force, mu_v, 0.0, 0.01)
+
+    walls = between_walls()
+    held = walls.replace(extra=Extra(("held back",), -np.eye(3)[:1], np.array([-2e-4])))
+    apart = contacts_of((-1e-3, -1e-3), facing(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    found = {
+        ("exact", "held back by a row of its own"): held.replace(cone="pyramid"),
+        ("exact", "sticks, six rows of rank four"): on_floor(sticks),
+        ("exact", "touches, but bears nothing"): on_floor((0.0, 0.0, 0.0), mu_v=0.0),
+        ("exact in the ellipsoid", "sticks"): on_floor(sticks).replace(cone="ellipsoid"),
+        ("exact in the ellipsoid", "flies"): on_floor(flies).replace(cone="ellipsoid"),
+        ("enclosure", "slides"): on_floor(slides).replace(cone="ellipsoid"),
+        ("residual", "slides"): on_floor(slides),
+        ("residual in the ellipsoid", "slides"): on_floor(slides).replace(cone="ellipsoid"),
+        ("none", "slides"): on_floor(slides),
+        ("infeasible", "two walls apart"): on_floor(slides).replace(contacts=apart),
+    }
+    if every:
+        pinched = pinch_step(5.0, 0.2, 0.5, 0.02, cone="ellipsoid")
+        found |= {
+            ("exact", "flies"): on_floor(flies),
+            ("exact", "slides between walls"): walls.replace(cone="pyramid"),
+            ("exact", "random, product cone"): at_random(0).replace(cone="product"),
+            ("exact", "random"): at_random(1),
+            ("exact in the ellipsoid", "pinch"): pinch_step(5.0, 0.02, 0.5, 0.02, cone="ellipsoid"),
+            ("enclosure", "pinch"): pinched,
+            ("enclosure", "slides between walls"): walls,
+            ("enclosure", "held back by a row of its own"): held,
+            ("residual", "slides between walls"): walls.replace(cone="pyramid"),
+            ("residual", "random"): at_random(2),
+        }
+    return found
+
+
+def facing(count: int) -> np.ndarray:
+    """Frames of walls that face each other along y, shape (count, 3, 3); rows d1, d2, n."""
+    frame = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    turned = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+    return np.array([frame, turned][:count])
+
+
+def between_walls() -> StepData:
+    """A ball that slides along a floor between two walls, each 1 m away."""
+    frames = np.concatenate([np.eye(3)[None], facing(2)])
+    J = np.tile(np.eye(4, 3), (3, 1, 1))
+    contacts = contacts_of((0.0, 1.0, 1.0), frames, J, 0.5)
+    return free_step(0.3 * np.eye(3), (4.0, 1.0, -2.943), contacts, 0.01).replace(cone="ellipsoid")
+
+
+def at_random(seed: int) -> StepData:
+    """Three random contacts of six, four and six rows on five coordinates, which are pressed on."""
+    rng = np.random.default_rng(seed)
+    J = rng.standard_normal((3, 4, 5))
+    frames = random_frames(rng, 3).swapaxes(1, 2)
+    contacts = contacts_of(
+        1e-4 * rng.random(3), frames, J, rng.uniform(0.1, 1.0, 3), 0.02, (6, 4, 6)
+    )
+    return free_step(
+        np.diag(rng.uniform(0.1, 1.0, 5)), 50.0 * rng.standard_normal(5), contacts, 0.01
+    )

@@ -1,0 +1,235 @@
+"""What a solution file claims, decided by fractions from the equations: the judge of forgeries.
+
+H, g, A and b are formed by plain loops, linear systems are solved by elimination. The optimum
+itself is taken from the package: exact, or in the ellipsoid enclosed to 40 digits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from quasistatic_ref.certify.enclosure import checked_pair, point
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.step.data import StepData
+
+Json = Any
+Vector = list[Fraction]
+Matrix = list[Vector]
+
+MAY_CHANGE = {
+    "exact": (),
+    "exact in the ellipsoid": ("lam", "lam_extra", "wrench", "gap"),
+    "enclosure": ("delta_q", "lam", "lam_extra", "wrench", "error_bound", "gap"),
+    "residual": ("delta_q", "lam", "lam_extra", "wrench", "error_bound"),
+    "infeasible": ("farkas",),
+}
+"""What a file of each kind does not fix to the last bit."""
+ROUNDING = 1 + Fraction(1, 10**30)
+"""The optimum in the ellipsoid is known to 40 digits here."""
+
+
+def solved(M: Matrix, right: Vector) -> Vector:
+    """The solution of M x = right, by elimination with exchange of rows."""
+    rows = [[*row, value] for row, value in zip(M, right, strict=True)]
+    n = len(rows)
+    for k in range(n):
+        pivot = next(i for i in range(k, n) if rows[i][k])
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        for i in range(n):
+            if i != k and rows[i][k]:
+                factor = rows[i][k] / rows[k][k]
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
+    return [row[n] / row[i] for i, row in enumerate(rows)]
+
+
+def dot(u: Vector, v: Vector) -> Fraction:
+    """The scalar product of two vectors."""
+    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
+
+
+def exact(values: Any) -> Any:
+    """Float64 numbers as fractions, in nested lists."""
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    return [exact(v) for v in values] if isinstance(values, list) else Fraction(values)
+
+
+def combinations(step: StepData) -> list[Matrix]:
+    """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
+    found = []
+    for j in range(step.contacts.n_c):
+        mu, six = exact(step.contacts.mu_v)[j], step.contacts.rows[j] == 6
+        omega = exact(step.contacts.mu_omega)[j] if six else Fraction(0)
+        one, none = Fraction(1), Fraction(0)
+        if step.cone == "ellipsoid":
+            rows = [[Fraction(i == k) for k in range(4)] for i in range(4)]
+        elif step.cone == "pyramid":
+            rows = [[one, s * mu * (k == 0), s * mu * (k == 1), none]
+                    for s in (1, -1) for k in (0, 1)]  # fmt: skip
+            rows += [[one, none, none, s * omega] for s in (1, -1)] if six else []
+        elif step.cone == "product":
+            slides = [(s * mu * (k == 0), s * mu * (k == 1)) for s in (1, -1) for k in (0, 1)]
+            rows = [[one, a, b, t * omega] for t in (1, -1)[: 1 + six] for a, b in slides]
+        else:
+            raise ValueError(step.cone)
+        found.append(rows)
+    return found
+
+
+def program(step: StepData) -> tuple[Matrix, Vector, Matrix, Vector]:
+    """H, g, A and b, without rounding."""
+    h, n_a, n = Fraction(step.h), step.n_a, step.n_v
+    K, M = exact(step.K_q), exact(step.M_u)
+    H = [[Fraction(0)] * n for _ in range(n)]
+    for i in range(n):
+        for j in range(n):
+            if i < n_a and j < n_a:
+                H[i][j] = h * K[i][j]
+            elif i >= n_a and j >= n_a:
+                H[i][j] = M[i - n_a][j - n_a] / h
+    springs = [dot(row, exact(step.delta_q_bar_a)) for row in K]
+    g = [h * (k + tau) for k, tau in zip(springs, exact(step.tau_a), strict=True)]
+    g += [h * tau for tau in exact(step.tau_u)]
+    A, b, c = [], [], step.contacts
+    for j, rows in enumerate(combinations(step)):
+        J, axes = exact(c.J[j]), [exact(axis[j]) for axis in (c.n, c.d1, c.d2)]
+        motion = [[dot(axis, [J[r][v] for r in range(3)]) for v in range(n)] for axis in axes]
+        motion.append(J[3])
+        for row in rows:
+            A.append([dot(row, [motion[k][v] for k in range(4)]) for v in range(n)])
+            b.append(-row[0] * Fraction(float(c.phi[j])))
+    return H, g, A + exact(step.extra.A), b + exact(step.extra.b)
+
+
+def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
+    """(f_d1, f_d2, f_n, tau_n) of each contact from its multipliers, rounded once."""
+    found = []
+    for rows, impulses in zip(combinations(step), lam, strict=True):
+        parts = [dot([row[k] for row in rows], exact(impulses)) for k in (1, 2, 0, 3)]
+        found.append([float(part / Fraction(step.h)) + 0.0 for part in parts])
+    return found
+
+
+def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
+    """Whether a forged record of a step still says the truth, given a record that does."""
+    kind = good["certificate"]["kind"] if good["status"] == "optimal" else "infeasible"
+    if step.cone == "ellipsoid" and kind in ("exact", "residual"):
+        kind += " in the ellipsoid"
+    known = ("exact in the ellipsoid", "enclosure", "residual")
+    judged = Judge(step, good) if kind in known else None
+
+    def holds(forged: Json) -> bool:
+        try:
+            if _fixed(forged, kind) != _fixed(good, kind):
+                return False
+            return _holds(forged)
+        except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError):
+            return False
+
+    def _holds(forged: Json) -> bool:
+        if kind == "infeasible":
+            return _proof(step, [Fraction(text) for text in forged["farkas"]])
+        if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
+            return judged is None
+        claims = forged["certificate"]
+        if kind == "residual":
+            off = judged.off(forged) + 2 * judged.gap(forged) / judged.free
+            return min(judged.lam(forged)) >= 0 and off <= Fraction(claims["error_bound"]) ** 2
+        near = judged.off(forged) <= Fraction(claims["error_bound"]) ** 2 * ROUNDING
+        held = judged.gap(forged) <= Fraction(claims["gap"]) * ROUNDING
+        return (near or kind != "enclosure") and held and _inside(step, judged.lam(forged))
+
+    return holds
+
+
+def least_bound(step: StepData, record: Json) -> float:
+    """The smallest float64 that bounds the error of an uncertified answer."""
+    judged = Judge(step, record)
+    square = judged.off(record) + 2 * judged.gap(record) / judged.free
+    bound = math.sqrt(square)
+    while Fraction(bound) ** 2 < square:
+        bound = math.nextafter(bound, math.inf)
+    while Fraction(below := math.nextafter(bound, 0.0)) ** 2 >= square:
+        bound = below
+    return bound
+
+
+class Judge:
+    """The optimum of a step, and how far answers are from it.
+
+    Parameters
+    ----------
+    step : StepData
+    good : object
+        A solution file of it that tells the truth.
+    """
+
+    def __init__(self, step: StepData, good: Json) -> None:
+        self.H, self.g, self.A, self.b = program(step)
+        self.free = dot(self.g, solved(self.H, self.g))
+        self.x = self._optimum(step, good["certificate"])
+
+    def _optimum(self, step: StepData, claims: Json) -> Vector:
+        if claims["kind"] == "enclosure":
+            found, unit = checked_pair(step, arb(2) ** -280, 1536), exact_form(step).x_unit
+            assert found is not None
+            scaled = [v * unit for v in point(found)]
+            return [Fraction(int(v.p), int(v.q)) for v in scaled]
+        exact_one = claims["kind"] == "exact"
+        working = flat_rows(step, claims["active"]) if exact_one else exact_step(step).working_set
+        n, k = len(self.g), len(working)
+        K = [[*self.H[v], *(-self.A[i][v] for i in working)] for v in range(n)]
+        K += [[*self.A[i], *[Fraction(0)] * k] for i in working]
+        return solved(K, [*self.g, *(self.b[i] for i in working)])[:n]
+
+    def lam(self, record: Json) -> Vector:
+        """All multipliers of a record, the user's own rows last."""
+        return exact([v for part in record["lam"] for v in part] + record["lam_extra"])
+
+    def off(self, record: Json) -> Fraction:
+        """The square of the error of delta_q."""
+        away = [Fraction(v) - x_v for v, x_v in zip(record["delta_q"], self.x, strict=True)]
+        return dot(away, [dot(row, away) for row in self.H]) / self.free
+
+    def gap(self, record: Json) -> Fraction:
+        """f(x*) - d(lam) [N m s]."""
+        lam = self.lam(record)
+        push = [dot(lam, [row[v] for row in self.A]) for v in range(len(self.g))]
+        left = [dot(row, self.x) - g - p for row, g, p in zip(self.H, self.g, push, strict=True)]
+        slack = [dot(row, self.x) - b for row, b in zip(self.A, self.b, strict=True)]
+        return dot(left, solved(self.H, left)) / 2 + dot(lam, slack)
+
+
+def _proof(step: StepData, y: Vector) -> bool:
+    """Whether y proves that a step has no solution."""
+    _, g, A, b = program(step)
+    balanced = not any(dot(y, [row[v] for row in A]) for v in range(len(g)))
+    return min(y) >= 0 and balanced and dot(y, b) > 0
+
+
+def _fixed(record: Json, kind: str) -> Json:
+    """A record without what may change."""
+    free = MAY_CHANGE.get(kind, ())
+    kept = {k: v for k, v in record.items() if k not in free}
+    if "certificate" in kept:
+        kept["certificate"] = {k: v for k, v in kept["certificate"].items() if k not in free}
+    return kept
+
+
+def _inside(step: StepData, lam: Vector) -> bool:
+    """Whether impulses (n, d1, d2, spin) are inside of their cones."""
+    for j, mu in enumerate(exact(step.contacts.mu)):
+        f_n, *f = lam[4 * j : 4 * j + 4]
+        if any(v and not m for m, v in zip(mu, f, strict=True)):
+            return False
+        if f_n < 0 or f_n**2 < sum((v / m) ** 2 for m, v in zip(mu, f, strict=True) if m):
+            return False
+    return all(v >= 0 for v in lam[4 * step.contacts.n_c :])
