@@ -92,6 +92,11 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "curved_pairs",
+        ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
+        ("validation/results/curved_pairs.md",),
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),
@@ -115,6 +120,11 @@ RESULTS = (
         ("validation/results/exact_everywhere.txt",),
     ),
     Result(
+        "forgeries",
+        ("validation.forgeries", "--out", "validation/forgeries.md"),
+        ("validation/forgeries.md",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),
@@ -124,6 +134,17 @@ RESULTS = (
         ("validation.bench_exact", "200"),
         ("validation/results/bench_exact.txt",),
         output="validation/results/bench_exact.txt",
+    ),
+    Result(
+        "fuzzing",
+        ("validation.fuzz", "--out", "{temporary}", "--table", "validation/results/fuzzing.md"),
+        ("validation/results/fuzzing.md",),
+    ),
+    Result(
+        "hostile_steps",
+        ("validation.fuzz", "--readers", "validation.hostile_steps", "--out", "{temporary}",
+         "--table", "validation/results/hostile_steps.md"),
+        ("validation/results/hostile_steps.md",),
     ),
     Result(
         "bench",

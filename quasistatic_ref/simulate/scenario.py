@@ -177,7 +177,8 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
         try:
             tables = toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
         except tomllib.TOMLDecodeError as error:
-            raise ScenarioError(f"is not TOML: {error}") from None
+            what = "TOML" if path.suffix == ".toml" else "a scenario, which is TOML"
+            raise ScenarioError(f"is not {what}: {error}") from None
         except (RecursionError, ValueError):
             raise ScenarioError("is nested too deeply, or holds an unusable number") from None
         check_made(apply_settings(tables, settings, fields), tables)

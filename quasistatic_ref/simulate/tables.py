@@ -34,8 +34,16 @@ def check_names(table: Fields, kind: str) -> None:
     own = NAMES[kind]
     for name in table.names():
         if name not in own:
-            near = nearest_name(name, own) or _elsewhere(name, kind)
+            near = nearest_name(name, own) or _inside(name, table) or _elsewhere(name, kind)
             raise table.fail(name, f"is unknown{near or ';'} {known_names(own)}", table.take(name))
+
+
+def _inside(name: str, table: Fields) -> str:
+    for outer in ("contacts", "bodies", "shapes"):
+        inner = table.take(outer, {})
+        if isinstance(inner, dict) and name in inner:
+            return f"; did you mean '{outer}.{name}'?"
+    return ""
 
 
 def _elsewhere(name: str, kind: str) -> str:
