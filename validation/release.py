@@ -63,6 +63,12 @@ class Result:
 
 RESULTS = (
     Result(
+        "memory_of_steps",
+        ("validation.memory_of_steps",),
+        ("validation/results/memory_of_steps.md",),
+        output="validation/results/memory_of_steps.md",
+    ),
+    Result(
         "vectors",
         (CLI, "vectors", "generate", "--out", "validation/vectors"),
         ("validation/vectors",),
@@ -92,6 +98,11 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "curved_pairs",
+        ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
+        ("validation/results/curved_pairs.md",),
+    ),
+    Result(
         "pair_distances",
         ("validation.pair_distances",),
         ("validation/pair_distances.md",),
@@ -115,6 +126,11 @@ RESULTS = (
         ("validation/results/exact_everywhere.txt",),
     ),
     Result(
+        "forgeries",
+        ("validation.forgeries", "--out", "validation/forgeries.md"),
+        ("validation/forgeries.md",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),
@@ -124,6 +140,11 @@ RESULTS = (
         ("validation.bench_exact", "200"),
         ("validation/results/bench_exact.txt",),
         output="validation/results/bench_exact.txt",
+    ),
+    Result(
+        "fuzzing",
+        ("validation.fuzz", "--out", "{temporary}", "--table", "validation/results/fuzzing.md"),
+        ("validation/results/fuzzing.md",),
     ),
     Result(
         "bench",
