@@ -63,6 +63,12 @@ class Result:
 
 RESULTS = (
     Result(
+        "memory_of_steps",
+        ("validation.memory_of_steps",),
+        ("validation/results/memory_of_steps.md",),
+        output="validation/results/memory_of_steps.md",
+    ),
+    Result(
         "vectors",
         (CLI, "vectors", "generate", "--out", "validation/vectors"),
         ("validation/vectors",),
