@@ -18,6 +18,7 @@ from __future__ import annotations
 import argparse
 import copy
 import json
+import tempfile
 import math
 import sys
 from collections import Counter
@@ -27,7 +28,6 @@ from typing import Any
 
 import numpy as np
 from tqdm import tqdm
-from validation.fuzz_seeds import scratch
 
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, StepInfeasible
@@ -185,7 +185,7 @@ def main() -> int:
     options = parser.parse_args()
     counts: dict[str, Counter[str]] = {}
     passed = []
-    with scratch() as folder:
+    with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "solution.json"
         for (kind, name), step in tqdm(scenes(every=True).items()):
             good = good_file(step, kind)

@@ -89,30 +89,18 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         raise table.fail("urdf", "is missing")
     base = table.text("base", "fixed", BASES)
     actuated = table.take("actuated", [])
-    if actuated != "all":
-        if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
-            raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
-        actuated = tuple(actuated)
+    if actuated != "all" and not (
+        isinstance(actuated, list) and all(isinstance(a, str) for a in actuated)
+    ):
+        raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
     xyz, rpy = pose(table.table("pose", {}))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
-    package_dirs = table.sequence("package_dirs", [])
-    if not all(isinstance(given, str) for given in package_dirs):
-        raise table.fail("package_dirs", "must be a list of folders", package_dirs)
-    moved = "gravity_compensated" in table
-    if moved and not actuated:
+    folders = [folder / given for given in table.words("package_dirs", [])]
+    if "gravity_compensated" in table and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
     entry = BodyEntry(
-        body=Body(
-            name=name,
-            urdf=urdf,
-            base=base,
-            actuated=actuated,
-            xyz=tuple(xyz),
-            rpy=tuple(rpy),
-            positions=start,
-            package_dirs=(*(folder / given for given in package_dirs), *shared_folders(urdf)),
-        ),
+        body=Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf)),
         table=table,
         K_q=table.take("K_q", None),
         targets=table.sequence("targets", []),

@@ -18,7 +18,7 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
-from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
+from quasistatic_ref.simulate.checks import check_motion, check_sizes
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
@@ -206,7 +206,6 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     shapes = placed_shapes(system, entries, top.table("shapes", {}), path.parent)
     pairs = contact_pairs(top.table("contacts", {}), shapes)
     check_motion(system, pairs)
-    check_twice(pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 

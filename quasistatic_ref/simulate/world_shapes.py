@@ -9,26 +9,16 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.model import shapes
 from quasistatic_ref.model.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    PlacedShape,
-    Solid,
-    Sphere,
-)
 from quasistatic_ref.simulate.tables import pose
 
 WORLD = 0
 """Number of the world among the links."""
 
 
-def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
+def world_shape(name: str, table: Fields, folder: Path) -> shapes.PlacedShape:
     """One ``[shapes.NAME]`` table: exactly one solid, and where it stands.
 
     Parameters
@@ -55,14 +45,14 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
         raise
     sizes.close()
     table.close()
-    return PlacedShape(name, WORLD, rotation(rpy), t, shape)
+    return shapes.PlacedShape(name, WORLD, rotation(rpy), t, shape)
 
 
 def _length(sizes: Fields, field: str) -> float:
     return sizes.number(field, above=0.0)
 
 
-def _mesh(sizes: Fields, folder: Path) -> Solid:
+def _mesh(sizes: Fields, folder: Path) -> shapes.Solid:
     address = sizes.text("file")
     scale = sizes.array("scale", (3,), np.ones(3))
     if not (scale != 0).all():
@@ -72,13 +62,13 @@ def _mesh(sizes: Fields, folder: Path) -> Solid:
     return mesh_hull(path, scale)
 
 
-_KINDS: dict[str, Callable[[Fields, Path], Solid]] = {
-    "halfspace": lambda s, _: HalfSpace(s.array("normal", (3,)), s.number("offset", 0.0)),
-    "box": lambda s, _: Box(s.array("size", (3,)) / 2),
-    "sphere": lambda s, _: Sphere(_length(s, "radius")),
-    "cylinder": lambda s, _: Cylinder(_length(s, "radius"), _length(s, "length") / 2),
-    "capsule": lambda s, _: Capsule(_length(s, "radius"), _length(s, "length") / 2),
-    "cone": lambda s, _: Cone(_length(s, "radius"), _length(s, "length") / 2),
-    "ellipsoid": lambda s, _: Ellipsoid(s.array("size", (3,)) / 2),
+_KINDS: dict[str, Callable[[Fields, Path], shapes.Solid]] = {
+    "halfspace": lambda s, _: shapes.HalfSpace(s.array("normal", (3,)), s.number("offset", 0.0)),
+    "box": lambda s, _: shapes.Box(s.array("size", (3,)) / 2),
+    "sphere": lambda s, _: shapes.Sphere(_length(s, "radius")),
+    "cylinder": lambda s, _: shapes.Cylinder(_length(s, "radius"), _length(s, "length") / 2),
+    "capsule": lambda s, _: shapes.Capsule(_length(s, "radius"), _length(s, "length") / 2),
+    "cone": lambda s, _: shapes.Cone(_length(s, "radius"), _length(s, "length") / 2),
+    "ellipsoid": lambda s, _: shapes.Ellipsoid(s.array("size", (3,)) / 2),
     "mesh": _mesh,
 }

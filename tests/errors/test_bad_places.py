@@ -124,7 +124,7 @@ def test_a_scenario_that_does_not_exist_is_refused(refused, name):
     ("arguments", "words"),
     [
         ([], "the following arguments are required: COMMAND"),
-        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: backends, bench, demo"),
+        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: backends, bench, completion, demo"),
         (["run"], "the following arguments are required: scenario"),
         (["run", "x.toml", "--fast"], "unrecognized arguments: --fast"),
         (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),

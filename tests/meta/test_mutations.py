@@ -61,7 +61,7 @@ SAMPLE = (
     f"{FARKAS} farkas_refutation: (row * form.b)[0, 0] > 0 -> (row * form.b)[0, 0] >= 0",
     f"{CLAIMS} _wrong_sign: slack_i < 0 -> slack_i > 0",
     f"{CLAIMS} _wrong_sign: lam_i < 0 -> lam_i > 0",
-    f"{CLAIMS} _wrong_claim: lam_i > 0 -> lam_i >= 0",
+    f"{CLAIMS} _wrong_claim: not spans[i] -> spans[i]",
 )
 UNCHANGED = (PAGE, CONES, JUDGE, FARKAS)
 

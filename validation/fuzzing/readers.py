@@ -23,7 +23,7 @@ from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import Report
-from quasistatic_ref.lab.vectors.files import answers_text, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.files import answers_written, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
@@ -192,7 +192,7 @@ def _answers() -> dict[str, Reader]:
         cases = [case for case in inputs if case.id in chosen]
         known = {name: expected[name] for name in chosen}
         outputs = {name: known[name]["output"] for name in sorted(chosen)}
-        good = answers_text(layer, "fuzz", outputs).encode()
+        good = answers_written(folder, layer, "fuzz", outputs).read_bytes()
 
         def compared(
             path: Path, layer: str = layer, cases: Any = cases, known: Any = known
