@@ -36,6 +36,8 @@ OTHER_WORDS = {
     "stiffness": "K_q",
     "solver": "backend",
     "tolerance": "accuracy",
+    "tol": "accuracy",
+    "eps": "accuracy",
     "joints": "actuated",
 }
 """What other programs call a field, and how it is called here."""

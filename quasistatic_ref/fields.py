@@ -129,7 +129,9 @@ class Fields:
         """Return a string, one of `choices` where they are given."""
         value: str = self._typed(field, str, "a string", default)
         if value is not None and choices is not None and value not in choices:
-            raise self.fail(field, f"is not a choice{suggestion(value, choices)}", value)
+            one = f"must be {choices[0]!r}"  # the format of a file, which is then another kind
+            wrong = one if len(choices) == 1 else f"is not a choice{suggestion(value, choices)}"
+            raise self.fail(field, wrong, value)
         return value
 
     def array(
@@ -138,6 +140,9 @@ class Fields:
         """Return finite numbers of the given shape (None: any length) as float64."""
         value = self.take(field, default)
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
+        if isinstance(value, str):
+            problem = f"must be {wanted} numbers, with commas between them and brackets around them"
+            raise self.fail(field, problem, value)
         try:
             array = np.array(value, dtype=object)
             if any(isinstance(v, list) for v in array.flat):

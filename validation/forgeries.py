@@ -18,12 +18,12 @@ from __future__ import annotations
 import argparse
 import copy
 import json
-import tempfile
 import math
 import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -185,7 +185,7 @@ def main() -> int:
     options = parser.parse_args()
     counts: dict[str, Counter[str]] = {}
     passed = []
-    with tempfile.TemporaryDirectory() as folder:
+    with TemporaryDirectory() as folder:
         path = Path(folder) / "solution.json"
         for (kind, name), step in tqdm(scenes(every=True).items()):
             good = good_file(step, kind)

@@ -16,41 +16,21 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Iterator, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from validation.fuzzing.worker import ENDED, MEBIBYTES, SECONDS
+from validation.fuzzing.worker import ENDED, SECONDS, content_of
 
 BATCH = 600
 """Inputs of a process, which takes seconds to start."""
 ROOT = Path(__file__).parent.parent
-PAGE = f"""# Spoilt files, and what their readers make of them
-
-Written by `python -m validation.fuzz --table validation/results/fuzzing.md`. Each input is a good
-file of its kind with bytes, tokens, values or arrays changed: numbers by NaN, infinities, the ends
-of float64 and integers of 5,000 digits, words by long or strange ones, tables by other types, lists
-by ones nested 100,000 deep. `accepted`: the file is still a good one, and what follows from it is
-finite. `refused`: one sentence of the exception tree. `failures`: a traceback or a warning, the end
-of the process, more than {SECONDS:g} s of processor time, or more than {MEBIBYTES:g} MiB, of which
-the libraries take 250 before anything is read. Steps are solved and certified, scenarios run for
-two steps, solutions verified, answers checked, studies reported (without their pictures). Inputs
-are random, so that no failure is no proof.
-
-"""
 COLUMNS = "| reader | inputs | accepted | refused | failures | longest [s] | most memory [MiB] |"
 READERS = "validation.fuzzing.readers"
 Job = tuple[str, int, int]
-
-
-def names() -> list[str]:
-    """Every reader, as a process says that has loaded them."""
-    code = "from validation.fuzzing.readers import names; print('\\n'.join(names()))"
-    asked = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
-    )
-    return asked.stdout.split("\n")[:-1]
 
 
 def outcomes(
@@ -95,12 +75,12 @@ def _done(left: list[list[Any]]) -> None:
         del left[0]
 
 
-def batch(job: Job, folder: Path) -> dict[str, Any]:
+def batch(job: Job, folder: Path, readers: str) -> dict[str, Any]:
     """What came of one batch; inputs that failed are written to the folder."""
     name, start, count = job
     said = {"reader": name, "start": start, "count": count, "accepted": 0, "refused": 0}
     record: dict[str, Any] = {**said, "seconds": 0.0, "mebibytes": 0.0, "failures": []}
-    for _, i, outcome, seconds, mebibytes, words in outcomes([job]):
+    for _, i, outcome, seconds, mebibytes, words in outcomes([job], readers):
         record["seconds"] = round(max(record["seconds"], seconds), 3)
         record["mebibytes"] = round(max(record["mebibytes"], mebibytes))
         if outcome in ("accepted", "refused"):
@@ -108,15 +88,17 @@ def batch(job: Job, folder: Path) -> dict[str, Any]:
         else:
             record["failures"].append({"input": i, "outcome": outcome, "words": words})
     if record["failures"]:
-        kept(name, [failure["input"] for failure in record["failures"]], folder)
+        kept(readers, name, [failure["input"] for failure in record["failures"]], folder)
     return record
 
 
-def kept(name: str, inputs: list[int], folder: Path) -> None:
+def kept(readers: str, name: str, inputs: list[int], folder: Path) -> None:
     """Write inputs of a reader to a folder, for a person to look at and for a test."""
-    code = "import sys; from validation.fuzzing import readers as r; r.kept(*sys.argv[1:])"
-    arguments = [name, json.dumps(inputs), str(folder.resolve())]
-    subprocess.run([sys.executable, "-c", code, *arguments], check=True, cwd=ROOT)
+    with tempfile.TemporaryDirectory() as scratch:
+        reader = import_module(readers).readers(Path(scratch))[name]
+    for i in inputs:
+        file = f"{name.replace('/', ' ')} {i}{Path(reader.file).suffix}"
+        (folder / file).write_bytes(content_of(reader, i))
 
 
 def table(records: list[dict[str, Any]]) -> list[str]:
@@ -138,6 +120,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--inputs", type=int, default=100_000, help="in all")
     parser.add_argument("--seconds", type=float, default=float("inf"))
+    parser.add_argument("--readers", default=READERS, metavar="MODULE")
     parser.add_argument("--reader", action="append", metavar="NAME", help="may be repeated")
     parser.add_argument("--out", type=Path, default=Path("fuzz"), metavar="FOLDER")
     parser.add_argument("--table", type=Path, metavar="FILE.md")
@@ -145,7 +128,8 @@ def main() -> int:
     options.out.mkdir(parents=True, exist_ok=True)
     path = options.out / "outcomes.jsonl"
     records = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
-    readers = options.reader or names()
+    module = import_module(options.readers)
+    readers = options.reader or module.names()
     begun, each = time.monotonic(), -(-options.inputs // len(readers))
     there = {(record["reader"], record["start"]) for record in records}
     jobs = [
@@ -155,7 +139,7 @@ def main() -> int:
     for number, job in enumerate(jobs, start=1):
         if time.monotonic() - begun > options.seconds:
             break
-        record = batch(job, options.out)
+        record = batch(job, options.out, options.readers)
         records.append(record)
         with path.open("a") as file:
             file.write(json.dumps(record) + "\n")
@@ -164,7 +148,7 @@ def main() -> int:
         for failure in record["failures"]:
             print(f"  {failure['outcome']} of input {failure['input']}: {failure['words']}")
     if options.table:
-        options.table.write_text(PAGE + "\n".join(table(records)) + "\n")
+        options.table.write_text(module.PAGE + "\n".join(table(records)) + "\n")
     print(*table(records), sep="\n")
     return 1 if any(record["failures"] for record in records) else 0
 

@@ -1,13 +1,12 @@
 """Random valid steps at scales of 1e-12 to 1e12: no backend holds one up.
 
-``python -m validation.hostile_steps --steps 5000`` asks every backend by every interface for each
-step, certified in full, each call in a process with limits (see ``validation/fuzz.py``). A step
-ends exact, with the same bits by all paths, or refused in a sentence; never later than 10 s.
+``python -m validation.fuzz --readers validation.hostile_steps`` has each backend by each interface
+solve them, certified in full, in processes with limits. A step ends exact, with the bits that it
+has without a backend, or refused in a sentence.
 """
 
 from __future__ import annotations
 
-import hashlib
 import random
 from collections.abc import Callable
 from pathlib import Path
@@ -24,6 +23,18 @@ from quasistatic_ref.step.files import step_read, step_text
 from validation.fuzzing.worker import Reader
 from validation.random_steps import any_step
 
+PAGE = """# Steps at all scales, and what holds them up
+
+Written by `python -m validation.fuzz --readers validation.hostile_steps`. The numbers of random
+steps of up to 12 coordinates and 8 contacts are multiplied by powers of ten from 1e-12 to 1e12, one
+for all or one for each coordinate, contact or kind of number; all are valid steps, many of which no
+mechanism has. Each is solved with `certify = "full"` by each backend through each interface, the
+same steps by all. `accepted`: the exact optimum, with the bits that it has without a backend.
+`refused`: in one sentence; most have no solution, which is proved. `failures`: other bits, a
+traceback or a warning, the end of the process, or more than 10 s of processor time, which would
+include the exact method's own and that of the comparison.
+
+"""
 SCALES = 12.0
 """Largest power of ten by which a number of a step is multiplied."""
 
@@ -101,7 +112,13 @@ def solved_by(engine: str, name: str) -> Callable[[Path], str]:
     def read(path: Path) -> str:
         step = step_read(path)
         solution = solve_step(step, solver_for(step, name, engine))
-        bits = hashlib.sha256(solution.delta_q.tobytes()).hexdigest()[:16]
-        return f"{bits} {solution.statistics.status}"
+        if name != NONE:
+            assert solution.delta_q.tobytes() == solve_step(step, NONE).delta_q.tobytes()
+        return str(solution.statistics.status)
 
     return read
+
+
+def names() -> list[str]:
+    """Every reader."""
+    return [label(*path) for path in paths()]

@@ -141,6 +141,12 @@ RESULTS = (
         ("validation/results/fuzzing.md",),
     ),
     Result(
+        "hostile_steps",
+        ("validation.fuzz", "--readers", "validation.hostile_steps", "--out", "{temporary}",
+         "--table", "validation/results/hostile_steps.md"),
+        ("validation/results/hostile_steps.md",),
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),

@@ -31,6 +31,7 @@ COMMANDS = {
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
+    "schema": "print the JSON Schema of scenario files, by which editors complete and check them",
     "completion": "print a script by which bash, zsh or fish complete these commands",
 }
 LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
@@ -44,10 +45,12 @@ class Parser(argparse.ArgumentParser):
         """Exit with status 2 and a sentence."""
         said, _, choices = message.partition(" (choose from")
         hint = ""
-        if unknown := re.search(r"invalid choice: '(\w*)'", message):
+        if unknown := re.search(r"invalid choice: '([^']*)'", message):
             hint = suggestion(unknown[1], re.findall(r"\w+", choices))
         elif unknown := re.search(r"unrecognized arguments: (--[\w-]+)", message):
             hint = nearest_name(unknown[1], self._option_string_actions)
+        elif unknown := re.search(r"unrecognized arguments: ([\w.]+=\S+)", message):
+            hint = f"; did you mean '--set {unknown[1]}'?"
         super().error(f"{said}{hint}")
 
 

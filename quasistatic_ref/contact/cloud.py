@@ -104,17 +104,17 @@ def distance_to_rounded_box(
 
     Parameters
     ----------
-    points : ndarray, shape (..., 3)
-    half_extents : ndarray, shape (..., 3)
+    points : ndarray, shape (N, 3)
+    half_extents : ndarray, shape (3,) or (N, 3)
         One for all points, or one for each.
-    radius : float or ndarray, shape (...)
+    radius : float or ndarray, shape (N,)
     """
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
     outside = norm(beyond)
     inside = np.maximum.reduce(excess, axis=-1)
     is_inside = outside == 0
-    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
+    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=1).T  # x before y before z, as beyond
     away = np.where(is_inside[..., None], nearest_face, beyond)
     away /= (outside + is_inside)[..., None]
     # Zero has the positive sign, whichever zero it is.

@@ -137,6 +137,8 @@ def _loaded(text: str, base: str) -> tuple[Any, Any]:
             )
         elif "valid URDF" in reason:
             reason = "its URDF parser refuses it, for the reason printed on standard error"
+        else:  # what a mesh library says, without where in its source it says so
+            reason = reason.rpartition("message: ")[2]
         raise ModelError(f"pinocchio cannot load it: {reason}") from None
     return model, geometry
 

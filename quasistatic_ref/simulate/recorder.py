@@ -18,7 +18,7 @@ from quasistatic_ref.simulate.artifacts import (
 )
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.simulate.watch import watched
+from quasistatic_ref.simulate.watch import doubtful_units, watched
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -182,6 +182,8 @@ class Recorder:
         header["warnings"] = [] if drags is None else [drags]
         if self.steps:
             header["warnings"] += watched(self.scene, arrays, all_of["gap"])
+        else:  # it failed in its first step, for which a unit may be the reason
+            header["warnings"] += doubtful_units(self.scene)
         seconds = {k.removeprefix(SECONDS): all_of[k] for k in all_of if k.startswith(SECONDS)}
         return Trajectory(header, arrays, seconds, self.scene)
 

@@ -56,7 +56,7 @@ def watched(scene: Scene, run: Mapping[str, NDArray[np.generic]], gap: Array) ->
     sunk = _sunk(pairs, np.asarray(run["phi"]), np.asarray(run["point"]), gap)
     leaps = _leaps(system, pairs, np.asarray(run["delta_q"]))
     targets = _targets(system, np.asarray(run["q_bar_a"]))
-    return [*sunk, *leaps, *targets, *_sizes(system, pairs)]
+    return [*sunk, *leaps, *targets, *doubtful_units(scene)]
 
 
 def _table(pair: ContactPair) -> str:
@@ -170,9 +170,9 @@ def _beyond(joint: Joint, target: Array, lower: float, upper: float) -> Iterator
         )
 
 
-def _sizes(system: System, pairs: Iterable[ContactPair]) -> Iterator[str]:
-    """Meshes, clouds and mu_omega that look like millimetres."""
-    pairs = list(pairs)
+def doubtful_units(scene: Scene) -> Iterator[str]:
+    """Sentences on meshes, clouds and mu_omega that look like millimetres."""
+    system, pairs = scene
     shapes = [*system.shapes, *(side for pair in pairs for side in (pair.alpha, pair.beta))]
     modelled = {p.name: p.shape for p in shapes if isinstance(p.shape, PointCloud | ConvexMesh)}
     long = {name: x for name, shape in modelled.items() if (x := extent(shape)) > IN_METRES}

@@ -57,6 +57,9 @@ class Backend:
         Whether it takes second-order cones, which the ellipsoid needs, through CVXPY.
     steps : bool
         Whether steps are solved with it; otherwise it is in studies only.
+    stops : bool
+        Whether a limit of iterations or of time ends it. One that nothing ends is asked only for
+        steps whose rows are alike (``ALIKE`` in tolerances.py).
     """
 
     name: str
@@ -73,6 +76,7 @@ class Backend:
     required: bool = False
     cones: bool = False
     steps: bool = True
+    stops: bool = True
 
     def first(self, accuracy: float) -> Options:
         """The options tried first for an accuracy in natural units [-]."""
@@ -155,7 +159,7 @@ _plain_proximal = _tolerances("eps_abs", "eps_duality_gap_abs", eps_rel=0.0, **_
 
 
 def _highs(accuracy: float) -> Attempts:
-    return (_plain_highs(accuracy) | {"time_limit": 10.0},)  # it can loop
+    return (_plain_highs(accuracy) | {"time_limit": 5.0},)  # it can loop
 
 
 def _plain_highs(accuracy: float) -> Options:
@@ -185,11 +189,13 @@ BACKENDS: dict[str, Backend] = {
                 time_limit="time_limit", package="highspy"),
         # The method has no tolerance.
         Backend("quadprog", "dual active set", lambda _: ({},), None, adapter="Quadprog",
-                cvxpy=False),
+                cvxpy=False, stops=False),
         Backend("qpalm", "augmented Lagrangian", _once(_plain_osqp), _plain_osqp,
                 warm=BOTH, steps=False),
     )
 }  # fmt: skip
+ENDLESS = frozenset(b.name for b in BACKENDS.values() if not b.stops)
+"""Backends that nothing ends."""
 DEFAULT = "clarabel"
 """Of a single step, through CVXPY: it takes every cone and every extension."""
 DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT

@@ -65,6 +65,13 @@ class Scaled:
         except StepDataError:
             raise out_of_range(self.step) from None
 
+    @property
+    def unlike(self) -> float:
+        """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
+        squares = np.square(self.form.A).dot(self.metric.squared)
+        squares = squares[squares > 0]
+        return math.sqrt(squares.max() / squares.min()) if squares.size else 1.0
+
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         judge = ellipsoid_residuals if self.step.cone == ELLIPSOID else optimality_residuals

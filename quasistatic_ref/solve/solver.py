@@ -17,12 +17,13 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, Options
+from quasistatic_ref.solve.backends import BACKENDS, ENDLESS, NONE, QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
+from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
 """Accuracies tried in the ellipsoid, relative to the one asked for.
@@ -191,8 +192,13 @@ class Solver(ABC):
         Raises
         ------
         StepNotSolved
-            If it says anything but a full solution, or the numbers are not finite.
+            If it says anything but a full solution, or the numbers are not finite; or if nothing
+            would end it and the rows of the step are unlike each other.
         """
+        endless = self.name.removeprefix(QPSOLVERS) in ENDLESS
+        if endless and isinstance(scaled, Scaled) and not scaled.unlike <= ALIKE:
+            status = f"not asked: its rows differ by {scaled.unlike:.0e} in natural units"
+            raise StepNotSolved(self.name, status, scaled.step, accuracy)
         idle = self.write(scaled)
         cause: Exception | None = None
         for attempt in self.attempts(accuracy):

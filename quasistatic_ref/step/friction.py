@@ -146,9 +146,8 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     tuple of ndarray, each of shape (n_c, w)
         The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
     """
-    J_n, J_1, J_2 = (
-        (axis[:, None] @ J[:, :3])[:, 0] for axis in (contacts.n, contacts.d1, contacts.d2)
-    )
+    axes = np.array([contacts.n, contacts.d1, contacts.d2])
+    J_n, J_1, J_2 = (axes[:, :, None] @ J[:, :3])[:, :, 0]
     return J_n, J_1, J_2, J[:, 3]
 
 
@@ -176,7 +175,8 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     if name == ELLIPSOID:
         return np.stack([J_n, J_1, J_2, J_w], axis=1)
     mu_v, _, mu_omega = contacts.mu.T[:, :, None]
-    return np.stack(cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w), axis=1)
+    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
+    return np.array(rows).swapaxes(0, 1)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -187,7 +187,7 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     of_gap = np.eye(4)[0] if name == ELLIPSOID else cone_matrix(name)[:, 0]
-    return np.asarray(np.multiply.outer(contacts.phi, of_gap))
+    return np.asarray(contacts.phi[:, None] * of_gap)
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:

@@ -10,7 +10,7 @@ BALL = "bodies/ball/"
 RAIL = "bodies/rail/"
 CAUSES = {
     # name: (changes to the scene, the field named, words of the sentence)
-    "another format": (("format", "quasistatic-ref/step"), "format", "is not a choice"),
+    "another format": (("format", "quasistatic-ref/step"), "format", "must be 'quasistatic-ref"),
     "a later version": (("version", 2), "version", "this program reads 1 (got 2)"),
     "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
     "h negative": (("h", -0.01), "h", "must be greater than 0 (got -0.01)"),
@@ -28,6 +28,18 @@ CAUSES = {
     ),
     "friction at the top": (
         ("mu_v", 0.5), "mu_v", "is unknown; did you mean 'mu_v' of [contacts.NAME]? known: bodies",
+    ),
+    "a contact's field without its table": (
+        ("push", {"mu_v": 0.5}), "push", "is unknown; did you mean 'contacts.push'?",
+    ),
+    "a body without its table": (
+        ("ball", {"base": "fixed"}), "ball", "is unknown; did you mean 'bodies.ball'?",
+    ),
+    "a vector in words": (
+        ("gravity", "0, 0, -9.81"), "gravity", "numbers, with commas between them and brackets",
+    ),
+    "accuracy by another name": (
+        ("solver/tol", 1e-9), "solver.tol", "is unknown; did you mean 'accuracy'?",
     ),
     "a step in a contact": (
         ("contacts/push/steps", 3), "contacts.push.steps", "mean 'steps' of the top of the file?",

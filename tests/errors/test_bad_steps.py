@@ -17,7 +17,7 @@ ONE = "contacts/1/"
 EYE = np.eye(3).tolist()
 CAUSES = {
     # name: (changes to the step, the field named, words of the sentence)
-    "another format": (("format", "quasistatic-ref/solution"), "format", "is not a choice; did"),
+    "another format": (("format", "quasistatic-ref/solution"), "format", "must be 'quasi"),
     "a later version": (("version", 2), "version", "this program reads 1 (got 2)"),
     "version true": (("version", True), "version", "must be a whole number (got True)"),
     "no h": (("h", ...), "h", "is missing"),
@@ -153,7 +153,7 @@ def test_the_solution_is_good_before_it_is_spoilt(tmp_path, solved, capsys):
 
 
 BAD_SOLUTIONS = {
-    "a step for a solution": (("format", "quasistatic-ref/step"), "format", "is not a choice"),
+    "a step for a solution": (("format", "quasistatic-ref/step"), "format", "must be 'quasi"),
     "a later version": (("version", 3), "version", "this program reads 1 and 2 (got 3)"),
     "an unknown status": (("status", "optimum"), "status", "did you mean 'optimal'"),
     "delta_q short": (("delta_q", [0.0]), "delta_q", "must be 7 numbers (got [0.0])"),

@@ -135,7 +135,7 @@ CAUSES = {
         lambda run: rewritten(run, {"header": npy(np.full(100_000, 91, dtype=np.uint8))}),
         f"{NOT_ONE}: its header is not JSON",
     ),
-    "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: is not a choi"),
+    "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: must be 'quas"),
     "warnings that are none": (
         lambda run: rewritten(run, header={"warnings": [3]}), "warnings: must be a list of strings",
     ),

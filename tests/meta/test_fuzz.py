@@ -2,8 +2,8 @@
 
 import json
 
-from validation.fuzz import names, outcomes, table
-from validation.fuzzing.readers import readers
+from validation.fuzz import outcomes, table
+from validation.fuzzing.readers import names, readers
 
 PLANTED = "tests.meta.planted_readers"
 SAMPLE = 12

@@ -5,10 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.model.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import loaded_urdf
+from quasistatic_ref.simulate.scenario import load_scenario
 from tests.tolerances import CLOSED_FORM, EXACT
 from tests.unit.urdf_texts import collision, link, robot, written
 
@@ -119,3 +120,18 @@ def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(
     with pytest.raises(ModelError, match=words) as caught:
         mesh_path("a.dae", tmp_path, ())
     assert "a.dae" in str(caught.value)
+
+
+def test_a_mesh_that_cannot_be_read_is_named_without_places_in_a_library_s_source(tmp_path: Path):
+    written(tmp_path, "solid\nendsolid\n", "a.stl")
+    body = written(tmp_path, robot(link("a", collision('<mesh filename="a.stl"/>'))))
+    with pytest.raises(ModelError, match=r"a\.stl") as caught:
+        loaded_urdf(body)
+    assert "line" not in str(caught.value)
+    assert "function" not in str(caught.value)
+
+
+def test_another_file_in_a_scenario_s_place_is_said_to_be_none(tmp_path: Path) -> None:
+    body = written(tmp_path, robot(link("a")))
+    with pytest.raises(ScenarioError, match=r"r\.urdf: is not a scenario, which is TOML: "):
+        load_scenario(body)

@@ -252,7 +252,7 @@ PLATE = 'alpha = "rail/plate"'
 REFUSALS = {
     # top
     "broken TOML": ("h = 0.01", "h = = 0.01", "is not TOML: "),
-    "another format": ("ref/scenario", "ref/step", "format: is not a choice"),
+    "another format": ("ref/scenario", "ref/step", "format: must be 'quasistatic-ref/scenario'"),
     "a later version": (
         "version = 1",
         "version = 2",

@@ -149,7 +149,7 @@ def test_an_unknown_field_is_refused_by_name(path, says):
 
 
 REFUSED = {
-    "another format": (["format"], "quasistatic-ref/solution", "format: is not a choice"),
+    "another format": (["format"], "ref/solution", "format: must be 'quasistatic-ref/step' (got "),
     "a later version": (["version"], 2, "version: is not known here; this program reads 1 (got 2)"),
     "a version in words": (["version"], "1", "version: must be a whole number"),
     "an unknown cone": (["cone"], "cube", "cone: must be one of pyramid, ellipsoid"),
@@ -254,7 +254,7 @@ def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
 
 SOLUTION_REFUSED = {
     "an unknown field": (["note"], "x", "note: is unknown"),
-    "a step": (["format"], "quasistatic-ref/step", "format: is not a choice"),
+    "a step": (["format"], "quasistatic-ref/step", "format: must be 'quasistatic-ref/solution'"),
     "a later version": (["version"], 3, "version: is not known here; this program reads 1 and 2"),
     "a field of version 1": (["backend"], "daqp", "backend: is unknown"),
     "another status": (["status"], "solved", "status: is not a choice"),

@@ -227,7 +227,7 @@ SPOILT = {
     ),
     "another format": (
         lambda p: header_changed(p, lambda h: h.update(format="quasistatic-ref/step")),
-        "format: is not a choice",
+        "format: must be 'quasistatic-ref/trajectory'",
     ),
     "a later version": (
         lambda p: header_changed(p, lambda h: h.update(version=2)),

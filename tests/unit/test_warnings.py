@@ -187,3 +187,19 @@ def test_a_cloud_of_forty_metres_looks_like_one_of_forty_millimetres(hostile, si
     assert len(said) == warned
     if warned:
         assert said[0].startswith("check the unit of cube: lengths are in metres, and it is 40 m")
+
+
+def test_a_run_that_fails_at_once_still_says_that_a_unit_is_wrong(hostile, tmp_path, capsys):
+    points = "".join(f"{1e3 * x} {1e3 * y} {1e3 * z}\n" for x, y, z in POINTS)  # in millimetres
+    cloud = written(hostile.parent, points, "millimetres.xyz")
+    arguments = ["run", str(hostile), "--out", str(tmp_path)]
+    assert main([*arguments, "--set", f"bodies.cube.cloud={cloud}",
+                 "--set", "contacts.floor.beta=cube"]) == 3  # fmt: skip
+    told = capsys.readouterr().err.splitlines()
+    assert told[-1].startswith("quasistatic-ref: step 0: contact ")
+    assert told[-2] == (
+        "quasistatic-ref: check the unit of cube: lengths are in metres, and it is 40 m long; "
+        "scale it by 0.001 if that is meant in millimetres"
+    )
+    run = trajectory_read(tmp_path / "hostile.npz")
+    assert f"quasistatic-ref: {run.warnings[-1]}" == told[-2]

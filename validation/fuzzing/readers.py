@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import lzma
 import shutil
 import struct
@@ -51,13 +50,27 @@ from validation.fuzzing.files import (
     spoilt_xz,
     zip_bytes,
 )
-from validation.fuzzing.worker import Reader, content_of
+from validation.fuzzing.worker import Reader
+
+PAGE = """# Spoilt files, and what their readers make of them
+
+Written by `python -m validation.fuzz --table validation/results/fuzzing.md`. Each input is a good
+file of its kind with bytes, tokens, values or arrays changed: numbers by NaN, infinities, the ends
+of float64 and integers of 5,000 digits, words by long or strange ones, tables by other types, lists
+by ones nested 100,000 deep. `accepted`: the file is still a good one, and what follows from it is
+finite. `refused`: one sentence of the exception tree. `failures`: a traceback or a warning, the end
+of the process, more than 10 s of processor time, or more than 2048 MiB, of which
+the libraries take 250 before anything is read. Steps are solved and certified, scenarios run for
+two steps, solutions verified, answers checked, studies reported (without their pictures). Inputs
+are random, so that no failure is no proof.
+
+"""
 
 
 def readers(folder: Path) -> dict[str, Reader]:
     """Every reader by name; what their files need beside them is written into the folder."""
     return {
-        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(),
+        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(folder),
         **_stores(folder), **_studies(),
     }  # fmt: skip
 
@@ -179,7 +192,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _answers() -> dict[str, Reader]:
+def _answers(folder: Path) -> dict[str, Reader]:
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
@@ -258,12 +271,3 @@ def names() -> list[str]:
     """Every reader."""
     with tempfile.TemporaryDirectory() as folder:
         return list(readers(Path(folder)))
-
-
-def kept(name: str, inputs: str, out: str) -> None:
-    """Write inputs of a reader, given as a JSON list of numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        reader = readers(Path(folder))[name]
-    for i in json.loads(inputs):
-        file = f"{name.replace('/', ' ')} {i}{Path(reader.file).suffix}"
-        (Path(out) / file).write_bytes(content_of(reader, i))

@@ -1,0 +1,60 @@
+"""No backend holds up a step at strange scales: a sample of validation/hostile_steps.py."""
+
+import numpy as np
+
+from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
+from quasistatic_ref.solve.backends import ENDLESS, NONE, installed
+from quasistatic_ref.solve.engines import NATIVE, solver_for
+from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.tolerances import ALIKE
+from tests.tolerances import ROUNDING
+from validation.fuzz import outcomes
+from validation.hostile_steps import names
+
+HELD_UP = 115
+"""An input on which quadprog looped for ever, natively and through qpsolvers."""
+SAMPLE = 3
+"""Steps that every path is given."""
+READERS = "validation.hostile_steps"
+
+
+def unlike_step(ratio):
+    """A body of unit mass and inertia with four contacts without friction, two of them far out."""
+    rng = np.random.default_rng(3)
+    J = rng.standard_normal((4, 4, 6))
+    J /= np.linalg.norm(J[:, 2], axis=1)[:, None, None]  # n is the third of a contact's axes
+    J[2:] *= ratio
+    frame = {"d1": [1.0, 0.0, 0.0], "d2": [0.0, 1.0, 0.0], "n": [0.0, 0.0, 1.0]}
+    contacts = random_contacts(rng, 4, 6, phi=1e-3, rows=4, mu_v=0.0, J=J, **frame)
+    return random_step(rng, 0, 6, contacts).replace(M_u=np.eye(6))
+
+
+def test_how_unlike_rows_are_is_the_ratio_of_their_lengths():
+    for ratio in (1.0, 100.0, 1e6):
+        np.testing.assert_allclose(Scaled(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
+
+
+def test_a_backend_that_nothing_ends_is_asked_only_where_rows_are_alike():
+    assert set(installed(NATIVE)) >= ENDLESS > set()
+    for ratio, status in ((0.9 * ALIKE, "optimal"), (1.1 * ALIKE, "failed: not asked: its rows ")):
+        step = unlike_step(ratio)
+        exact = solve_step(step, NONE).delta_q
+        for name in ENDLESS:
+            for solver in (solver_for(step, name, NATIVE), f"qpsolvers:{name}"):
+                solution = solve_step(step, solver)
+                assert solution.statistics.status.startswith(status)
+                np.testing.assert_array_equal(solution.delta_q, exact)
+
+
+def test_every_path_ends_exact_or_refused_on_a_sample_and_where_quadprog_looped():
+    jobs = [(name, 0, SAMPLE) for name in names()]
+    jobs += [(name, HELD_UP, 1) for name in names() if "quadprog" in name]
+    found = list(outcomes(jobs, READERS))
+    assert [one for one in found if one[2] not in ("accepted", "refused")] == []
+    assert len(found) == SAMPLE * len(names()) + 2
+    ends = {}
+    for _, i, outcome, *_ in found:
+        ends.setdefault(i, set()).add(outcome)
+    assert all(len(kinds) == 1 for kinds in ends.values())  # all paths end alike
+    assert {"accepted"} in ends.values()
