@@ -1,6 +1,7 @@
 """Where the numbers of tests/quoted_pages.py come from: runs of the grasp, committed results."""
 
 import json
+import math
 import re
 from functools import cache
 
@@ -128,12 +129,27 @@ def cases_of(layer):
     return len(json.loads((ROOT / f"validation/vectors/inputs/{layer}.json").read_text())["cases"])
 
 
-def refused():
-    """Shares of the poses of the table that overlap and are refused [%], of pairs that refuse."""
+def largest_error(wanted):
+    """Of phi, over the pairs of the table of distances that are wanted [m]."""
     rows = cells("validation/pair_distances.md")
-    counts = [(int(r["refused"]), int(r["in penetration"])) for r in rows]
-    shares = [100 * no / (no + yes) for no, yes in counts if no]
-    return min(shares), max(shares)
+    return max(float(r["phi"]) for r in rows if wanted(set(r["pair"].split(" - "))))
+
+
+def two_capsules():
+    return largest_error(lambda pair: pair == {"capsule"})
+
+
+def closed_forms():
+    """Without two capsules: a sphere or a half-space and anything, and boxes, capsules, meshes."""
+    flat = {"box", "capsule", "mesh"}
+    return largest_error(
+        lambda pair: pair != {"capsule"} and (pair & {"sphere", "half-space"} or pair <= flat)
+    )
+
+
+def decade(x):
+    """The exponent of the power of ten above."""
+    return math.ceil(math.log10(x))
 
 
 def base():

@@ -8,8 +8,9 @@ names the extra that does (``REFUSED``). The README's own lines are taken from t
 
 ``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
 ``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
-README says; else uv takes the same wheels in less time, and can take the lowest. An environment
-takes one or two gigabytes and is removed. Exit status 1 if a command fails.
+README says; with an extra or on another interpreter, uv takes the same wheels in less time, and it
+can take the lowest. An environment takes one or two gigabytes and is removed. Exit status 1 if a
+command fails.
 """
 
 from __future__ import annotations
@@ -90,7 +91,7 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     subprocess.run([python, "-m", "venv", str(home)], check=True)
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
     command = [home / "bin" / "pip", "install", "-q", what]
-    if lowest or extra != "base":
+    if lowest or extra != "base" or python != sys.executable:
         command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
         command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)

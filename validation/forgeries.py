@@ -23,6 +23,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -185,7 +186,7 @@ def main() -> int:
     options = parser.parse_args()
     counts: dict[str, Counter[str]] = {}
     passed = []
-    with scratch() as folder:
+    with TemporaryDirectory() as folder:
         path = Path(folder) / "solution.json"
         for (kind, name), step in tqdm(scenes(every=True).items()):
             good = good_file(step, kind)

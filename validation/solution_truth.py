@@ -140,11 +140,12 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
         if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
             return judged is None
         claims = forged["certificate"]
+        bound = Fraction(claims.get("error_bound", 0))
         if kind == "residual":
             off = judged.off(forged) + 2 * judged.gap(forged) / judged.free
-            return min(judged.lam(forged)) >= 0 and off <= Fraction(claims["error_bound"]) ** 2
-        near = judged.off(forged) <= Fraction(claims["error_bound"]) ** 2 * ROUNDING
-        held = judged.gap(forged) <= Fraction(claims["gap"]) * ROUNDING
+            return min(judged.lam(forged)) >= 0 and off <= bound**2 and 0 <= bound <= 1
+        near = judged.off(forged) <= bound**2 * ROUNDING and bound <= Fraction(1e-13)
+        held = judged.gap(forged) <= Fraction(claims["gap"]) * ROUNDING <= judged.rounding
         return (near or kind != "enclosure") and held and _inside(step, judged.lam(forged))
 
     return holds
@@ -176,6 +177,8 @@ class Judge:
         self.H, self.g, self.A, self.b = program(step)
         self.free = dot(self.g, solved(self.H, self.g))
         self.x = self._optimum(step, good["certificate"])
+        taken = dot(self.x, [dot(row, self.x) for row in self.H])
+        self.rounding = Fraction(1e-9) * (self.free + taken) / 2 * ROUNDING
 
     def _optimum(self, step: StepData, claims: Json) -> Vector:
         if claims["kind"] == "enclosure":

@@ -9,11 +9,11 @@ without slack and the others do not lose theirs, delta_q is the minimiser on A_S
 for independent rows W that span S. Whether they stay is decided for each parameter by itself:
 
 - The equations of S must stay consistent. They do iff the rank of [A_S b_S] does not grow with the
-  parameter; its minors are polynomials, whose degree is the number of rows that change, so finitely
-  many values of the parameter decide. (All six rows of a sticking contact change together and
-  keep their rank of four; the gap of one of two equal contacts breaks it.)
+  parameter; it grows everywhere else or nowhere, so one other value decides. (All six rows of a
+  sticking contact change together and keep their rank of four; the gap of one of two equal contacts
+  breaks it.)
 - A row without slack that is not strictly active must keep its slack of zero: it would hold on
-  one side and let go on the other.
+  one side and let go on the other. Its equation is then consistent with those of S, too.
 - A friction coefficient that is zero cannot become smaller.
 """
 
@@ -201,8 +201,6 @@ def _obstacle(
         ]
         if opening:
             return f"{_names(step, opening)} touches without load: it holds on one side only"
-        if touched and _inconsistent(form, (*active.strict, *active.idle), change):
-            return f"the equations of {_names(step, active.idle)} would contradict each other"
     return ""
 
 
@@ -213,19 +211,18 @@ def _inconsistent(form: ExactForm, rows: Sequence[int], change: Change) -> list[
     basis = independent_rows(form, (*still, *moving))
     per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
     held = [[fmpq(v) for v in (*form.row(i), form.b[i, 0])] for i in still]
-    for t in range(1, len(moving) + 1):
-        changed = []
-        for i in moving:
-            dA = change.A.get(i) or [fmpq(0)] * form.n
-            row = [a + t * per_A * d for a, d in zip(form.row(i), dA, strict=True)]
-            changed.append([*row, form.b[i, 0] + t * per_b * change.b.get(i, fmpq(0))])
-        if _rank([*held, *changed]) > len(basis):
-            tied = set(moving)
-            for i in moving:
-                c = None if i in basis else combination(form, basis, i)
-                tied |= {j for j, c_j in zip(basis, c or (), strict=False) if c_j}
-            return sorted(tied)
-    return []
+    changed = []
+    for i in moving:  # by one unit of the parameter
+        dA = change.A.get(i) or [fmpq(0)] * form.n
+        row = [a + per_A * d for a, d in zip(form.row(i), dA, strict=True)]
+        changed.append([*row, form.b[i, 0] + per_b * change.b.get(i, fmpq(0))])
+    if _rank([*held, *changed]) <= len(basis):
+        return []
+    tied = set(moving)
+    for i in moving:
+        c = None if i in basis else combination(form, basis, i)
+        tied |= {j for j, c_j in zip(basis, c or (), strict=False) if c_j}
+    return sorted(tied)
 
 
 def _rank(rows: list[list[fmpq]]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from quasistatic_ref.model.system import System
@@ -34,20 +35,14 @@ def ignored_lines(system: System) -> list[str]:
     """
     lines = list(ALWAYS)
     for body in (body.name for body in system.bodies):
-        own = [entry.removeprefix(f"{body}: ") for entry in system.ignored if _of(body, entry)]
-        counts: dict[str, int] = {}
-        for entry in own:
-            tag = entry.rpartition(".")[2]
-            counts[tag] = counts.get(tag, 0) + 1
+        of = f"{body}: "
+        own = [entry.removeprefix(of) for entry in system.ignored if entry.startswith(of)]
+        counts = Counter(entry.rpartition(".")[2] for entry in own)
         lines += [f"{body}: {WORDS.get(tag, f'<{tag}>')} ({n})" for tag, n in counts.items()]
         unseen = _visual_only(system, body, own)
         if unseen:
             lines.append(f"{body}: links without collision shape: {', '.join(unseen)}")
     return lines
-
-
-def _of(body: str, entry: str) -> bool:
-    return entry.startswith(f"{body}: ")
 
 
 def _visual_only(system: System, body: str, ignored: Sequence[str]) -> list[str]:

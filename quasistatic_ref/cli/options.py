@@ -95,10 +95,10 @@ def add_resume(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def progress_line(options: argparse.Namespace, line: str) -> None:
+def progress_line(options: argparse.Namespace, line: str, end: str = "\n") -> None:
     """Print one line of progress on standard error, unless ``--quiet`` was given."""
     if not options.quiet:
-        print(line, file=sys.stderr)
+        print(line, end=end, file=sys.stderr, flush=True)
 
 
 def scenario_settings(options: argparse.Namespace) -> list[str]:

@@ -101,7 +101,8 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(summary)
         return status
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
-    worst = _worst(summary["worst_residual"])
+    x = summary["worst_residual"]
+    worst = "not computed" if x is None else f"{x:.1e} (natural units)"
     asked = f"{summary['backend']} ({summary['engine']})"
     print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
     print(_artifacts(trajectory.header))
@@ -111,10 +112,6 @@ def run(options: argparse.Namespace) -> int:
     print(f"ms per step: {parts}")
     print(f"wrote {path}{'' if view is None else f' and {view}'}")
     return status
-
-
-def _worst(x: object) -> str:
-    return "not computed" if x is None else f"{x:.1e} (natural units)"
 
 
 def _artifacts(header: Mapping[str, Any]) -> str:

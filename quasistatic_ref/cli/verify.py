@@ -10,7 +10,7 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.verdict import wrong_bits
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import rounded_wrenches
+from quasistatic_ref.step.rounded_wrench import rounded_wrenches
 from quasistatic_ref.step.solution_files import SolutionFile, solution_read
 
 
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
 def refutation(step: StepData, solution: SolutionFile) -> str | None:
     """What is wrong with a solution; None if all that it claims is proved.
 
-    What :attr:`SolutionFile.unchecked` names, in files of version 1, is not looked at.
+    What ``SolutionFile.unchecked`` names, in files of version 1, is not looked at.
     """
     if solution.farkas is not None:
         return farkas_refutation(step, solution.farkas)

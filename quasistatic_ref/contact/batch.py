@@ -115,8 +115,7 @@ class Batch:
         """
         pose = poses.relative
         # The sums of `rotated`, without broadcasting, which takes longer than the sums.
-        term = pose.T.take(self.of, axis=2) * self.columns
-        x = term[0] + term[1] + term[2] + term[3]
+        x = np.add.reduce(pose.T.take(self.of, axis=2) * self.columns)
         phi, normal = self.measured(x.T)
         return phi, normal, self.limit(pose)
 

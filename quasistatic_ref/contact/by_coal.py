@@ -48,14 +48,19 @@ ROUNDS = 30
 
 
 class Judged(NamedTuple):
-    """An answer, and by how much it is wrong."""
+    """An answer, and by how much it is wrong.
+
+    Attributes
+    ----------
+    defect : float
+        |s(n) - phi| or the disagreement of the points, the larger [m].
+    """
 
     phi: float
     alpha: Array
     beta: Array
     n: Array
     defect: float
-    """|s(n) - phi| or the disagreement of the points, the larger."""
 
 
 def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
@@ -143,7 +148,14 @@ def _asked(a: Placed, b: Placed) -> Judged:
 
 
 def judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Array) -> Judged:
-    """An answer, with what it misses the gap along n and its points' distance by."""
+    """An answer, with its defect: what phi n misses the gap along n and the points' distance by.
+
+    Parameters
+    ----------
+    a, b : Placed
+    phi, alpha, beta, n : float, ndarray, ndarray, ndarray
+        In whatever length unit the solids have.
+    """
     if not (np.isfinite(phi) and np.isfinite(n).all() and abs(n @ n - 1) <= WITNESS):
         return Judged(phi, alpha, beta, n, np.inf)
     gap = n @ (b.farthest(-n) - a.farthest(n))

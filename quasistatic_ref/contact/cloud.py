@@ -16,26 +16,17 @@ import numpy as np
 from quasistatic_ref.contact.curved import distance_to_cone, distance_to_ellipsoid
 from quasistatic_ref.contact.hull import distance_to_hull, dot, norm
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model import shapes
 from quasistatic_ref.model.convex_mesh import ConvexMesh
-from quasistatic_ref.model.shapes import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    Shape,
-    Sphere,
-)
 from quasistatic_ref.step.data import Array, Indices
 
 Distance = tuple[Array, Array]
-Rounded = Sphere | Capsule | Box
+Rounded = shapes.Sphere | shapes.Capsule | shapes.Box
 """A point, segment or cuboid with a ball about each of its points."""
 _AXES = np.eye(3)
 
 
-def signed_distance(shape: Shape, points: Array) -> Distance:
+def signed_distance(shape: shapes.Shape, points: Array) -> Distance:
     """Signed distance and outward normal of points against one shape.
 
     Parameters
@@ -57,16 +48,16 @@ def signed_distance(shape: Shape, points: Array) -> Distance:
         If the shape is of another kind.
     """
     match shape:
-        case Sphere() | Capsule() | Box():
+        case shapes.Sphere() | shapes.Capsule() | shapes.Box():
             return distance_to_rounded_box(points, *rounded_box(shape))
-        case Cylinder():
+        case shapes.Cylinder():
             return distance_to_cylinder(points, shape.radius, shape.half_length)
-        case HalfSpace():
+        case shapes.HalfSpace():
             phi = dot(points, shape.normal) - shape.offset
             return phi, np.broadcast_to(shape.normal, points.shape)
-        case Ellipsoid():
+        case shapes.Ellipsoid():
             return distance_to_ellipsoid(points, shape.half_axes)
-        case Cone():
+        case shapes.Cone():
             return distance_to_cone(points, shape.radius, shape.half_length)
         case ConvexMesh():
             return distance_to_hull(points, shape)
@@ -98,9 +89,9 @@ def closest(phi: Array, k: int) -> Indices:
 
 def rounded_box(shape: Rounded) -> tuple[Array, float]:
     """Half extents (3,) of a shape's core, a point, segment or cuboid, and the ball's radius."""
-    if isinstance(shape, Box):
+    if isinstance(shape, shapes.Box):
         return shape.half_extents, 0.0
-    half_length = shape.half_length if isinstance(shape, Capsule) else 0.0
+    half_length = shape.half_length if isinstance(shape, shapes.Capsule) else 0.0
     return np.array([0.0, 0.0, half_length]), shape.radius
 
 
@@ -113,17 +104,17 @@ def distance_to_rounded_box(
 
     Parameters
     ----------
-    points : ndarray, shape (..., 3)
-    half_extents : ndarray, shape (..., 3)
+    points : ndarray, shape (N, 3)
+    half_extents : ndarray, shape (3,) or (N, 3)
         One for all points, or one for each.
-    radius : float or ndarray, shape (...)
+    radius : float or ndarray, shape (N,)
     """
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
     outside = norm(beyond)
     inside = np.maximum.reduce(excess, axis=-1)
     is_inside = outside == 0
-    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=0)
+    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=1).T  # x before y before z, as beyond
     away = np.where(is_inside[..., None], nearest_face, beyond)
     away /= (outside + is_inside)[..., None]
     # Zero has the positive sign, whichever zero it is.

@@ -152,8 +152,7 @@ class CloudTracker:
         if len(self.batches) > 1:
             nearest = nearest.chosen(self.order)
         vectors = np.concatenate([nearest.normal, nearest.local], axis=1)
-        term = poses.R.T.take(self.side, axis=2) * vectors[:, None]
-        turned = term[0] + term[1] + term[2]
+        turned = np.add.reduce(poses.R.T.take(self.side, axis=2) * vectors[:, None])
         count = len(self.order)
         n, centre = turned[:, :count], turned[:, count:]
         centre += poses.t.T.take(self.cloud_side, axis=1)

@@ -40,7 +40,15 @@ class Kinks(NamedTuple):
     normals: Array
 
     def near(self, n: Array, within: float) -> Kinks:
-        """Those from which a direction deviates by less than an angle [rad], about."""
+        """Those near a direction.
+
+        Parameters
+        ----------
+        n : ndarray, shape (3,)
+            Unit vector in the solid's own frame [-].
+        within : float
+            Largest deviation, about [rad].
+        """
         circle = np.abs(self.axes @ n - self.levels) < within
         face = np.sum((self.normals - n) ** 2, axis=1) < within**2
         return Kinks(self.axes[circle], self.levels[circle], self.normals[face])
@@ -48,7 +56,12 @@ class Kinks(NamedTuple):
 
 @lru_cache(maxsize=256)
 def kinks(shape: Shape) -> Kinks:
-    """The kinks of a bounded solid other than a sphere, in its own frame."""
+    """The kinks of a solid in its own frame.
+
+    Parameters
+    ----------
+    shape : any bounded solid other than a sphere
+    """
     z, none = np.array([[0.0, 0.0, 1.0]]), np.zeros((0, 3))
     match shape:
         case Ellipsoid():
@@ -68,13 +81,31 @@ def kinks(shape: Shape) -> Kinks:
 
 
 def placed_kinks(solid: Placed, n: Array, within: float) -> Kinks:
-    """The kinks near a direction n, in the world frame."""
+    """The kinks near a direction, in the world frame.
+
+    Parameters
+    ----------
+    solid : Placed
+        Bounded, and no sphere.
+    n : ndarray, shape (3,)
+        Unit vector in the world frame [-].
+    within : float
+        Largest deviation, about [rad].
+    """
     near = kinks(solid.shape).near(solid.R.T @ n, within)
     return near._replace(axes=near.axes @ solid.R.T, normals=near.normals @ solid.R.T)
 
 
 def curvature(solid: Placed, n: Array) -> Array:
-    """D(n), the Hessian of the reach where it is smooth, shape (3, 3) [m], world frame."""
+    """D(n), the Hessian of the reach where it is smooth, shape (3, 3) [m], world frame.
+
+    Parameters
+    ----------
+    solid : Placed
+        Bounded, and no sphere.
+    n : ndarray, shape (3,)
+        Unit vector in the world frame [-].
+    """
     shape, own = solid.shape, solid.R.T @ n
     match shape:
         case Ellipsoid():
@@ -113,7 +144,13 @@ class Face(NamedTuple):
     n: Array
 
     def nearest(self, x: Array) -> Array:
-        """Its point nearest to the line through x along n, shape (3,) [m]."""
+        """Its point nearest to the line through x along n, shape (3,) [m].
+
+        Parameters
+        ----------
+        x : ndarray, shape (3,)
+            [m].
+        """
         first = self.corners[0]
         away = x - first
         away = away - (away @ self.n) * self.n
@@ -132,7 +169,15 @@ class Face(NamedTuple):
 
 
 def face(solid: Placed, n: Array) -> Face:
-    """What a bounded solid other than a sphere has farthest along a unit vector n."""
+    """What a solid has farthest along a direction.
+
+    Parameters
+    ----------
+    solid : Placed
+        Bounded, and no sphere.
+    n : ndarray, shape (3,)
+        Unit vector in the world frame [-].
+    """
     shape, own = solid.shape, solid.R.T @ n
     corners, radius = solid.farthest(n)[None], 0.0
     match shape:

@@ -82,7 +82,18 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Scalar products [any unit] of vectors (..., 3)."""
+    """Scalar products of vectors.
+
+    Parameters
+    ----------
+    a, b : ndarray, shape (..., 3)
+        [any unit].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        [the product of both units].
+    """
     # Not `@` or einsum: the order of the sum must not depend on the number of points.
     return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
 

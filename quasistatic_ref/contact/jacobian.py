@@ -10,10 +10,12 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.contacts import Contacts, friction_coefficients
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.posed import PosedContacts
 
 AXES = np.eye(3)
+CROSS_AXES = cross_matrix(AXES)
 
 
 class ContactGeometry:
@@ -29,7 +31,9 @@ class ContactGeometry:
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout, self.motion = layout, motion
+        self.named: tuple[list[int], tuple[str, ...]] = [], ()
         # Of alpha's bodies and of beta's, 1 for the columns that move them and 0 for the others.
+        self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
         self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
@@ -44,8 +48,16 @@ class ContactGeometry:
         phi, n, layout = points.phi, points.n, self.layout
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
-        names = layout.contact_names(points.point)
-        return PosedContacts(names, phi, n, d1, d2, J, layout.mu_v, layout.mu_omega, layout.rows)
+        names = self.names(points.point)
+        constant = layout.mu_v, layout.mu_omega, layout.rows, self.mu
+        return PosedContacts(names, phi, n, d1, d2, J, *constant)
+
+    def names(self, point: NDArray[np.int64]) -> tuple[str, ...]:
+        """A name for each contact, from its point's number, shape (n_c,): mostly those before."""
+        listed = point.tolist()
+        if listed != self.named[0]:
+            self.named = listed, self.layout.contact_names(point)
+        return self.named[1]
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
@@ -65,9 +77,9 @@ class ContactGeometry:
             Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
             [rad].
         """
-        moved = self.moves * columns_at(columns, np.array([alpha, beta]), n)
-        (nu_alpha, nu_beta), (spin_alpha, spin_beta) = moved[..., :3, :], moved[..., 3:, :]
-        f = np.concatenate([nu_beta - nu_alpha, spin_beta - spin_alpha], axis=1)  # Eq. (2)
+        # [nu; n'omega] of alpha's body and of beta's
+        of_alpha, of_beta = self.moves * columns_at(columns, np.array([alpha, beta]), n)
+        f = of_beta - of_alpha  # Eq. (2): nu_beta - nu_alpha and n'(omega_beta - omega_alpha)
         return self.motion.of_coordinates(f)  # Eq. (3)
 
 
@@ -110,10 +122,11 @@ def tangents(n: Array) -> tuple[Array, Array]:
     -------
     d1, d2 : ndarray, shape (n_c, 3)
     """
-    axis = AXES[np.abs(n).argmin(axis=1)]
+    least = np.abs(n).argmin(axis=1)
+    axis = AXES.take(least, axis=0)
     along = np.vecdot(n, axis)[:, None]
     length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
-    n_cross_axis = (cross_matrix(n) @ axis[:, :, None])[:, :, 0]
+    n_cross_axis = (n[:, None] @ CROSS_AXES.take(least, axis=0))[:, 0]  # n x a = n'[a x]
     return (axis - along * n) / length, n_cross_axis / length
 
 

@@ -20,19 +20,15 @@ if TYPE_CHECKING:
     from quasistatic_ref.figures.style import style_file as style_file
     from quasistatic_ref.figures.style import styled as styled
 
-_HOME = {
-    "Camera": "camera",
-    "Figure": "style",
-    "animate": "animation",
-    "draw_scene": "draw",
-    "faults": "legible",
-    "figure_style": "style",
-    "figure_written": "style",
-    "moment": "moments",
-    "panels": "style",
-    "style_file": "style",
-    "styled": "style",
+_HOMES = {
+    "animation": "animate",
+    "camera": "Camera",
+    "draw": "draw_scene",
+    "legible": "faults",
+    "moments": "moment",
+    "style": "Figure figure_style figure_written panels style_file styled",
 }
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = sorted(_HOME)
 

@@ -59,8 +59,8 @@ def pinch_thresholds(
     least : mapping of str to ndarray, shape (N,)
         Cone -> the least squeeze in closed form [N].
     slips : mapping of str to mapping of float to ndarray, shape (N,)
-        Cone -> share of the least squeeze -> whether a step slips. A step is marked where it does
-        what the closed form says.
+        Cone -> share of the least squeeze -> whether a step slips [-]. A step is marked where it
+        does what the closed form says.
     """
     with figure_style():
         figure, axes = plt.subplots(figsize=sized(4.8, 3.4))

@@ -88,7 +88,16 @@ class Pen2D(Pen):
         return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """From the farthest to the nearest, half-spaces first."""
+        """From the farthest to the nearest, half-spaces first.
+
+        Parameters
+        ----------
+        of : Moment
+        centre : ndarray, shape (3,)
+            Of what is drawn of a half-space [m].
+        half : float
+            Half the length of its edges [m].
+        """
         bounded = []
         for placed in of.shapes:
             if isinstance(placed.shape, HalfSpace):
@@ -135,7 +144,13 @@ class Pen2D(Pen):
             self._fill(outline, CONE_FACE, CONE_EDGE, alpha=0.35, zorder=6)
 
     def arrow(self, start: Array, along: Array) -> None:
-        """An arrow whose head keeps its size."""
+        """An arrow whose head keeps its size.
+
+        Parameters
+        ----------
+        start, along : ndarray, shape (3,)
+            Its tail, and the way from there to its head [m].
+        """
         (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
         self.axes.annotate(
             "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
@@ -144,7 +159,14 @@ class Pen2D(Pen):
         )  # fmt: skip
 
     def finish(self, box: Array, view: str | Camera) -> None:
-        """Coordinates along an axis of the world only."""
+        """Coordinates along an axis of the world only.
+
+        Parameters
+        ----------
+        box : ndarray, shape (2, 3)
+            Least and largest coordinates of what is drawn [m].
+        view : str or Camera
+        """
         corners = self.seen(np.array(np.meshgrid(*box.T)).reshape(3, -1).T)
         (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
         self.axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
@@ -164,7 +186,16 @@ class Pen3D(Pen):
         return MILLI * np.atleast_2d(points)
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """Solids as the faces of their hulls."""
+        """Solids as the faces of their hulls.
+
+        Parameters
+        ----------
+        of : Moment
+        centre : ndarray, shape (3,)
+            Of what is drawn of a half-space [m].
+        half : float
+            Half the length of its edges [m].
+        """
         for placed in of.shapes:
             if isinstance(placed.shape, HalfSpace):
                 corners = self.seen(patch(placed.shape, centre, half))
@@ -186,12 +217,25 @@ class Pen3D(Pen):
             self._polygons(faces(self.seen(points)), CONE_FACE, CONE_EDGE, 0.3)
 
     def arrow(self, start: Array, along: Array) -> None:
-        """An arrow whose head is a share of its length."""
+        """An arrow whose head is a share of its length.
+
+        Parameters
+        ----------
+        start, along : ndarray, shape (3,)
+            Its tail, and the way from there to its head [m].
+        """
         ends = *self.seen(start)[0], *self.seen(along)[0]
         self.axes.quiver(*ends, color=CONTACT, linewidth=scaled(1.6), arrow_length_ratio=0.2)
 
     def finish(self, box: Array, view: str | Camera) -> None:
-        """A cube about the box."""
+        """A cube about the box.
+
+        Parameters
+        ----------
+        box : ndarray, shape (2, 3)
+            Least and largest coordinates of what is drawn [m].
+        view : str or Camera
+        """
         centre, half = box.mean(axis=0), np.ptp(box, axis=0).max() / 2
         low, high = MILLI * (centre - half), MILLI * (centre + half)
         for k, name in enumerate("xyz"):

@@ -23,12 +23,13 @@ Vector = Sequence[float]
 
 def position(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
     """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
-    own, at = delta_q[joint.v], q[joint.q]
+    own = delta_q[joint.v]
     if joint.kind == "planar":
         own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
-    moved = translation(own[:3], own[3:])
-    R = _rotation(joint, q)
-    return [at[i] + dot(R[i], moved) for i in ((0, 1) if joint.kind == "planar" else (0, 1, 2))]
+    x, y, z = translation(own[:3], own[3:])
+    rows = zip(q[joint.q], _rotation(joint, q), strict=False)  # the quaternion comes after
+    there = [at + (a * x + b * y + c * z) for at, (a, b, c) in rows]
+    return there[:2] if joint.kind == "planar" else there
 
 
 def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
@@ -112,12 +113,6 @@ def linear_part(t: Vector, w: Vector) -> list[float]:
     return _combined(t, w, a, -0.5, 1 - a / 2 / math.tan(a / 2) if a else 0.0)
 
 
-def cross(w: Vector, v: Vector) -> list[float]:
-    """The product w x v of three numbers each [any unit]."""
-    (p, q, r), (x, y, z) = w, v
-    return [q * z - r * y, r * x - p * z, p * y - q * x]
-
-
 def dot(w: Vector, v: Vector) -> float:
     """The product w'v of three numbers each [any unit]; ``sum`` rounds as its Python does."""
     (p, q, r), (x, y, z) = w, v
@@ -126,9 +121,13 @@ def dot(w: Vector, v: Vector) -> float:
 
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
     """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
-    rest, along = 1 - twice, twice * dot(w, v) / (a * a) if a * a else 0.0
-    w_x_v = cross(w, v)
-    return [rest * v[i] + once * w_x_v[i] + along * w[i] for i in (0, 1, 2)]
+    (x, y, z), (p, q, r), rest = v, w, 1 - twice
+    along = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0
+    return [
+        rest * x + once * (q * z - r * y) + along * p,
+        rest * y + once * (r * x - p * z) + along * q,
+        rest * z + once * (p * y - q * x) + along * r,
+    ]
 
 
 def _rotation(joint: Joint, q: list[float]) -> list[list[float]]:

@@ -165,8 +165,9 @@ class System:
         order = self._order
         after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
         q_next = order.paper_q(after)
+        at, change = q.tolist(), delta_q.tolist()
         for joint in self._bases:
-            q_next[screw.place(joint)] = screw.position(joint, q.tolist(), delta_q.tolist())
+            q_next[screw.place(joint)] = screw.position(joint, at, change)
         return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:

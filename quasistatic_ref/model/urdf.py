@@ -19,7 +19,7 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.urdf_file import UrdfFile, urdf_file
 from quasistatic_ref.model.urdf_inertia import checked_inertias, group_inertias
-from quasistatic_ref.model.urdf_shapes import checked_shapes, resolved_text
+from quasistatic_ref.model.urdf_shapes import checked_shapes, resolved_text, same_pose
 from quasistatic_ref.model.urdf_tree import link_poses
 from quasistatic_ref.tolerances import LOADED
 
@@ -92,7 +92,7 @@ def loaded_urdf(
         inertias = checked_inertias(file, free)
         text = resolved_text(file, package_dirs)
         model, geometry = _loaded(text, base)
-        _check_names(file, model, base)
+        _check_names(file, model, moving)
         _check_poses(file, model)
         _check_inertias(file, model)
         links = (file.root, *(joint.child for joint in file.joints))
@@ -143,18 +143,13 @@ def _loaded(text: str, base: str) -> tuple[Any, Any]:
     return model, geometry
 
 
-def _check_names(file: UrdfFile, model: Any, base: str) -> None:
+def _check_names(file: UrdfFile, model: Any, moving: Sequence[str]) -> None:
     frames = [frame.name for frame in model.frames if frame.type == pin.FrameType.BODY]
-    said = {
-        "links": (sorted(file.links), sorted(frames)),
-        "joints": (
-            sorted([j.name for j in file.joints if j.kind != "fixed"] + [BASE] * (base != "fixed")),
-            sorted(list(model.names)[1:]),
-        ),
-    }
-    for what, (written, loaded) in said.items():
-        if written != loaded:
-            raise ModelError(f"differ from those loaded, {loaded}", field=what, value=written)
+    joints = list(model.names)[1:]  # the first is the universe
+    for what, written, loaded in (("links", file.links, frames), ("joints", moving, joints)):
+        if sorted(written) != sorted(loaded):
+            problem = f"differ from those loaded, {sorted(loaded)}"
+            raise ModelError(problem, field=what, value=sorted(written))
 
 
 def _check_poses(file: UrdfFile, model: Any) -> None:
@@ -170,9 +165,7 @@ def _check_poses(file: UrdfFile, model: Any) -> None:
         pin.framesForwardKinematics(model, data, q)
         poses = link_poses(file.root, file.joints, positions)
         for link, (R, t) in poses.items():
-            placement = data.oMf[body_frame(model, link)]
-            off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
-            if off or np.abs(placement.rotation - R).max() > LOADED:
+            if not same_pose(data.oMf[body_frame(model, link)], R, t):
                 problem = "its joint's origin, axis or mimic was not loaded as written"
                 raise ModelError(problem, field=f"link[{link}]")
 

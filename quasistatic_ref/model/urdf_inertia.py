@@ -61,7 +61,8 @@ def checked_inertias(file: UrdfFile, free: Collection[str]) -> tuple[str, ...]:
             defect = inertia_defect(whole.inertia)
             if defect is not None:
                 named = next(((link, d) for link, d in defects if d is not None), (first, defect))
-                raise _refusal(*named)
+                link, (field, problem, value) = named
+                raise ModelError(problem, field=f"link[{link}].inertial.{field}", value=value)
         notes += [
             f"link[{link}].inertial.{defect[0]}: {defect[1]}; harmless here"
             for link, defect in defects
@@ -95,11 +96,6 @@ def _whole(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> F
         d = centre - com
         inertia += R @ link.inertia @ R.T + link.mass * (d @ d * np.eye(3) - np.outer(d, d))
     return FileLink("", mass, com, inertia, ())
-
-
-def _refusal(link: str, defect: tuple[str, str, object]) -> ModelError:
-    field, problem, value = defect
-    return ModelError(problem, field=f"link[{link}].inertial.{field}", value=value)
 
 
 def _spatial_inertia(link: FileLink) -> Array:

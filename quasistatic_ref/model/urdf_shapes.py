@@ -14,6 +14,7 @@ from quasistatic_ref.model.mesh_files import hull_note, hull_of_loaded, mesh_pat
 from quasistatic_ref.model.shapes import PlacedShape, Solid
 from quasistatic_ref.model.urdf_file import FileMesh, UrdfFile
 from quasistatic_ref.model.urdf_xml import xml_root
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
 
@@ -66,9 +67,8 @@ def checked_shapes(
             raise ModelError(problem, field=where, value=len(said))
         for count, ((shape, R, t), given) in enumerate(zip(said, loaded, strict=True)):
             placement = model.frames[frame].placement.actInv(given.placement)
-            off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
-            off |= np.abs(placement.rotation - R).max() > LOADED
-            solid = None if off else _solid(shape, given, f"{where}[{count}]")
+            same = same_pose(placement, R, t)
+            solid = _solid(shape, given, f"{where}[{count}]") if same else None
             if solid is None:
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
@@ -78,6 +78,12 @@ def checked_shapes(
             at = (placement.rotation, placement.translation)
             shapes.append(PlacedShape(name, number, *at, solid))
     return tuple(shapes), tuple(notes)
+
+
+def same_pose(placement: Any, R: Array, t: Array) -> bool:
+    """Whether pinocchio's placement is that of a file, (3, 3) and (3,) [m], but for rounding."""
+    off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
+    return not (off or np.abs(placement.rotation - R).max() > LOADED)
 
 
 def _solid(shape: Solid | FileMesh, given: Any, where: str) -> Any:

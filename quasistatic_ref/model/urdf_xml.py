@@ -121,7 +121,16 @@ class Tag:
         return values
 
     def number(self, name: str, default: float | None = None, most: float = LARGE) -> float:
-        """The one number of an attribute [its unit], as :meth:`numbers` reads it."""
+        """The one number of an attribute [its unit], as :meth:`numbers` reads it.
+
+        Parameters
+        ----------
+        name : str
+        default : float, optional
+            Where the attribute is missing [its unit].
+        most : float
+            Largest magnitude [its unit].
+        """
         return float(self.numbers(name, 1, default, most)[0])
 
     def only(self, *known: str) -> None:

@@ -10,13 +10,13 @@ import numpy as np
 
 from quasistatic_ref.errors import ScenarioError, suggestion
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.model.body import BASES
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.paths import path_in, shared_folders
-from quasistatic_ref.simulate.tables import BODY, WRENCH, ZERO, check_names, pose
+from quasistatic_ref.simulate.scenario_table import BODY, WAYPOINT, WRENCH, value
+from quasistatic_ref.simulate.tables import check_names, pose
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, positive_definite
 
@@ -87,37 +87,25 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     urdf = path_in(folder, table, "urdf")
     if urdf is None:
         raise table.fail("urdf", "is missing")
-    base = table.text("base", "fixed", BASES)
-    actuated = table.take("actuated", [])
+    base, actuated = value(table, BODY, "base"), value(table, BODY, "actuated")
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
             raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
         actuated = tuple(actuated)
-    xyz, rpy = pose(table.table("pose", {}))
+    xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
-    package_dirs = table.sequence("package_dirs", [])
-    if not all(isinstance(given, str) for given in package_dirs):
-        raise table.fail("package_dirs", "must be a list of folders", package_dirs)
+    folders = [folder / given for given in value(table, BODY, "package_dirs")]
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
     entry = BodyEntry(
-        body=Body(
-            name=name,
-            urdf=urdf,
-            base=base,
-            actuated=actuated,
-            xyz=tuple(xyz),
-            rpy=tuple(rpy),
-            positions=start,
-            package_dirs=(*(folder / given for given in package_dirs), *shared_folders(urdf)),
-        ),
+        body=Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf)),
         table=table,
-        K_q=table.take("K_q", None),
-        targets=table.sequence("targets", []),
+        K_q=value(table, BODY, "K_q"),
+        targets=value(table, BODY, "targets"),
         cloud=path_in(folder, table, "cloud"),
-        gravity_compensated=table.boolean("gravity_compensated", True),
+        gravity_compensated=value(table, BODY, "gravity_compensated"),
         wrenches=_wrenches(name, table),
     )
     if entry.wrenches is not None and base == "fixed":
@@ -164,19 +152,19 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             if name != "t" and name not in joints:
                 hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
                 raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
-        t = waypoint.number("t")
+        t = value(waypoint, WAYPOINT, "t")
         if not waypoint.names():
             raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
             if joints[name].kind == "floating":
                 xyz, rpy = pose(waypoint.table(name))
-                value: Any = np.concatenate([xyz, quaternion(rpy)])
+                target: Any = np.concatenate([xyz, quaternion(rpy)])
             elif joints[name].kind == "planar":
-                value = _planar(waypoint, name, entry.body)
+                target = _planar(waypoint, name, entry.body)
             else:
-                value = [waypoint.number(name)]
+                target = [waypoint.number(name)]
             times.setdefault(name, []).append(t)
-            values.setdefault(name, []).append(value)
+            values.setdefault(name, []).append(target)
     return [
         JointTrack(system, joints[name], np.array(times[name]), np.array(values[name]))
         for name in times
@@ -209,13 +197,13 @@ def _planar(waypoint: Fields, name: str, body: Body) -> Array:
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:
     times, values = [], []
-    for i, record in enumerate(table.sequence("wrenches", [])):
+    for i, record in enumerate(value(table, BODY, "wrenches")):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
         check_names(one, WRENCH)
-        times.append(one.number("t"))
+        times.append(value(one, WRENCH, "t"))
         if not {"force", "torque"} & set(one.names()):
             raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
-        values.append(np.concatenate([one.array(key, (3,), ZERO) for key in ("force", "torque")]))
+        values.append(np.concatenate([value(one, WRENCH, key) for key in ("force", "torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():

@@ -61,18 +61,3 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         if max(np.abs(nu_b - nu_at_b).max(), np.abs(omega_b - omega_a).max()) <= WELDED * scale:
             problem = "its two sides cannot move relative to each other, so it can never act"
             raise ScenarioError(problem, field=f"contacts.{pair.name}")
-
-
-def check_twice(pairs: Sequence[ContactPair]) -> None:
-    """Refuse a table that names the same two shapes twice: their friction would count twice.
-
-    Raises
-    ------
-    ScenarioError
-    """
-    seen: set[str] = set()
-    for pair in pairs:
-        if pair.name in seen:
-            problem = "one table names these two shapes twice, and they would count twice"
-            raise ScenarioError(problem, field=f"contacts.{pair.name}")
-        seen.add(pair.name)

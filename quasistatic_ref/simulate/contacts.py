@@ -10,12 +10,13 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError, about_field, suggestion
-from quasistatic_ref.fields import Fields
+from quasistatic_ref.fields import REQUIRED, Fields
 from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.bodies import BodyEntry
-from quasistatic_ref.simulate.tables import CONTACT, check_names
+from quasistatic_ref.simulate.scenario_table import CONTACT, value
+from quasistatic_ref.simulate.tables import check_names
 from quasistatic_ref.simulate.world_shapes import WORLD, world_shape
 
 Shapes = dict[str, list[PlacedShape]]
@@ -56,13 +57,11 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
         table = tables.table(name)
         check_names(table, CONTACT)
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
-        rows = table.integer("rows", 6, choices=(4, 6))
-        mu_v = table.number("mu_v", least=0.0)
-        mu_omega = table.number("mu_omega", *([0.0] if rows == 4 else []), least=0.0)
+        rows, mu_v = value(table, CONTACT, "rows"), value(table, CONTACT, "mu_v")
+        mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
-        k = table.integer("k", 1, least=1)
-        hull = table.boolean("hull", False)
+        k, hull = value(table, CONTACT, "k"), value(table, CONTACT, "hull")
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"
@@ -73,11 +72,11 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
 
 
 def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
-    value = table.take(key)
+    given = value(table, CONTACT, key)
     found: list[PlacedShape] = []
-    for name in value if isinstance(value, list) else [value]:
+    for name in given if isinstance(given, list) else [given]:
         if not isinstance(name, str):
-            raise table.fail(key, "must be a name or a list of names", value)
+            raise table.fail(key, "must be a name or a list of names", given)
         if any(c in name for c in "*?["):
             found += _matching(table, key, name, shapes)
             continue
@@ -87,11 +86,11 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
             raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
         found += shapes[name]
     if not found:
-        raise table.fail(key, "must name at least one shape", value)
+        raise table.fail(key, "must name at least one shape", given)
     names = [shape.name for shape in found]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise table.fail(key, f"names {twice} twice: its friction would count twice", value)
+        raise table.fail(key, f"names {twice} twice: its friction would count twice", given)
     return found
 
 

@@ -18,20 +18,27 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.resources import scenario_path
 from quasistatic_ref.simulate.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
-from quasistatic_ref.simulate.checks import check_motion, check_sizes, check_twice
+from quasistatic_ref.simulate.checks import check_motion, check_sizes
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.scenario_table import (
+    FORMAT,
+    LIMITS,
+    SOLVER,
+    TOP,
+    VERSION,
+    value,
+)
 from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
-from quasistatic_ref.simulate.simulator import GRAVITY, Simulator
-from quasistatic_ref.simulate.tables import LIMITS, SOLVER, TOP, check_made, check_names
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.tables import check_made, check_names
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.words import scenario_page
 from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS, NONE
-from quasistatic_ref.solve.engines import ENGINES, check_solver, default_backend, default_engine
+from quasistatic_ref.solve.engines import check_solver, default_backend, default_engine
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array
@@ -39,11 +46,8 @@ from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.tolerances import ACCURACY
 
-FORMAT = "quasistatic-ref/scenario"
-VERSION = 1
 LARGEST = 2**20
 """Largest scenario file [bytes]."""
-MOST_STEPS = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,27 +191,26 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
-    h, steps = top.number("h", above=0.0), top.integer("steps", least=0, most=MOST_STEPS)
-    gravity = top.array("gravity", (3,), np.array(GRAVITY))
-    named = cone(top.text("cone", PYRAMID)).name
-    record = top.text("record", "full", RECORDS)
-    solver = top.table("solver", {})
+    h, steps, gravity, record = (
+        value(top, TOP, name) for name in ("h", "steps", "gravity", "record")
+    )
+    named = cone(value(top, TOP, "cone")).name
+    solver = value(top, TOP, "solver")
     check_names(solver, SOLVER)
-    certify = solver.text("certify", CERTIFY[0], CERTIFY)
+    certify = value(solver, SOLVER, "certify")
     backend, engine = _asked(solver, certify, named)
-    accuracy = solver.number("accuracy", ACCURACY, above=0.0)
-    limits = _limits(top.table("limits", {}))
+    accuracy = value(solver, SOLVER, "accuracy")
+    limits = _limits(value(top, TOP, "limits"))
 
-    tables = top.table("bodies")
+    tables = value(top, TOP, "bodies")
     entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
     tables.close()
     if not entries:
         raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
-    shapes = placed_shapes(system, entries, top.table("shapes", {}), path.parent)
-    pairs = contact_pairs(top.table("contacts", {}), shapes)
+    shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
+    pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
     check_motion(system, pairs)
-    check_twice(pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
@@ -244,8 +247,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
 
 def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
     """Names of the backend and the engine, looked up here rather than in the first step."""
-    asked = solver.text("engine", None, ENGINES)
-    name = solver.text("backend", default_backend(asked, cone_name, certify))
+    asked = value(solver, SOLVER, "engine")
+    name = value(solver, SOLVER, "backend", default_backend(asked, cone_name, certify))
     engine = asked or default_engine(name, cone_name)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
@@ -260,6 +263,5 @@ def _asked(solver: Fields, certify: str, cone_name: str) -> tuple[str, str]:
 def _limits(table: Fields) -> Limits:
     check_names(table, LIMITS)
     return Limits(
-        penetration=table.number("penetration", Limits.penetration, above=0.0),
-        reach=table.number("reach", Limits.reach, above=0.0),
+        penetration=value(table, LIMITS, "penetration"), reach=value(table, LIMITS, "reach")
     )

@@ -12,21 +12,11 @@ import numpy as np
 
 from quasistatic_ref.errors import ScenarioError, known_names, nearest_name
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.simulate.scenario_table import POSE, TABLES, value
 from quasistatic_ref.step.data import Array
 
 ZERO = np.zeros(3)
-TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
-BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
-NAMES: dict[str, tuple[str, ...]] = {
-    TOP: ("format", "version", "h", "steps", "gravity", "cone", "record", "solver", "limits",
-          "bodies", "shapes", "contacts"),
-    SOLVER: ("backend", "engine", "accuracy", "certify"),
-    LIMITS: ("penetration", "reach"),
-    BODY: ("urdf", "base", "actuated", "pose", "positions", "package_dirs", "K_q", "targets",
-           "cloud", "gravity_compensated", "wrenches"),
-    CONTACT: ("alpha", "beta", "mu_v", "mu_omega", "rows", "k", "hull"),
-    WRENCH: ("t", "force", "torque"),
-}  # fmt: skip
+NAMES = {kind: tuple(fields) for kind, fields in TABLES.items()}
 """Names by kind of table."""
 NAMED = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
@@ -65,7 +55,7 @@ def _elsewhere(name: str, kind: str) -> str:
 
 def pose(table: Fields, xyz: Array = ZERO) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
-    found = table.array("xyz", (3,), xyz), table.array("rpy", (3,), ZERO)
+    found = value(table, POSE, "xyz", xyz), value(table, POSE, "rpy")
     table.close()
     return found
 

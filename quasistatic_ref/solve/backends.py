@@ -116,10 +116,6 @@ def _clarabel(accuracy: float) -> Attempts:
     )
 
 
-def _plain_clarabel(accuracy: float) -> Options:
-    return dict.fromkeys(("tol_feas", "tol_gap_abs", "tol_gap_rel"), accuracy)
-
-
 def _osqp(accuracy: float) -> Attempts:
     # No polishing: it prints to standard output, and improves none of the worst answers.
     common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
@@ -128,10 +124,6 @@ def _osqp(accuracy: float) -> Attempts:
     # bunny_grasp), where the adaptive one, which may run away to 1e6, leaves 34 unsolved.
     fixed = common | {"adaptive_rho": False, "rho": 0.3}
     return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
-
-
-def _plain_osqp(accuracy: float) -> Options:
-    return {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 20_000}
 
 
 def _piqp(accuracy: float) -> Attempts:
@@ -148,25 +140,22 @@ def _piqp(accuracy: float) -> Attempts:
     return (common | gap, common | rounded)
 
 
-def _plain_proximal(accuracy: float) -> Options:
-    gap = {"eps_duality_gap_abs": accuracy, "eps_duality_gap_rel": 0.0}
-    return {"eps_abs": accuracy, "eps_rel": 0.0, "check_duality_gap": True} | gap
+def _tolerances(*names: str, **others: Any) -> Callable[[float], Options]:
+    """Options of which some are the accuracy, and others are what they are."""
+    return lambda accuracy: dict.fromkeys(names, accuracy) | others
 
 
-def _daqp(accuracy: float) -> Options:
-    return {"primal_tol": accuracy, "dual_tol": accuracy}
+def _once(options: Callable[[float], Options]) -> Callable[[float], Attempts]:
+    return lambda accuracy: (options(accuracy),)
 
 
-def _proxqp(accuracy: float) -> Attempts:
-    return ({"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 20_000},)
-
-
-def _scs(accuracy: float) -> Attempts:
-    return ({"eps_abs": accuracy, "eps_rel": accuracy, "max_iters": 200_000},)
-
-
-def _plain_scs(accuracy: float) -> Options:
-    return {"eps_abs": accuracy, "eps_rel": 0.0, "max_iters": 20_000}
+_plain_clarabel = _tolerances("tol_feas", "tol_gap_abs", "tol_gap_rel")
+_plain_osqp = _tolerances("eps_abs", eps_rel=0.0, max_iter=20_000)
+_plain_scs = _tolerances("eps_abs", eps_rel=0.0, max_iters=20_000)
+_scs = _tolerances("eps_abs", "eps_rel", max_iters=200_000)
+_daqp = _tolerances("primal_tol", "dual_tol")
+_gap = {"check_duality_gap": True, "eps_duality_gap_rel": 0.0}
+_plain_proximal = _tolerances("eps_abs", "eps_duality_gap_abs", eps_rel=0.0, **_gap)
 
 
 def _highs(accuracy: float) -> Attempts:
@@ -190,19 +179,19 @@ BACKENDS: dict[str, Backend] = {
         Backend("piqp", "proximal interior point", _piqp, _plain_proximal, adapter="Piqp",
                 sparse=True, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
-        Backend("daqp", "dual active set", lambda accuracy: (_daqp(accuracy),), _daqp,
+        Backend("daqp", "dual active set", _once(_daqp), _daqp,
                 adapter="Daqp", warm=("qpsolvers",), required=True),
-        Backend("proxqp", "augmented Lagrangian", _proxqp, _plain_proximal, warm=BOTH,
+        Backend("proxqp", "augmented Lagrangian", _once(_plain_osqp), _plain_proximal, warm=BOTH,
                 package="proxsuite"),
-        Backend("scs", "operator splitting", _scs, _plain_scs, time_limit="time_limit_secs",
+        Backend("scs", "operator splitting", _once(_scs), _plain_scs, time_limit="time_limit_secs",
                 warm=BOTH, cones=True),
         Backend("highs", "active set", _highs, _plain_highs, floor=1e-10, warm=("cvxpy",),
                 time_limit="time_limit", package="highspy"),
         # The method has no tolerance.
         Backend("quadprog", "dual active set", lambda _: ({},), None, adapter="Quadprog",
                 cvxpy=False, stops=False),
-        Backend("qpalm", "augmented Lagrangian", lambda accuracy: (_plain_osqp(accuracy),),
-                _plain_osqp, warm=BOTH, steps=False),
+        Backend("qpalm", "augmented Lagrangian", _once(_plain_osqp), _plain_osqp,
+                warm=BOTH, steps=False),
     )
 }  # fmt: skip
 ENDLESS = frozenset(b.name for b in BACKENDS.values() if not b.stops)

@@ -76,6 +76,7 @@ class NativeSolver(Solver):
         super().__init__(like, name)
         module = import_module(f"quasistatic_ref.solve.adapters.{name}")  # needs its package
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
+        self.sizes = sizes(like)
         self.warm = warm and self.adapter.WARM
         self.metric: Metric | None = None
         self.program: Program | SparseProgram = self.empty()
@@ -93,10 +94,9 @@ class NativeSolver(Solver):
 
     def takes(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
-        like = self.like
-        sizes = [(s.n_a, s.n_u, len(s.extra.names)) for s in (like, step)]
         # Steps whose rows are laid out alike share that layout, which takes no time to see.
-        return (step.layout is like.layout and sizes[0] == sizes[1]) or super().takes(step)
+        alike = step.layout is self.like.layout and sizes(step) == self.sizes
+        return alike or super().takes(step)
 
     def scaled(self, step: StepData) -> NaturalStep:
         """The step in natural units; what H gives of them is kept while H is the same array."""
@@ -135,6 +135,11 @@ class NativeSolver(Solver):
         held.metric, held.warm = self.metric, reply.solved
         attempt.held = held
         return reply
+
+
+def sizes(step: StepData) -> tuple[int, int, int]:
+    """n_a, n_u and the number of rows of the user's own."""
+    return step.tau_a.size, step.tau_u.size, len(step.extra.names)
 
 
 @dataclass(eq=False)

@@ -51,10 +51,7 @@ class Points(Plain):
     @cached_property
     def mu(self) -> Array:
         """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
-        mu = np.empty((self.n_c, 3))
-        mu[:, 0] = mu[:, 1] = self.mu_v
-        mu[:, 2] = self.mu_omega * (self.rows == 6)
-        return read_only(mu)
+        return friction_coefficients(self.mu_v, self.mu_omega, self.rows)
 
     def _check_rows(self, n_c: int) -> None:
         whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
@@ -141,6 +138,11 @@ class Contacts(Points):
     def dense(self) -> Contacts:
         """Themselves; see :class:`SparseContacts`."""
         return self
+
+
+def friction_coefficients(mu_v: Array, mu_omega: Array, rows: NDArray[np.int64]) -> Array:
+    """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
+    return read_only(np.column_stack([mu_v, mu_v, mu_omega * (rows == 6)]))
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,6 @@ not used has the leading rows only, and a spin of zero.
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -147,9 +146,8 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     tuple of ndarray, each of shape (n_c, w)
         The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
     """
-    J_n, J_1, J_2 = (
-        (axis[:, None] @ J[:, :3])[:, 0] for axis in (contacts.n, contacts.d1, contacts.d2)
-    )
+    axes = np.array([contacts.n, contacts.d1, contacts.d2])
+    J_n, J_1, J_2 = (axes[:, :, None] @ J[:, :3])[:, :, 0]
     return J_n, J_1, J_2, J[:, 3]
 
 
@@ -177,7 +175,8 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     if name == ELLIPSOID:
         return np.stack([J_n, J_1, J_2, J_w], axis=1)
     mu_v, _, mu_omega = contacts.mu.T[:, :, None]
-    return np.stack(cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w), axis=1)
+    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
+    return np.array(rows).swapaxes(0, 1)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
@@ -188,7 +187,7 @@ def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
     ndarray, shape (n_c, R)
     """
     of_gap = np.eye(4)[0] if name == ELLIPSOID else cone_matrix(name)[:, 0]
-    return np.asarray(np.multiply.outer(contacts.phi, of_gap))
+    return np.asarray(contacts.phi[:, None] * of_gap)
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -218,37 +217,3 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     mu_v, _, mu_omega = contacts.mu.T
     wrench = np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n])
     return wrench.T / h
-
-
-def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
-    """The same combination of the same float64 numbers, rounded once, at its end.
-
-    Parameters
-    ----------
-    contacts, lam, h, name
-        As those of :func:`contact_wrenches`; lam is finite.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
-        :func:`contact_wrenches` may miss by the rounding of its sums; infinite beyond their range.
-    """
-    matrix = np.eye(4) if name == ELLIPSOID else cone_matrix(name)
-    ends = row_layout(name, contacts.rows.tobytes()).offsets
-    wrench = np.zeros((contacts.n_c, 4))
-    for j in range(contacts.n_c):
-        mu = (1.0, *contacts.mu[j].tolist()) if name != ELLIPSOID else (1.0,) * 4
-        impulses = enumerate(lam[ends[j] : ends[j + 1]].tolist())
-        pressed = [(Fraction(f), matrix[i].tolist()) for i, f in impulses if f]
-        for k, column in enumerate((1, 2, 0, 3)):
-            total = sum(Fraction(share[column]) * f for f, share in pressed)
-            wrench[j, k] = _nearest(Fraction(mu[column]) * total / Fraction(h))
-    return wrench + 0.0
-
-
-def _nearest(x: Fraction) -> float:
-    try:
-        return float(x)
-    except OverflowError:
-        return float("inf") if x > 0 else float("-inf")

@@ -6,7 +6,7 @@ same numbers. Whatever is made of their parts by hand, also through ``replace``,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from typing import NamedTuple
 
 from quasistatic_ref.step.arrays import Array, Indices, definite
@@ -74,11 +74,21 @@ def constants(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PosedContacts(Contacts):
-    """Contacts of a layout that was checked, at points and normals that were measured."""
+    """Contacts of a layout that was checked, at points and normals that were measured.
 
-    def __post_init__(self) -> None:
+    Parameters
+    ----------
+    known_mu : ndarray, shape (n_c, 3), optional
+        Their ``mu`` [-, -, m], where it was formed before.
+    """
+
+    known_mu: InitVar[Array | None] = None
+
+    def __post_init__(self, known_mu: Array | None) -> None:
         for array in (self.phi, self.n, self.d1, self.d2, self.J):
             array.setflags(write=False)
+        if known_mu is not None:
+            object.__setattr__(self, "mu", known_mu)
 
     @classmethod
     def compared_as(cls) -> type:
@@ -107,9 +117,9 @@ class PosedStep(StepData):
     ) -> None:
         for array in (tau_a, tau_u, delta_q_bar_a):
             array.setflags(write=False)
-        own = (tau_a, tau_u, delta_q_bar_a, contacts)
+        own, put = (tau_a, tau_u, delta_q_bar_a, contacts), object.__setattr__
         for key, value in zip(NAMES, (*constant, *own), strict=True):
-            object.__setattr__(self, key, value)
+            put(self, key, value)
 
     @classmethod
     def compared_as(cls) -> type:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from quasistatic_ref.plain import Plain
-from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.show import shown
@@ -102,13 +103,12 @@ class StepSolution(Plain):
         contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
     lam_extra : ndarray, shape (extra rows,)
         Multipliers of the user's own rows [N s, for rows in m].
-    wrench : ndarray, shape (n_c, 4)
-        Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    step : StepData
+        What it is the optimum of.
     backend : str
     certificate : Certificate
     statistics : SolverStatistics
         Not compared: wall times are in it.
-    cone : str
 
     Notes
     -----
@@ -118,17 +118,28 @@ class StepSolution(Plain):
     delta_q: Array
     lam: Array
     lam_extra: Array
-    wrench: Array
+    step: StepData
     backend: str
     certificate: Certificate
     statistics: SolverStatistics = field(compare=False)
-    cone: str = "pyramid"
 
     __repr__, _repr_html_ = shown(solution_page)
 
     def __post_init__(self) -> None:
-        for key in ("delta_q", "lam", "lam_extra", "wrench"):
-            read_only(getattr(self, key))
+        for array in (self.delta_q, self.lam, self.lam_extra):
+            array.setflags(write=False)
+
+    @cached_property
+    def wrench(self) -> Array:
+        """Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body, shape (n_c, 4) [N, N m]."""
+        step = self.step
+        of_step = step.contacts, self.lam, step.h, step.cone
+        return read_only(QUIET.copy().run(contact_wrenches, *of_step))
+
+    @property
+    def cone(self) -> str:
+        """The friction cone of its contacts."""
+        return self.step.cone
 
     @property
     def status(self) -> str:
@@ -149,9 +160,8 @@ def step_solution(
         delta_q=delta_q,
         lam=lam[:m],
         lam_extra=lam[m:],
-        wrench=contact_wrenches(step.contacts, lam[:m], step.h, step.cone),
+        step=step,
         backend=statistics.backend,
         certificate=certificate,
         statistics=statistics,
-        cone=step.cone,
     )

@@ -20,7 +20,7 @@ from quasistatic_ref.files import json_read, json_text
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
-from quasistatic_ref.step.friction import rounded_wrenches
+from quasistatic_ref.step.rounded_wrench import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"

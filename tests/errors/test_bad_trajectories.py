@@ -137,7 +137,7 @@ CAUSES = {
     ),
     "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: must be 'quas"),
     "warnings that are none": (
-        lambda run: rewritten(run, header={"warnings": [3]}), "warnings: must be sentences",
+        lambda run: rewritten(run, header={"warnings": [3]}), "warnings: must be a list of strings",
     ),
     "a later version": (lambda run: rewritten(run, header={"version": 2}), "reads 1 (got 2)"),
     "no version": (lambda run: rewritten(run, header={"version": ...}), "version: is missing"),

@@ -60,8 +60,8 @@ SAMPLE = (
     f"{FARKAS} farkas_refutation: y_i < 0 -> y_i > 0",
     f"{FARKAS} farkas_refutation: (row * form.b)[0, 0] > 0 -> (row * form.b)[0, 0] >= 0",
     f"{CLAIMS} _wrong_sign: slack_i < 0 -> slack_i > 0",
-    f"{CLAIMS} _wrong_sign: lam_i < 0 -> lam_i > 0",
-    f"{CLAIMS} _wrong_claim: lam_i > 0 -> lam_i >= 0",
+    f"{CLAIMS} _wrong_sign: lam_i <= 0 -> lam_i < 0",
+    f"{CLAIMS} _wrong_claim: i not in working -> i in working",
 )
 UNCHANGED = (PAGE, CONES, JUDGE, FARKAS)
 

@@ -2,13 +2,24 @@
 
 import numpy as np
 import pytest
+from flint import fmpq
 
-from quasistatic_ref.certify.bound import error_bound, opening_direction
+from quasistatic_ref.certify.bound import enclosed_answer, error_bound, opening_direction
 from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.gap import energy, fractions, free_energy
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import error, point_on_floor
+from tests.tolerances import ROUNDING
 from tests.unit.test_farkas import EAST, point_between_walls
+from validation.random_steps import any_step
+
+FUZZED = 200
+"""Random steps with answers made to look good: two seconds."""
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-14, 1e-9, 1e-4, 1.0, 10.0])
@@ -60,3 +71,82 @@ def test_opening_direction_opens_every_row():
         direction = opening_direction(step)
         assert direction is not None
         assert (standard_form(step).A @ direction > 0).all()
+
+
+def test_the_way_to_a_feasible_point_is_part_of_the_bound():
+    """An answer that is off along the opening direction, with optimal multipliers.
+
+    The point that it is moved to is the optimum itself: without the way there is no error to see.
+    """
+    for seed in range(5):
+        step = grasp_step(np.random.default_rng(seed))
+        exact, d = exact_step(step), opening_direction(step)
+        off = 1e-3 * np.abs(exact.delta_q).max() / np.abs(d).max()
+        delta_q = exact.delta_q - off * d
+        size = error(step, delta_q, exact.delta_q)
+        bound = error_bound(step, delta_q, exact.lam)
+        assert size <= bound.error <= 10 * size
+
+
+def test_multipliers_below_zero_bound_nothing():
+    """A body falls freely, 1 m above a floor, by x = -h^2 g; it is said to have moved by x / 2.
+
+    The floor, pulling by the missing half of its weight, would balance that; as a multiplier of
+    -H x / 2 with a slack of 1 m it would even make the gap negative. The error is one half.
+    """
+    step = point_on_floor(m=0.3, mu_v=0.0, phi=1.0, force=(0.0, 0.0, -3.0))
+    x = exact_step(step).delta_q
+    form = standard_form(step)
+    lam = np.array([-np.linalg.norm(form.H @ x / 2 - form.g), 0.0, 0.0, 0.0])
+    assert error_bound(step, x / 2, lam).error >= 0.5 * (1 - ROUNDING)
+    # Of the guess that it stands on the floor, which would have to pull it down.
+    guessed = enclosed_answer(step, [0])
+    assert guessed.error >= error(step, guessed.delta_q, x) * (1 - ROUNDING) > 1.0
+
+
+def made_up(rng, step, exact):
+    """An answer that is wrong in a way that a careless bound does not see, and its multipliers."""
+    form, d = standard_form(step), opening_direction(step)
+    size = 10.0 ** rng.uniform(-9, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
+    delta_q, lam = exact.delta_q.copy(), exact.lam.copy()
+    if d is not None and rng.random() < 0.5:
+        delta_q += rng.choice([-1.0, 1.0]) * size * d / np.abs(d).max()
+    else:
+        delta_q += size * rng.standard_normal(len(delta_q))
+    if rng.random() < 0.5 and len(lam):  # multipliers of any sign that balance it
+        lam = np.linalg.lstsq(form.A.T, form.H @ delta_q - form.g, rcond=None)[0]
+    return delta_q, lam * rng.choice([1.0, 0.5, 2.0, -1.0])
+
+
+def within(step, exact, delta_q, bound):
+    """Whether an answer is as near to the optimum as a bound says, without rounding of either."""
+    form = exact_form(step)
+    solution = rational_solution(form, exact.working_set)
+    best = [fmpq(v) / solution.denominator for v in solution.x]
+    off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
+    if bound == np.inf:
+        return True
+    (most,) = fractions(np.array([bound]), fmpq(1))
+    return energy(form, off) <= most * most * free_energy(form)
+
+
+def test_no_answer_of_random_steps_has_a_false_bound():
+    rng = np.random.default_rng(3)
+    compared = 0
+    for _ in range(FUZZED):
+        step = any_step(rng, *(int(v) for v in rng.integers((0, 1, 1), (3, 4, 4))))
+        try:
+            exact = exact_step(step)
+        except StepNotSolved:
+            continue
+        if not standard_form(step).g.any():
+            continue  # there is no scale of the error
+        answers = [made_up(rng, step, exact) for _ in range(2)]
+        bounds = [(delta_q, error_bound(step, delta_q, lam).error) for delta_q, lam in answers]
+        guess = rng.permutation(len(exact.lam))[: rng.integers(3)]
+        if (found := enclosed_answer(step, sorted(guess.tolist()))) is not None:
+            bounds.append((found.delta_q, found.error))
+        for delta_q, bound in bounds:
+            compared += np.isfinite(bound)
+            assert within(step, exact, delta_q, bound)
+    assert compared > FUZZED

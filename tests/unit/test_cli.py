@@ -438,6 +438,15 @@ def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, mo
         assert ("step/s" in terminal.getvalue()) is shown
 
 
+@pytest.mark.parametrize(
+    "words", [["figures", "cone_surfaces"], ["validate", "incline_sliding"]], ids=lambda w: w[0]
+)
+def test_quiet_is_taken_by_whatever_says_what_it_does(words, tmp_path, capsys):
+    for more, shown in (([], True), (["--quiet"], False)):
+        assert main([*words, "--out", str(tmp_path), *more]) == 0
+        assert (f"{words[1]} ..." in capsys.readouterr().err) is shown
+
+
 def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
     assert main(["run", "block_incline", "--quiet", "--out", str(tmp_path)]) == 0
     warned = capsys.readouterr().err

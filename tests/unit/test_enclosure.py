@@ -129,6 +129,19 @@ def test_a_wrong_answer_is_refuted():
     assert "nothing is proved without lam" in verify(step, answer.delta_q, (), None, claims).reason
 
 
+def test_impulses_outside_of_their_cones_are_refuted_without_a_claimed_gap():
+    """Of a contact that slips, with half of its normal part: raised into its cone it is optimal."""
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    claims = replace(answer.certificate, gap=None)
+    assert verify(step, answer.delta_q, claims.active, flat(answer), claims)
+    lam = flat(answer)
+    lam[::4] *= 0.5
+    for claimed in (claims, answer.certificate):
+        verdict = verify(step, answer.delta_q, claims.active, lam, claimed)
+        assert "outside of" in verdict.reason
+
+
 def test_an_exact_claim_is_checked_to_the_last_bit():
     step = round_step(pinch(grip=5.0, offset=0.02))
     answer = solve_step(step)

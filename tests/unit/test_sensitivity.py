@@ -13,12 +13,14 @@ from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.certificate import exact_certificate
+from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.sensitivity import sensitivity
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
 from tests.helpers import (
     changed,
     pinch,
@@ -192,6 +194,25 @@ def test_a_contact_that_touches_without_load_holds_on_one_side_only():
     assert "h" not in found.why_not  # nothing drives it, whatever h is
     (below, at, above), _ = moved(step, ("tau_u", 2), ())
     assert above[2] > at[2] == below[2]
+
+
+def test_two_rows_that_press_only_against_each_other_are_strictly_active():
+    """X >= 0 and -x >= 0 at x = 0 and no load: any equal multipliers of both are optimal.
+
+    Neither is in the working set, and each alone would hold on one side only; together they pin x.
+    """
+    pair = Extra(("east", "west"), np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.zeros(2))
+    step = point_on_floor(phi=1.0).replace(extra=pair)
+    answer = solve_step(step)
+    assert answer.certificate.active == ()
+    assert answer.certificate.differentiable
+    assert not answer.certificate.multipliers_unique
+    form = exact_form(step)
+    assert strictly_active(form, (), (4, 5)) == [4, 5]
+    assert strictly_active(form, (), (4,)) == []
+    found = found_at(step)
+    assert not {"tau_u[0]", "h", "phi[c0]"} & set(found.why_not)
+    np.testing.assert_allclose(found.tau_u[:, 0], 0.0, rtol=EXACT, atol=EXACT)
 
 
 def test_exactly_at_the_limit_of_friction_a_push_has_no_derivative_but_far_things_do():

@@ -20,6 +20,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
     )
     shared.add(parser, "--out", default="figures")
+    shared.add(parser, "--quiet")
 
 
 def _examples() -> Sequence[str]:
@@ -47,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     with figure_style(options.style):
         writable_folder(options.out)
         for name in options.names or EXAMPLES:
-            print(f"{name} ...", file=sys.stderr)
+            shared.progress_line(options, f"{name} ...")
             try:
                 figure = figure_of(name)
             except InputError as error:  # a robot of an extra that is not installed

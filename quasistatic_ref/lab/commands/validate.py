@@ -26,7 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
     shared.completed(names, lambda: BY_NAME)
     shared.add(parser, "--out", default="validation")
-    shared.add(parser, "--json")
+    shared.add(parser, "--json", "--quiet")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -43,9 +43,10 @@ def run(options: argparse.Namespace) -> int:
     chosen = options.names or list(BY_NAME)
     findings: dict[str, Finding] = {}
     for k, name in enumerate(chosen, start=1):
-        print(f"[{k}/{len(chosen)}] {name} ...", end=" ", file=sys.stderr, flush=True)
+        shared.progress_line(options, f"[{k}/{len(chosen)}] {name} ...", end=" ")
         findings[name] = finding(BY_NAME[name])
-        print(f"{findings[name].verdict} ({findings[name].seconds:.1f} s)", file=sys.stderr)
+        took = f"({findings[name].seconds:.1f} s)"
+        shared.progress_line(options, f"{findings[name].verdict} {took}")
     drawn = _figures(findings, options.out)
     sections = {
         title: [findings[name] for name in claims if name in findings]
