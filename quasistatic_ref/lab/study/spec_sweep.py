@@ -13,6 +13,7 @@ from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text
 from quasistatic_ref.lab.study.spec import header
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.tolerances import LARGE
 
 MOST_RUNS = 100_000
 
@@ -76,6 +77,9 @@ class Sweep:
         ]
         if self.duration is not None:
             h = load_scenario(self.scenario, changes).h
+            if not self.duration / h <= LARGE:
+                problem = f"makes more than {LARGE:g} steps of {h:g} s"
+                raise InputError(problem, field="duration", value=self.duration)
             changes.append(f"steps={round(self.duration / h)}")
         return [*changes, 'record="light"']
 
