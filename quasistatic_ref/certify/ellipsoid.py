@@ -115,7 +115,7 @@ def _far_from_balance(step: StepData, delta_q: Array, lam: Array) -> str:
     form = standard_form(step)
     if delta_q.shape != form.g.shape or lam.shape != form.b.shape:
         return "delta_q or lam has another shape than the step wants"
-    norm = energy_norm(form)
+    norm = energy_norm(form.H)
     impulses = norm.impulses(np.stack([form.H @ delta_q - form.g - form.A.T @ lam, form.g]))
     largest = float(np.abs(lam).max(initial=0.0))
     if not impulses[0] <= IMPULSES * max(impulses[1], norm.displacement(delta_q)):

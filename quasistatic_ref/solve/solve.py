@@ -8,10 +8,12 @@ from dataclasses import asdict
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.certify.confirm import BallHessian
+from quasistatic_ref.certify.digits import displacement_digits
 from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import (
     BackendError,
@@ -155,9 +157,11 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     if answer is not None:
         form = natural_form(scaled.form, scaled.units)
         warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-    optimum = exact_step(step, warm)
+    if solver.hessian is None or not solver.hessian.fits(step):
+        solver.hessian = BallHessian(step)
+    optimum = exact_step(step, warm, solver.hessian)
     if answer is not None:
-        statistics = _graded(scaled, answer, optimum.delta_q, optimum.net)
+        statistics = _graded(scaled, answer, optimum.delta_q, solver.hessian.norm)
     residuals = _natural_residuals(scaled, optimum.delta_q, optimum.lam)
     certificate = exact_certificate(step, optimum, residuals)
     return step_solution(step, optimum.delta_q, optimum.lam, certificate, statistics)
@@ -179,7 +183,7 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
     if answer is not None:
-        statistics = _graded(scaled, answer, found.delta_q, found.net)
+        statistics = _graded(scaled, answer, found.delta_q, energy_norm(step.H))
     residuals = _natural_residuals(scaled, found.delta_q, found.lam)
     certificate = enclosure_certificate(step, found, residuals)
     return step_solution(step, found.delta_q, found.lam, certificate, statistics)
@@ -200,11 +204,11 @@ def _attempt(
     return answer, answer.statistics
 
 
-def _graded(scaled: Scaled, answer: Answer, delta_q: Array, net: Array) -> SolverStatistics:
+def _graded(scaled: Scaled, answer: Answer, delta_q: Array, norm: EnergyNorm) -> SolverStatistics:
     """The statistics of a backend with the correct digits of its answer."""
-    said, lam_said = from_natural(answer.delta_q, answer.lam, scaled.units)
-    digits = correct_digits(scaled.step, said, delta_q, lam_said, net)
-    return answer.statistics._replace(digits=digits.delta_q)
+    said, _ = from_natural(answer.delta_q, answer.lam, scaled.units)
+    digits = displacement_digits(norm, scaled.form.g, said - delta_q)
+    return answer.statistics._replace(digits=digits)
 
 
 def _natural_residuals(scaled: Scaled, delta_q: Array, lam: Array) -> dict[str, float]:
