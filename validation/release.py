@@ -131,6 +131,11 @@ RESULTS = (
         ("validation/forgeries.md",),
     ),
     Result(
+        "confirmed_bits",
+        ("validation.confirmed_bits", "--out", "validation/results/confirmed_bits.txt"),
+        ("validation/results/confirmed_bits.txt",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),
