@@ -71,7 +71,13 @@ class Sweep:
         ]
 
     def settings(self, point: Mapping[str, Any]) -> list[str]:
-        """One combination as changes of the scenario."""
+        """One combination as changes of the scenario.
+
+        Raises
+        ------
+        InputError
+            If the study's duration makes too many steps.
+        """
         changes = [
             f"{field}={json_text(point[axis.name])}" for axis in self.axes for field in axis.fields
         ]
