@@ -30,15 +30,6 @@ PRINTED = {
 }
 """Pages with text that a command printed, and what holds it."""
 
-STALE = pytest.mark.xfail(
-    strict=True, reason="docs/speed.md is older than the committed times: write it anew with them"
-)
-IN_WORK = {"docs/speed.md": STALE}
-
-
-def pages(names):
-    return [pytest.param(name, marks=IN_WORK.get(name, ())) for name in sorted(names)]
-
 
 def text(page):
     return (ROOT / page).read_text("utf-8")
@@ -60,13 +51,13 @@ def unheld(page, phrases, meant):
     return [rest[max(m.start() - 60, 0) : m.end()] for m in found]
 
 
-@pytest.mark.parametrize("page", pages({*QUOTED, *OTHERS} - set(ELSEWHERE)))
+@pytest.mark.parametrize("page", sorted({*QUOTED, *OTHERS} - set(ELSEWHERE)))
 def test_every_quoted_number_is_that_of_its_source(page):
     wrong = stale(text(page), held(page))
     assert not wrong, f"{page} ought to read:\n" + "\n".join(wrong)
 
 
-@pytest.mark.parametrize("page", pages(PAGES))
+@pytest.mark.parametrize("page", sorted(PAGES))
 def test_every_measured_number_of_a_page_has_a_source_or_is_meant(page):
     assert unheld(text(page), held(page), MEANT.get(page, ())) == []
 

@@ -74,7 +74,16 @@ def _other_value(rng: Rng, old: Any) -> Any:
     if isinstance(old, int | float):
         size = 10.0 ** rng.randint(-20, 20)
         whole = int(old) if abs(old) < 1e300 else 0
-        near = (-old, old * size, float(np.nextafter(old, np.inf)), old + 1, whole, str(old), 0)
+        of_float = float(min(max(old, -1e308), 1e308))
+        near = (
+            -old,
+            of_float * size,
+            float(np.nextafter(of_float, np.inf)),
+            old + 1,
+            whole,
+            str(of_float),
+            0,
+        )
         return rng.choice((*near, any_number(rng)))
     if isinstance(old, str):
         return rng.choice((old + "x", old[:-1], old.upper(), old * 50, rng.choice(WORDS)))
