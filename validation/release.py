@@ -125,6 +125,11 @@ RESULTS = (
         ("validation/forgeries.md",),
     ),
     Result(
+        "verifier",
+        ("validation.check_verifier", "--all", "--out", "validation/results/verifier.md"),
+        ("validation/results/verifier.md",),
+    ),
+    Result(
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),

@@ -1,13 +1,10 @@
-// A checker of solution files in plain JavaScript, for Node and for a page. It was written from the pages
-// "File formats" and "Exact answers" of the documentation alone, and shares no line with the package.
-//   node validation/verifier/verify.js step.json solution.json
-// prints {verdict, reason, notChecked} and ends with 0 (verified), 1 (refused) or 2 (not checked).
+// Checks solution files, in Node and in a page; written from the documents "File formats" and "Exact answers" alone.
+// node verify.js step.json solution.json prints {verdict, reason, notChecked}; status 0 verified, 1 refused, 2 not checked.
 "use strict";
 const verifier = (() => {
   class Refused extends Error {}
   const need = (condition, sentence) => { if (!condition) throw new Refused(sentence); };
   const range = (n) => Array.from({ length: n }, (_, i) => i);
-
   // ---- Numbers: p 2^e / q with q > 0, exact. Every float64 is one with q = 1. ----
   const bits = (n) => { const hex = n.toString(16); return 4 * hex.length - Math.clz32(parseInt(hex[0], 16)) + 28; };
   class Q {
@@ -23,8 +20,7 @@ const verifier = (() => {
     get negative() { return new Q(-this.p, this.e, this.q); }
     get square() { return this.times(this); }
     plus(o) {
-      if (this.p === 0n) return o;
-      if (o.p === 0n) return this;
+      if (this.p === 0n || o.p === 0n) return this.p === 0n ? o : this;
       const [a, b, q] = this.q === o.q ? [this.p, o.p, this.q] : [this.p * o.q, o.p * this.q, this.q * o.q];
       const e = Math.min(this.e, o.e);
       return new Q((a << BigInt(this.e - e)) + (b << BigInt(o.e - e)), e, q);
@@ -39,8 +35,7 @@ const verifier = (() => {
       for (let k = Math.max(bits(n) - bits(d) - 53, -1074); ; k++) {
         const top = n << BigInt(Math.max(-k, 0)), bottom = d << BigInt(Math.max(k, 0)), floor = top / bottom;
         if (floor >= 2n ** 53n) continue;
-        const twice = 2n * (top - floor * bottom);
-        const up = twice > bottom || (twice === bottom && floor & 1n);
+        const twice = 2n * (top - floor * bottom), up = twice > bottom || (twice === bottom && floor & 1n);
         return this.sign * Number(up ? floor + 1n : floor) * 2 ** k || 0;
       }
     }
@@ -49,40 +44,34 @@ const verifier = (() => {
   const sum = (list) => list.reduce((a, b) => a.plus(b), Q.zero);
   const dot = (u, v) => sum(u.map((x, i) => x.times(v[i])));
   const along = (matrix, x) => matrix.map((row) => dot(row, x));
-  const least = (list) => list.reduce((a, b) => (b.atMost(a) ? b : a));
   // A vector of dyadic numbers times the power of two that makes it whole.
   const whole = (vector) => {
     const e = Math.min(...vector.filter((x) => x.sign).map((x) => x.e));
     return vector.map((x) => (x.sign ? x.p << BigInt(x.e - e) : 0n));
   };
-
   // ---- Linear algebra over the integers (Bareiss: every division is exact) ----
   // The pivot rows of the first n columns and the rows that are left; null if the columns are dependent.
   function eliminated(matrix, n) {
     let rest = matrix, last = 1n, exchanged = false, done = [];
     for (let c = 0; c < n; c++) {
-      const k = rest.findIndex((row) => row[c] !== 0n);
+      const k = rest.findIndex((row) => row[c] !== 0n), row = rest[k];
       if (k < 0) return null;
-      exchanged = exchanged || k > 0;
-      const row = rest[k], pivot = row[c];
-      rest = rest.filter((_, i) => i !== k).map((r) => r.map((x, j) => (j <= c ? 0n : (pivot * x - r[c] * row[j]) / last)));
-      [last, done] = [pivot, [...done, row]];
+      rest = rest.filter((_, i) => i !== k).map((r) => r.map((x, j) => (j <= c ? 0n : (row[c] * x - r[c] * row[j]) / last)));
+      [last, done, exchanged] = [row[c], [...done, row], exchanged || k > 0];
     }
     return { done, rest, exchanged };
   }
   // The one solution of a square system whose rows end with the right side; null if it is singular.
   function solved(rows) {
     const n = rows.length, out = eliminated(rows.map(whole), n);
-    if (!out) return null;
-    const det = n ? out.done[n - 1][n - 1] : 1n, x = Array(n).fill(0n);
-    for (let i = n - 1; i >= 0; i--) {
-      const row = out.done[i];
-      x[i] = (det * row[n] - row.slice(0, n).reduce((total, y, j) => (j > i ? total + y * x[j] : total), 0n)) / row[i];
-    }
-    return x.map((top) => (det < 0n ? new Q(-top, 0, -det) : new Q(top, 0, det)));
+    const det = out && (n ? out.done[n - 1][n - 1] : 1n), x = Array(n).fill(0n); // x times det is whole
+    out?.done.reverse().forEach((row, k) => {
+      const i = n - 1 - k; // the entries of x up to here are still 0
+      x[i] = (det * row[n] - x.reduce((total, y, j) => total + y * row[j], 0n)) / row[i];
+    });
+    return out && x.map((top) => (det < 0n ? new Q(-top, 0, -det) : new Q(top, 0, det)));
   }
   const columns = (rows, n) => range(n).map((j) => rows.map((row) => row[j]));
-  const independent = (rows, n) => eliminated(columns(rows.map(whole), n), rows.length) !== null;
   // Are all pivots of a symmetric matrix above `share` of their diagonal entries?
   function positiveDefinite(S, share) {
     const n = S.length, all = whole(S.flat()), out = eliminated(range(n).map((i) => all.slice(i * n, i * n + n)), n);
@@ -93,9 +82,8 @@ const verifier = (() => {
   }
   // Is there d >= 0 with R d = c? The first phase of the simplex method in integers, with Bland's rule.
   function feasible(R, c) {
-    const n = R.length ? R[0].length : 0;
+    const n = R.length ? R[0].length : 0, basis = R.map((_, i) => n + i);
     const T = R.map((row, i) => [...row, c[i]].map((x) => (c[i] < 0n ? -x : x)));
-    const basis = R.map((_, i) => n + i);
     T.push(range(n + 1).map((j) => -T.reduce((total, row) => total + row[j], 0n)));
     for (let last = 1n, cost = T.length - 1; ; ) {
       const enter = T[cost].findIndex((x, j) => j < n && x < 0n);
@@ -111,10 +99,13 @@ const verifier = (() => {
       [basis[leave], last] = [enter, pivot];
     }
   }
-
   // ---- Files ----
+  function decoded(file, what) {
+    try { return new TextDecoder("utf-8", { fatal: true }).decode(file); } catch { throw new Refused(`${what} is not UTF-8`); }
+  }
   // JSON; a number without point and exponent becomes a BigInt. Refuses repeated names, NaN and what is beyond float64.
-  function parsed(text, what) {
+  function parsed(file, what) {
+    const text = typeof file === "string" ? file : decoded(file, what);
     const token = new RegExp(String.raw`[ \t\n\r]*("(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"`
       + String.raw`|-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?|true|false|null|[[\]{},:])`, "y");
     const json = (condition) => need(condition, `${what} is not JSON`);
@@ -135,7 +126,8 @@ const verifier = (() => {
         return first === "[" ? list : table;
       }
       const value = /^-?[0-9]+$/.test(first) ? BigInt(first) : JSON.parse(first);
-      need(typeof value === "string" ? !/\p{Surrogate}/u.test(value) : Number.isFinite(Number(value)), `${what} has half of a character, or a number beyond float64`);
+      const whole = typeof value === "string" ? !/\p{Surrogate}/u.test(value) : Number.isFinite(Number(value));
+      need(whole, `${what} has half of a character, or a number beyond float64`);
       return value;
     };
     const value = inner(next(), 0);
@@ -153,15 +145,14 @@ const verifier = (() => {
   const numbers = (x, n, what) => list(x, n, what).map((y) => number(y, what));
   const matrix = (x, m, n, what) => list(x, m, what).map((row) => numbers(row, n, what));
   const count = (x, what) => { need(typeof x === "bigint" && x >= 0n, `${what} is not a whole number`); return Number(x); };
-
+  const CONTACT = ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"], WHOLE = ["version", "n_a", "n_u", "rows"];
+  const STEP = ["format", "version", "cone", "h", "n_a", "n_u", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a", "contacts"];
   function stepRead(text) {
-    const s = fields(parsed(text, "the step"), "the step",
-      ["format", "version", "h", "n_a", "n_u", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a", "contacts"], ["cone", "extra"]);
+    const missing = { cone: "pyramid", extra: new Map([["names", []], ["A", []], ["b", []]]) };
+    const s = { ...missing, ...fields(parsed(text, "the step"), "the step", STEP.filter((name) => name !== "cone"), ["cone", "extra"]) };
     need(s.format === "quasistatic-ref/step" && s.version === 1n, "the step is not of this format and version");
-    s.cone = s.cone === undefined ? "pyramid" : s.cone;
-    const facets = /^facets-([1-9][0-9]*)$/.exec(s.cone);
-    s.K = facets ? Number(facets[1]) : 0;
-    need(facets ? s.K % 2 === 0 && s.K >= 4 && s.K <= 1024 : ["pyramid", "ellipsoid", "product", "frictionless"].includes(s.cone), "the step's cone is unknown");
+    s.K = Number((/^facets-([1-9][0-9]*)$/.exec(s.cone) || [0, 0])[1]);
+    need(["pyramid", "ellipsoid", "product", "frictionless"].includes(s.cone) || (s.K % 2 === 0 && s.K >= 4 && s.K <= 1024), "the cone is unknown");
     need((s.h = number(s.h, "h")) > 0, "h is not greater than 0");
     const n = (s.n_a = count(s.n_a, "n_a")) + (s.n_u = count(s.n_u, "n_u"));
     for (const [name, size] of [["K_q", s.n_a], ["M_u", s.n_u]]) {
@@ -171,59 +162,51 @@ const verifier = (() => {
       need(positiveDefinite(s[name].map((row) => row.map(Q.of)), Q.of(1e-14)), `${name} is not positive definite`);
     }
     for (const [name, size] of [["tau_a", s.n_a], ["tau_u", s.n_u], ["delta_q_bar_a", s.n_a]]) s[name] = numbers(s[name], size, name);
-    s.contacts = list(s.contacts, s.contacts.length, "contacts").map((table) => {
-      const c = fields(table, "a contact", ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"]);
-      need(typeof c.name === "string", "a contact's name is not a string");
+    s.contacts = list(s.contacts, s.contacts?.length, "contacts").map((table) => {
+      const c = fields(table, "a contact", CONTACT);
       for (const name of ["phi", "mu_v", "mu_omega"]) c[name] = number(c[name], name);
       const axes = ["d1", "d2", "n"].map((name) => (c[name] = numbers(c[name], 3, name))), [u, v, w] = axes;
       const product = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      axes.forEach((a, i) => axes.forEach((b, j) => need(Math.abs(product(a, b) - (i === j)) <= 1e-9, "d1, d2, n are not orthonormal")));
-      need(product([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], w) > 0, "d1, d2, n are not right-handed");
+      const cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+      const orthonormal = axes.every((a, i) => axes.every((b, j) => Math.abs(product(a, b) - (i === j)) <= 1e-9));
+      need(orthonormal && product(cross, w) > 0, "d1, d2, n are not orthonormal and right-handed");
       [c.J, c.rows] = [matrix(c.J, 4, n, "J"), count(c.rows, "rows")];
+      need(typeof c.name === "string" && (c.rows === 6 || c.rows === 4), "a contact's name is not a string, or rows neither 6 nor 4");
       need(c.mu_v >= 0 && c.mu_omega >= 0, "a coefficient of friction is negative");
-      need(c.rows === 6 || c.rows === 4, "rows is neither 6 nor 4");
       return c;
     });
-    if (s.extra === undefined) return { ...s, extra: { names: [], A: [], b: [] } };
     const { names, A, b } = fields(s.extra, "extra", ["names", "A", "b"]);
     need(Array.isArray(names) && names.every((x) => typeof x === "string"), "names of extra are not strings");
     return { ...s, extra: { names, A: matrix(A, names.length, n, "A of extra"), b: numbers(b, names.length, "b of extra") } };
   }
-
   // The text of a step as the package writes it, and SHA-256 (its constants are roots of the first primes).
   function repr(x) {
     if (x === 0) return "0.0";
-    const [, sign, digits, exponent] = /^(-?)([0-9.]+)e([-+][0-9]+)$/.exec(x.toExponential()), d = digits.replace(".", ""), e = Number(exponent);
+    const [, sign, digits, exponent] = /^(-?)([0-9.]+)e([-+][0-9]+)$/.exec(x.toExponential());
+    const d = digits.replace(".", ""), e = Number(exponent);
     if (e < -4 || e > 15) return `${sign}${digits}e${e < 0 ? "-" : "+"}${String(Math.abs(e)).padStart(2, "0")}`;
     const all = e < 0 ? "0".repeat(-e) + d : d.padEnd(e + 2, "0"), point = Math.max(e, 0) + 1;
     return `${sign}${all.slice(0, point)}.${all.slice(point)}`;
   }
   function stepText(s) {
     const written = (x, name) => Array.isArray(x) ? `[${x.map((y) => written(y)).join(", ")}]` : typeof x === "object" ? x.written
-      : typeof x === "string" ? JSON.stringify(x) : ["version", "n_a", "n_u", "rows"].includes(name) ? String(x) : repr(x);
+      : typeof x === "string" ? JSON.stringify(x) : WHOLE.includes(name) ? String(x) : repr(x);
     const table = (x, names) => ({ written: `{${names.map((name) => `"${name}": ${written(x[name], name)}`).join(", ")}}` });
-    const contacts = s.contacts.map((c) => table(c, ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"]));
-    const names = ["format", "version", "cone", "h", "n_a", "n_u", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a", "contacts"];
-    if (s.extra.b.length) names.push("extra");
-    return table({ ...s, contacts, extra: table(s.extra, ["names", "A", "b"]) }, names).written + "\n";
+    const parts = { contacts: s.contacts.map((c) => table(c, CONTACT)), extra: table(s.extra, ["names", "A", "b"]) };
+    return table({ ...s, ...parts }, s.extra.b.length ? [...STEP, "extra"] : STEP).written + "\n";
   }
   function sha256(text) {
-    const primes = [];
-    for (let n = 2; primes.length < 64; n++) if (primes.every((p) => n % p)) primes.push(n);
-    const fraction = (p, power) => { // 32 bits after the point of the square or cube root of p
-      let low = 0n;
-      for (let bit = 1n << 36n; bit; bit >>= 1n) if ((low + bit) ** power <= BigInt(p) << (32n * power)) low += bit;
-      return Number(low & 0xffffffffn);
-    };
-    const k = primes.map((p) => fraction(p, 3n)), state = primes.slice(0, 8).map((p) => fraction(p, 2n));
+    const primes = range(312).filter((n) => n > 1 && range(n).every((d) => d < 2 || n % d)); // 64 of them
+    const root = (p, power, low = 0n, bit = 1n << 36n) => !bit ? Number(low & 0xffffffffn) // 32 bits after the point
+      : root(p, power, (low + bit) ** power <= BigInt(p) << (32n * power) ? low + bit : low, bit >> 1n);
+    const k = primes.map((p) => root(p, 3n)), state = primes.slice(0, 8).map((p) => root(p, 2n));
     const message = new TextEncoder().encode(text), data = new Uint8Array((((message.length + 8) >> 6) + 1) * 64);
     data.set([...message, 128]);
     const view = new DataView(data.buffer), turn = (x, n) => (x >>> n) | (x << (32 - n));
     view.setBigUint64(data.length - 8, BigInt(message.length) * 8n);
     for (let at = 0; at < data.length; at += 64) {
       const w = range(16).map((i) => view.getUint32(at + 4 * i));
-      for (let i = 16; i < 64; i++) {
-        const a = w[i - 15], b = w[i - 2];
+      for (let i = 16, a = w[1], b = w[14]; i < 64; i++, a = w[i - 15], b = w[i - 2]) {
         w.push((w[i - 16] + (turn(a, 7) ^ turn(a, 18) ^ (a >>> 3)) + w[i - 7] + (turn(b, 17) ^ turn(b, 19) ^ (b >>> 10))) | 0);
       }
       let [a, b, c, d, e, f, g, h] = state;
@@ -236,12 +219,11 @@ const verifier = (() => {
     }
     return state.map((x) => (x >>> 0).toString(16).padStart(8, "0")).join("");
   }
-
   // ---- The quadratic program, times h so that every number in it is dyadic: h H, h g; multipliers h lam. ----
   function turns(K) { // float64 nearest to cos and sin of 2 pi k / K, by series in fixed point
     const one = 1n << 256n;
-    const series = (first, square, i) => { let total = 0n; for (let t = first; t; t = (-t * square) / one / (i * (i + 1n)), i += 2n) total += t; return total; };
-    const arctan = (n) => { let total = 0n; for (let i = 1n, power = one / n; power; i += 2n, power /= -n * n) total += power / i; return total; };
+    const series = (t, square, i) => (t ? t + series((-t * square) / one / (i * (i + 1n)), square, i + 2n) : 0n);
+    const arctan = (n, power = one / n, i = 1n) => (power ? power / i + arctan(n, power / (-n * n), i + 2n) : 0n);
     const pi = 16n * arctan(5n) - 4n * arctan(239n);
     const nearest = (x) => (x >> 60n === 0n || -x >> 60n === 0n ? Q.zero : Q.of(new Q(x, -256).float)); // smaller is 0
     return range(K).map((k) => {
@@ -258,8 +240,7 @@ const verifier = (() => {
     const corners = s.K ? turns(s.K) : [], A = [], b = [];
     const contacts = s.contacts.map((c) => {
       const J = exact(c.J), zero = Q.zero, mu = Q.of(c.mu_v), spin = c.rows === 6 ? Q.of(c.mu_omega) : zero;
-      const axis = (d) => range(n).map((j) => dot(d.map(Q.of), [J[0][j], J[1][j], J[2][j]]));
-      const [normal, one, two] = [axis(c.n), axis(c.d1), axis(c.d2)];
+      const [normal, one, two] = [c.n, c.d1, c.d2].map((d) => range(n).map((j) => dot(d.map(Q.of), J.slice(0, 3).map((row) => row[j]))));
       const square = [[mu, zero], [zero, mu], [mu.negative, zero], [zero, mu.negative]];
       const sides = s.K ? corners.map(([x, y]) => [x.times(mu), y.times(mu)]) : square, ends = c.rows === 6 ? [spin, spin.negative] : [];
       const coefficients = s.cone === "ellipsoid" || s.cone === "frictionless" ? [[zero, zero, zero]]
@@ -272,23 +253,24 @@ const verifier = (() => {
       return { first, size: A.length - first, coefficients, friction: [mu, mu, spin] };
     });
     const own = { first: A.length, size: s.extra.b.length };
-    A.push(...exact(s.extra.A));
-    b.push(...s.extra.b.map(Q.of));
-    return { n, h, H, g, A, b, contacts, own, cone: s.cone };
+    return { n, h, H, g, A: [...A, ...exact(s.extra.A)], b: [...b, ...s.extra.b.map(Q.of)], contacts, own, cone: s.cone };
   }
-
   // ---- Claims ----
-  const EXACT = ["active", "multipliers_unique", "differentiable", "smallest_inactive_slack", "smallest_active_multiplier", "error_bound"];
+  const FLAGS = ["multipliers_unique", "differentiable", "smallest_inactive_slack", "smallest_active_multiplier"];
+  const POLYHEDRAL = new Map([["exact", ["active", ...FLAGS, "error_bound"]], ["residual", ["error_bound"]], ["none", []]]);
+  const ELLIPSOID = new Map([["exact", ["active", "error_bound", "gap"]], ["enclosure", ["error_bound", "gap"]], ["residual", []], ["none", []]]);
   const same = (written, exact, what) => need(Object.is(written, exact.float), `${what} is not the exact number, rounded: it is ${exact.float}`);
+  function sameLeast(cert, name, list) { // null if there is none
+    if (list.length) same(cert[name], list.reduce((a, b) => (b.atMost(a) ? b : a)), name);
+    else need(cert[name] === null, `${name} is not null`);
+  }
   const energy = (P, x) => dot(x, along(P.H, x)).times(new Q(1n, -1)); // h times half the squared H norm
   const pushed = (P, mu) => P.g.map((y, j) => y.plus(dot(mu, P.A.map((row) => row[j])))); // g + A' mu
   const inverse = (P, right) => solved(P.H.map((row, i) => [...row, right[i]]));
   // The minimiser on A_W x = b_W with right side g, and its multipliers (times h), in rationals.
   function onRows(P, W, g) {
-    const rows = P.H.map((row, i) => [...row, ...W.map((w) => P.A[w][i].negative), g[i]]);
-    rows.push(...W.map((w) => [...P.A[w], ...W.map(() => Q.zero), P.b[w]]));
-    const out = solved(rows);
-    need(out, "the rows of active are not independent");
+    const balance = P.H.map((row, i) => [...row, ...W.map((w) => P.A[w][i].negative), g[i]]);
+    const out = solved([...balance, ...W.map((w) => [...P.A[w], ...W.map(() => Q.zero), P.b[w]])]) || need(false, "the rows of active are not independent");
     return { x: out.slice(0, P.n), mu: out.slice(P.n) };
   }
   function workingSet(P, active) {
@@ -311,13 +293,10 @@ const verifier = (() => {
     const E = range(P.A.length).filter((i) => slack[i].sign === 0 && !W.includes(i));
     const { rest } = eliminated(columns([...W, ...E].map((i) => whole(P.A[i])), P.n), W.length);
     const R = rest.map((row) => row.slice(W.length)); // the rows of E, modulo those of W
-    const unique = E.length === 0 || !feasible([...R, E.map(() => 1n)], [...R.map(() => 0n), 1n]);
-    const differentiable = E.length === 0 || feasible(R, R.map((row) => -row.reduce((a, b) => a + b, 0n)));
-    need(cert.multipliers_unique === unique, `multipliers_unique is not ${unique}`);
-    need(cert.differentiable === differentiable, `differentiable is not ${differentiable}`);
-    const open = differentiable ? slack.filter((x) => x.sign) : [Q.zero];
-    if (open.length) same(cert.smallest_inactive_slack, least(open), "smallest_inactive_slack");
-    else need(cert.smallest_inactive_slack === null, "smallest_inactive_slack is not null, but no row has slack");
+    const unique = E.length === 0 || !feasible([...R, E.map(() => 1n)], [...R.map(() => 0n), 1n]); // d of sum 1
+    const differentiable = E.length === 0 || feasible(R, R.map((row) => -row.reduce((a, b) => a + b, 0n))); // d - 1
+    need(cert.multipliers_unique === unique && cert.differentiable === differentiable, "multipliers_unique or differentiable is wrong");
+    sameLeast(cert, "smallest_inactive_slack", differentiable ? slack.filter((x) => x.sign) : [Q.zero]);
   }
   function checkExact(P, solution, lam, cert) {
     const W = workingSet(P, cert.active), { x, mu } = onRows(P, W, P.g), slack = along(P.A, x).map((y, i) => y.minus(P.b[i]));
@@ -327,10 +306,7 @@ const verifier = (() => {
     const exact = P.A.map((_, i) => (W.includes(i) ? mu[W.indexOf(i)].over(P.h) : Q.zero));
     exact.forEach((y, i) => same(lam[i], y, `${i < P.own.first ? "lam" : "lam_extra"}, row ${i} of A`));
     checkFlags(P, W, slack, cert);
-    if (W.length) same(cert.smallest_active_multiplier, least(W.map((w) => exact[w])), "smallest_active_multiplier");
-    else need(cert.smallest_active_multiplier === null, "smallest_active_multiplier is not null, but active is empty");
-    need(Object.is(cert.error_bound, 0), "error_bound is not 0.0");
-    return [];
+    sameLeast(cert, "smallest_active_multiplier", W.map((w) => exact[w]));
   }
   function inDualCones(P, lam, what) {
     for (const c of P.contacts) {
@@ -341,19 +317,20 @@ const verifier = (() => {
     need(lam.slice(P.own.first).every((y) => y.sign >= 0), `${what} has a negative multiplier of the user's own rows`);
   }
   function checkEllipsoid(P, solution, lam, cert) {
-    const dq = solution.delta_q.map(Q.of), free = energy(P, inverse(P, P.g));
-    const limit = (x) => free.plus(energy(P, x)).times(new Q(1n, 0, 10n ** 9n)).over(P.h);
+    inDualCones(P, lam, "lam");
+    const limit = (x) => energy(P, inverse(P, P.g)).plus(energy(P, x)).times(new Q(1n, 0, 10n ** 9n)).over(P.h);
     const gap = Q.of(number(cert.gap, "gap")), bound = number(cert.error_bound, "error_bound");
     if (cert.kind === "enclosure") {
       need(bound >= 0 && bound <= 1e-13, "error_bound is not between 0 and 1e-13");
       // x* is not known: where error_bound holds, its energy is that of delta_q to one part in 1e12
-      need(gap.sign >= 0 && gap.atMost(limit(dq).times(new Q(10n ** 12n + 1n, 0, 10n ** 12n))), "gap is above its limit");
+      need(gap.sign >= 0 && gap.atMost(limit(solution.delta_q.map(Q.of)).times(new Q(10n ** 12n + 1n, 0, 10n ** 12n))), "gap is above its limit");
       return ["delta_q", "lam", "lam_extra", "error_bound", "gap"];
     }
-    const W = P.contacts.filter((c) => lam[c.first].sign > 0).flatMap((c) => [0, 1, 2, 3].filter((i) => i === 0 || c.friction[i - 1].sign).map((i) => c.first + i));
+    const W = P.contacts.filter((c) => lam[c.first].sign > 0)
+      .flatMap((c) => [0, 1, 2, 3].filter((i) => i === 0 || c.friction[i - 1].sign).map((i) => c.first + i));
     W.push(...range(P.own.size).map((i) => P.own.first + i).filter((w) => lam[w].sign > 0));
-    const kept = W.reduce((all, w) => (independent([...all, w].map((i) => P.A[i]), P.n) ? [...all, w] : all), []);
-    need(Object.is(bound, 0), "error_bound is not 0.0");
+    const independent = (rows) => eliminated(columns(rows.map((i) => whole(P.A[i])), P.n), rows.length) !== null;
+    const kept = W.reduce((all, w) => (independent([...all, w]) ? [...all, w] : all), []);
     need(String(workingSet(P, cert.active)) === String(kept), "active is not the rows of all that is loaded");
     const rest = lam.map((y, i) => (kept.includes(i) ? Q.zero : y.times(P.h))), { x, mu } = onRows(P, kept, pushed(P, rest));
     const prime = rest.map((y, i) => (kept.includes(i) ? mu[kept.indexOf(i)] : y)), s = along(P.A, x).map((y, i) => y.minus(P.b[i]));
@@ -365,7 +342,6 @@ const verifier = (() => {
     const still = inverse(P, pushed(P, lam.map((y) => y.times(P.h))));
     const proved = energy(P, x.map((y, i) => y.minus(still[i]))).over(P.h).plus(dot(lam, s));
     need(proved.atMost(gap) && gap.atMost(limit(x)), "gap is below the gap, or above its limit");
-    return [];
   }
   function checkFarkas(P, farkas) {
     need(P.cone !== "ellipsoid", "a proof of infeasibility is not written in the ellipsoid");
@@ -374,47 +350,42 @@ const verifier = (() => {
       need(found && BigInt(found[2] || 1) > 0n, "an entry of farkas is not a fraction");
       return new Q(BigInt(found[1]), 0, BigInt(found[2] || 1));
     });
-    need(y.every((x) => x.sign >= 0), "an entry of farkas is negative");
+    need(y.every((x) => x.sign >= 0) && dot(y, P.b).sign > 0, "farkas has a negative entry, or b'y is not positive");
     need(range(P.n).every((j) => dot(y, P.A.map((row) => row[j])).sign === 0), "farkas: A'y is not zero");
-    need(dot(y, P.b).sign > 0, "farkas: b'y is not positive");
-    return [];
   }
   function checked(stepFile, solutionFile) {
     const table = parsed(solutionFile, "the solution"), common = ["format", "version", "status", "cone", "step_sha256"];
     need(table instanceof Map && table.get("format") === "quasistatic-ref/solution", "the solution is not of this format");
-    if (table.get("version") === 1n) return ["the whole file, which is of version 1"];
-    need(table.get("version") === 2n, "the solution is not of version 2");
+    if (table.get("version") === 1n && table.has("backend")) return ["the whole file, which is of version 1"];
+    need(table.get("version") === 2n, "the solution is not of version 2, or it is of version 1 and has no backend");
     need(["optimal", "infeasible"].includes(table.get("status")), "status is neither optimal nor infeasible");
-    const infeasible = table.get("status") === "infeasible";
-    const solution = fields(table, "the solution", [...common, ...(infeasible ? ["farkas"] : ["delta_q", "lam", "lam_extra", "wrench", "certificate"])]);
+    const claims = table.get("status") === "infeasible" ? ["farkas"] : ["delta_q", "lam", "lam_extra", "wrench", "certificate"];
+    const solution = fields(table, "the solution", [...common, ...claims]);
     const step = stepRead(stepFile), P = programme(step), ellipsoid = step.cone === "ellipsoid";
     need(solution.cone === step.cone, "cone is not that of the step");
     need(solution.step_sha256 === sha256(stepText(step)), "step_sha256 is not the hash of the step");
-    if (infeasible) return checkFarkas(P, solution.farkas);
+    if (solution.status === "infeasible") return checkFarkas(P, solution.farkas);
     solution.delta_q = numbers(solution.delta_q, P.n, "delta_q");
     const lam = list(solution.lam, P.contacts.length, "lam").flatMap((x, k) => numbers(x, P.contacts[k].size, "lam"));
     lam.push(...numbers(solution.lam_extra, P.own.size, "lam_extra"));
-    solution.wrench = matrix(solution.wrench, P.contacts.length, 4, "wrench");
-    need(solution.certificate instanceof Map, "certificate is not a table");
-    const kind = solution.certificate.get("kind");
-    const names = (ellipsoid ? { exact: ["active", "error_bound", "gap"], enclosure: ["error_bound", "gap"], residual: [], none: [] }
-      : { exact: EXACT, residual: ["error_bound"], none: [] })[kind];
+    const kind = solution.certificate instanceof Map && solution.certificate.get("kind"), names = (ellipsoid ? ELLIPSOID : POLYHEDRAL).get(kind);
     need(names, "kind is none of those of the cone");
     const cert = fields(solution.certificate, "certificate", ["kind", ...names]), fractions = lam.map(Q.of);
     for (const name of names) if (typeof cert[name] === "bigint") cert[name] = Number(cert[name]);
-    need(kind !== "none" && names.length && !(kind === "residual" && cert.error_bound === null), "nothing is claimed");
-    checkWrenches(P, fractions, solution.wrench);
-    if (ellipsoid) { inDualCones(P, fractions, "lam"); return checkEllipsoid(P, solution, fractions, cert); }
+    need(names.length && !(kind === "residual" && cert.error_bound === null), "nothing is claimed");
+    need(kind !== "exact" || Object.is(cert.error_bound, 0), "error_bound is not 0.0");
+    checkWrenches(P, fractions, matrix(solution.wrench, P.contacts.length, 4, "wrench"));
+    if (ellipsoid) return checkEllipsoid(P, solution, fractions, cert);
     if (kind === "exact") return checkExact(P, solution, lam, cert);
     need(cert.error_bound >= 0 && number(cert.error_bound, "error_bound") <= 1, "error_bound is not between 0 and 1");
     need(lam.every((x) => x >= 0), "a multiplier is negative");
     return ["delta_q", "lam", "lam_extra", "error_bound"];
   }
-  function verify(stepFile, solutionFile) {
+  function verify(stepFile, solutionFile) { // as text or as bytes
     try {
-      const notChecked = checked(stepFile, solutionFile);
+      const notChecked = checked(stepFile, solutionFile) || [];
       if (!notChecked.length) return { verdict: "verified", reason: "every field is proved", notChecked };
-      return { verdict: "not checked", reason: `nothing is wrong, but not proved: ${notChecked.join(", ")}`, notChecked };
+      return { verdict: "not checked", reason: `nothing is wrong, but this is not proved: ${notChecked.join(", ")}`, notChecked };
     } catch (error) {
       if (error instanceof Refused) return { verdict: "refused", reason: error.message, notChecked: [] };
       return { verdict: "not checked", reason: `the checker failed: ${error.message}`, notChecked: ["all"] };
@@ -422,13 +393,8 @@ const verifier = (() => {
   }
   return { verify };
 })();
-
-if (typeof module !== "undefined") {
-  module.exports = verifier;
-  if (require.main === module) {
-    const files = process.argv.slice(2, 4).map((path) => require("fs").readFileSync(path, "utf8"));
-    const result = verifier.verify(files[0], files[1]);
-    console.log(JSON.stringify(result));
-    process.exitCode = ["verified", "refused", "not checked"].indexOf(result.verdict);
-  }
+if (typeof module !== "undefined" && (module.exports = verifier) && require.main === module) {
+  const result = verifier.verify(...process.argv.slice(2, 4).map((path) => require("fs").readFileSync(path)));
+  console.log(JSON.stringify(result));
+  process.exitCode = ["verified", "refused", "not checked"].indexOf(result.verdict);
 }
