@@ -180,7 +180,7 @@ def at_random(rng: np.random.Generator, step: StepData, record: Json) -> Json:
 def main() -> int:
     """Print the table; exit status 1 if a false file passes."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=500, help="random forgeries of each file")
+    parser.add_argument("--random", type=int, default=300, help="random forgeries of each file")
     parser.add_argument("--out", type=Path, help="write the table here too")
     options = parser.parse_args()
     counts: dict[str, Counter[str]] = {}

@@ -1,12 +1,12 @@
 """Every reader given spoilt files: ``python -m validation.fuzz --inputs 100000``.
 
 Inputs are good files with bytes, tokens, values or arrays changed, by a seed: the i-th input of a
-reader is the same on every machine. They are read in batches, each in a process of its own with
-limits of memory and time. A file is accepted, or refused in one sentence of the exception tree;
-a traceback, a crash, a hang (10 s of processor time) or more than 2 GiB are failures, whose inputs
-are kept. ``outcomes.jsonl`` in the folder of ``--out`` has a line a batch: the same command goes on
-from there. ``--seconds`` begins no batch after so long; ``--table`` writes the table of what is in
-the folder. Exit status 1 if there was a failure.
+reader is the same on every machine. They are read in a process with limits of memory and time,
+which is started again when it ends. A file is accepted, or refused in one sentence of the exception
+tree; a traceback, a crash, a hang (10 s of processor time) or more than 2 GiB are failures, whose
+inputs are kept. ``outcomes.jsonl`` in the folder of ``--out`` has a line a batch: the same command
+goes on from there. ``--seconds`` begins no batch after so long, 900 are a quarter of an hour;
+``--table`` writes the table of what is in the folder. Exit status 1 if there was a failure.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from typing import Any
 
 from validation.fuzzing.worker import ENDED, SECONDS, content_of
 
-BATCH = 600
-"""Inputs of a process, which takes seconds to start."""
+BATCH = 300
+"""Inputs of one reader before those of the next."""
 ROOT = Path(__file__).parent.parent
 COLUMNS = "| reader | inputs | accepted | refused | failures | longest [s] | most memory [MiB] |"
 READERS = "validation.fuzzing.readers"
@@ -56,12 +56,16 @@ def outcomes(
             stdout=subprocess.PIPE, text=True, env=os.environ | threads, cwd=ROOT,
         ) as process:  # fmt: skip
             assert process.stdout is not None
-            for line in process.stdout:
-                found = json.loads(line)
-                if "mistake" in found:
-                    raise RuntimeError(found["mistake"])
-                yield found
-                _done(left)
+            try:
+                for line in process.stdout:
+                    found = json.loads(line)
+                    if "mistake" in found:
+                        raise RuntimeError(found["mistake"])
+                    yield found
+                    _done(left)
+            except GeneratorExit:  # nobody waits for the rest
+                process.kill()
+                raise
         if left and process.returncode:  # the input that was read then ended it
             name, i, _ = left[0]
             outcome, words = ENDED.get(-process.returncode, "crash"), f"status {process.returncode}"
@@ -75,21 +79,28 @@ def _done(left: list[list[Any]]) -> None:
         del left[0]
 
 
-def batch(job: Job, folder: Path, readers: str) -> dict[str, Any]:
-    """What came of one batch; inputs that failed are written to the folder."""
-    name, start, count = job
-    said = {"reader": name, "start": start, "count": count, "accepted": 0, "refused": 0}
-    record: dict[str, Any] = {**said, "seconds": 0.0, "mebibytes": 0.0, "failures": []}
-    for _, i, outcome, seconds, mebibytes, words in outcomes([job], readers):
+def batches(jobs: Sequence[Job], folder: Path, readers: str) -> Iterator[dict[str, Any]]:
+    """What came of each job; inputs that failed are written to the folder."""
+    records = {(name, start): _begun(name, start, count) for name, start, count in jobs}
+    ends = {(name, start + count - 1): (name, start) for name, start, count in jobs}
+    of = {(name, i): (name, start) for name, start, n in jobs for i in range(start, start + n)}
+    for name, i, outcome, seconds, mebibytes, words in outcomes(jobs, readers):
+        record = records[of[name, i]]
         record["seconds"] = round(max(record["seconds"], seconds), 3)
         record["mebibytes"] = round(max(record["mebibytes"], mebibytes))
         if outcome in ("accepted", "refused"):
             record[outcome] += 1
         else:
             record["failures"].append({"input": i, "outcome": outcome, "words": words})
-    if record["failures"]:
-        kept(readers, name, [failure["input"] for failure in record["failures"]], folder)
-    return record
+        if (name, i) in ends:
+            if record["failures"]:
+                kept(readers, name, [failure["input"] for failure in record["failures"]], folder)
+            yield record
+
+
+def _begun(name: str, start: int, count: int) -> dict[str, Any]:
+    said = {"reader": name, "start": start, "count": count, "accepted": 0, "refused": 0}
+    return {**said, "seconds": 0.0, "mebibytes": 0.0, "failures": []}
 
 
 def kept(readers: str, name: str, inputs: list[int], folder: Path) -> None:
@@ -136,17 +147,16 @@ def main() -> int:
         (name, start, min(BATCH, each - start))
         for start in range(0, each, BATCH) for name in readers if (name, start) not in there
     ]  # fmt: skip
-    for number, job in enumerate(jobs, start=1):
-        if time.monotonic() - begun > options.seconds:
-            break
-        record = batch(job, options.out, options.readers)
+    for number, record in enumerate(batches(jobs, options.out, options.readers), start=1):
         records.append(record)
         with path.open("a") as file:
             file.write(json.dumps(record) + "\n")
         said = f"{record['accepted']} accepted, {record['refused']} refused"
-        print(f"{number}/{len(jobs)} {job[0]}: {said}", flush=True)
+        print(f"{number}/{len(jobs)} {record['reader']}: {said}", flush=True)
         for failure in record["failures"]:
             print(f"  {failure['outcome']} of input {failure['input']}: {failure['words']}")
+        if time.monotonic() - begun > options.seconds:
+            break
     if options.table:
         options.table.write_text(module.PAGE + "\n".join(table(records)) + "\n")
     print(*table(records), sep="\n")

@@ -81,6 +81,8 @@ def main() -> int:
     half = min(k for k in traced if k >= last / 2)
     rate = (traced[last] - traced[half]) / max(last - half, 1)
     print(f"\nFrom step {half:,} to step {last:,}, {rate:.2f} bytes a step were added.")
+    if last < steps:
+        print(f"\nStopped before step {steps:,}.")
     return 0 if rate < ENDS else 1
 
 

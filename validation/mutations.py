@@ -87,6 +87,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/rounding.py": ordered("rounding"),
     "certify/exact.py": ordered("exact"),
     "certify/exact_step.py": ordered("farkas"),
+    "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/rows.py": ("unit/test_certificate.py", "unit/test_farkas.py"),
     "certify/farkas.py": ("unit/test_farkas.py",),
     "certify/certificate.py": ordered("certificate"),

@@ -63,6 +63,12 @@ class Result:
 
 RESULTS = (
     Result(
+        "memory_of_steps",
+        ("validation.memory_of_steps",),
+        ("validation/results/memory_of_steps.md",),
+        output="validation/results/memory_of_steps.md",
+    ),
+    Result(
         "vectors",
         (CLI, "vectors", "generate", "--out", "validation/vectors"),
         ("validation/vectors",),
@@ -128,6 +134,11 @@ RESULTS = (
         "verifier",
         ("validation.check_verifier", "--all", "--out", "validation/results/verifier.md"),
         ("validation/results/verifier.md",),
+    ),
+    Result(
+        "confirmed_bits",
+        ("validation.confirmed_bits", "--out", "validation/results/confirmed_bits.txt"),
+        ("validation/results/confirmed_bits.txt",),
     ),
     Result(
         "same_bits",

@@ -73,18 +73,28 @@ def ball_form(form: ExactForm) -> BallForm:
     StepDataError
         If H is not positive definite.
     """
-    if not positive_definite(form.H):
+    H_inv = inverse(form.H)
+    with ctx.workprec(PRECISION):
+        return BallForm(H_inv, H_inv * arb_mat(form.g), arb_mat(form.A), arb_mat(form.b))
+
+
+def inverse(H: fmpz_mat) -> arb_mat:
+    """H^-1 in balls, H proved to be positive definite.
+
+    Raises
+    ------
+    StepDataError
+        If it is not.
+    """
+    if not positive_definite(H):
         raise StepDataError("must be positive definite without rounding", field="H")
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
         with ctx.workprec(precision):
             try:
-                H_inv = arb_mat(form.H).inv()
-                break
+                return arb_mat(H).inv()
             except ZeroDivisionError:
                 precision *= 2
-    with ctx.workprec(PRECISION):
-        return BallForm(H_inv, H_inv * arb_mat(form.g), arb_mat(form.A), arb_mat(form.b))
 
 
 def equality_solution(balls: BallForm, working: Sequence[int]) -> Balls | None:

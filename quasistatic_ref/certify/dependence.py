@@ -7,12 +7,17 @@ and another prime is taken if it was an accident.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
+from functools import cache
 from typing import Final
 
 from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
+from quasistatic_ref.certify.dyadic import dyadic
 from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.rows import places
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import cone_matrix
 
 PRIME: Final = (1 << 61) - 1
 """The first prime tried; an unlucky one costs a retry, never a wrong answer."""
@@ -22,7 +27,7 @@ SMALL: Final = 1 << 20
 
 Within a contact they are -1, 0 and 1."""
 
-Row = list[fmpz]
+Row = list[fmpz] | list[int]
 
 
 def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
@@ -56,14 +61,19 @@ def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> lis
     Returns
     -------
     list of bool
+    """
+    return follow([[*form.row(i), form.b[i, 0]] for i in working], rows)
+
+
+def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
+    """The same, of equations [a, b] that are `held`, their left sides independent.
 
     Raises
     ------
     AssertionError
         Never: some prime decides.
     """
-    k = len(working)
-    held = [[*form.row(i), form.b[i, 0]] for i in working]
+    k = len(held)
     for prime in _primes():
         pivots, echelon = _echelon([*held, *rows], prime)
         if pivots[:k] != list(range(k)):
@@ -136,3 +146,57 @@ def _primes() -> Iterator[int]:
         if fmpz(candidate).is_prime():
             yield candidate
         candidate -= 2
+
+
+def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[int]) -> bool:
+    """Whether equations of some rows are seen to follow from those of W by how rows are combined.
+
+    The rows of a contact combine the equations of four generators: of the gap, two slips and the
+    spin. Where a coefficient of friction is 0 a generator is none, and contacts whose spins
+    are equal, or opposite, have one in common. What holds among the combinations holds among the
+    rows; the converse does not.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    working : sequence of int
+        W: independent rows.
+    rows : sequence of int
+    """
+    contact, row = places(step, [*working, *rows])
+    combined, mu = _combined(step.cone), step.contacts.mu.tolist()
+    spins = step.contacts.J[:, 3] + 0.0
+    columns: dict[Hashable, int] = {}
+    entries: list[tuple[int, int, int]] = []
+
+    def put(k: int, generator: Hashable, coefficient: int) -> None:
+        if coefficient:
+            column = columns.setdefault(generator, len(columns))
+            entries.append((k, column, coefficient))
+
+    for k, (j, i) in enumerate(zip(contact.tolist(), row.tolist(), strict=True)):
+        if j == step.contacts.n_c:
+            put(k, ("own", i), 1)
+            continue
+        gap, slip_1, slip_2, spin = combined[i]
+        mu_v, _, mu_omega = mu[j]
+        put(k, (j, "gap"), gap)
+        if mu_v:
+            put(k, (j, "slip_1"), slip_1)
+            put(k, (j, "slip_2"), slip_2)
+        if mu_omega:
+            turn, back = spins[j].tobytes(), (0.0 - spins[j]).tobytes()
+            opposite = (mu_omega, back) in columns
+            put(k, (mu_omega, back if opposite else turn), -spin if opposite else spin)
+    table = fmpz_mat(len(contact), len(columns))
+    for k, column, coefficient in entries:
+        table[k, column] = coefficient
+    return bool(table.rank() == len(working))
+
+
+@cache
+def _combined(name: str) -> list[list[int]]:
+    """How the rows of a cone combine gap, slips and spin: integers, times one positive factor."""
+    table: list[list[int]] = dyadic(cone_matrix(name)).m.tolist()
+    return table

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.confirm import BallHessian, confirmed
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
@@ -18,7 +19,9 @@ from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
 
-def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
+def exact_step(
+    step: StepData, warm: Sequence[int] = (), hessian: BallHessian | None = None
+) -> ExactOptimum:
     """The exact optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -27,6 +30,9 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
         SI units.
     warm : sequence of int
         Rows that a solver found active; see :func:`~quasistatic_ref.certify.warm.warm_rows`.
+    hessian : BallHessian, optional
+        That of the step: with it, it is seen first whether these rows hold the optimum. The bits
+        are the same.
 
     Returns
     -------
@@ -45,17 +51,21 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
         raise InputError(
             "has no rational optimum; see certify.enclosure", field="cone", value=step.cone
         )
-    form = exact_form(step)
-    optimum = exact_optimum(form, warm)
-    if isinstance(optimum, Farkas):
-        raise StepInfeasible(step, farkas_vector(step, form, optimum))
-    length = relative_length(step, optimum.delta_q)
+    optimum = None if hessian is None else confirmed(step, warm, hessian)
+    if optimum is None:
+        form = exact_form(step)
+        found = exact_optimum(form, warm)
+        if isinstance(found, Farkas):
+            raise StepInfeasible(step, farkas_vector(step, form, found))
+        optimum = found
+    norm = None if hessian is None else hessian.norm
+    length = relative_length(step, optimum.delta_q, norm)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, optimum.delta_q, length)
     return optimum
 
 
-def relative_length(step: StepData, delta_q: Array) -> float:
+def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:
     """||delta_q||_H relative to what the step asks for by itself [-].
 
     That is the largest of the unconstrained steps that the target, tau_a and tau_u would each
@@ -67,13 +77,15 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
+    norm : EnergyNorm, optional
+        That of the step, where it is known.
 
     Returns
     -------
     float
     """
     form, h, n_a = standard_form(step), step.h, step.n_a
-    norm = energy_norm(form)
+    norm = energy_norm(form.H) if norm is None else norm
     loads = np.zeros((3, step.n_v))
     loads[0, :n_a], loads[1, :n_a] = h * step.K_q @ step.delta_q_bar_a, h * step.tau_a
     loads[2, n_a:] = h * step.tau_u

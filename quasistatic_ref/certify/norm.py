@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.standard_form import StandardForm
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,19 +34,10 @@ class EnergyNorm:
         return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))
 
 
-def energy_norm(form: StandardForm) -> EnergyNorm:
-    """The norm of a step, from its float64 H.
-
-    Parameters
-    ----------
-    form : StandardForm
-
-    Returns
-    -------
-    EnergyNorm
-    """
-    unit = 1 / np.sqrt(np.diag(form.H))
-    L = np.linalg.cholesky(form.H * np.outer(unit, unit))
+def energy_norm(H: Array) -> EnergyNorm:
+    """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2]."""
+    unit = 1 / np.sqrt(np.diag(H))
+    L = np.linalg.cholesky(H * np.outer(unit, unit))
     return EnergyNorm(unit, np.asarray(L, dtype=np.float64))
 
 

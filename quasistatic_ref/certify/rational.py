@@ -14,16 +14,24 @@ so that the exact problem is one in integers, and its answer is scaled back at t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from flint import fmpq, fmpz, fmpz_mat
+from numpy.typing import NDArray
 
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
+from quasistatic_ref.certify.rows import places
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.friction import cone_function, row_gaps
+
+Which: TypeAlias = "slice | NDArray[np.int64]"
+ALL = slice(None)
+"""Of the contacts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,16 +90,42 @@ def exact_form(step: StepData) -> ExactForm:
     ExactForm
     """
     h = dyadic(step.h)
-    K_q, M_u = dyadic(step.K_q), dyadic(step.M_u)
-    tau_k = K_q @ dyadic(step.delta_q_bar_a)  # Eq. (1)
+    tau_k = dyadic(step.K_q) @ dyadic(step.delta_q_bar_a)  # Eq. (1)
     # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
-    H = _block_diagonal(h * h * K_q, M_u)  # Eq. (13)
+    H = h_times_hessian(step)
     g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
     rows = _friction_rows(step.contacts, step.cone)[step.mask]
     gaps = row_gaps(step.contacts, step.cone)[step.mask]
     A = joined([rows, dyadic(step.extra.A)])  # Eq. (8)
     b = joined([dyadic(-gaps), dyadic(step.extra.b)])
     return _in_integers(H, g, A, b, _fraction(step.h))
+
+
+def h_times_hessian(step: StepData) -> Dyadic:
+    """The matrix h H of Eq. :eq:`eq-13` without rounding, shape (n_v, n_v)."""
+    h = dyadic(step.h)
+    return _block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
+
+
+def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
+    """Rows [a, b] of A x >= b without rounding: one positive factor for every a, one for every b.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    rows : sequence of int
+        Rows of A; only these are formed.
+    """
+    contact, row = places(step, rows)
+    own = contact == step.contacts.n_c
+    used, at = np.unique(contact[~own], return_inverse=True)
+    gaps = row_gaps(step.contacts, step.cone)[contact[~own], row[~own]]
+    of_contacts = _friction_rows(step.contacts, step.cone, used)[at, row[~own]]
+    A = joined([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
+    b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
+    order = np.argsort(own, kind="stable").argsort()
+    return [[*A.m[i], b.m[i]] for i in order]
 
 
 def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
@@ -122,19 +156,19 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
     return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
 
 
-def contact_motion(contacts: Contacts) -> Dyadic:
-    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v)."""
-    J = dyadic(contacts.J)
-    axes = dyadic(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
+def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
+    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v), `of` some."""
+    J = dyadic(contacts.J[of])
+    axes = dyadic(np.stack([contacts.n[of], contacts.d1[of], contacts.d2[of]], axis=1))
     return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
 
 
-def _friction_rows(contacts: Contacts, name: str) -> Dyadic:
+def _friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
-    motion = contact_motion(contacts)
+    motion = contact_motion(contacts, of)
     if name == ELLIPSOID:
         return motion
-    mu = dyadic(contacts.mu)
+    mu = dyadic(contacts.mu[of])
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
     rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
@@ -156,10 +190,10 @@ def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactFo
     g_m = g.shifted(H.e + e_x) if g.m.any() else g.m
     b_m = b.shifted(A.e + e_x) if b.m.any() else b.m
     return ExactForm(
-        H=_matrix(H.m),
-        g=_matrix(g_m[:, None]),
-        A=_matrix(A.m),
-        b=_matrix(b_m[:, None]),
+        H=matrix(H.m),
+        g=matrix(g_m[:, None]),
+        A=matrix(A.m),
+        b=matrix(b_m[:, None]),
         x_unit=_two_to(e_x),
         slack_unit=_two_to(A.e + e_x),
         lam_unit=_two_to(H.e + e_x - A.e) / h,
@@ -167,7 +201,8 @@ def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactFo
     )
 
 
-def _matrix(m: Integers) -> fmpz_mat:
+def matrix(m: Integers) -> fmpz_mat:
+    """The same integers, of any unit [-], shape (rows, columns)."""
     return fmpz_mat(m.shape[0], m.shape[1], m.ravel().tolist())
 
 

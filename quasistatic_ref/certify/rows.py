@@ -8,19 +8,28 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 
+def places(step: StepData, rows: Iterable[int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Contact, and row of that contact, of some rows of A; contact n_c has the user's own rows.
+
+    Returns
+    -------
+    ndarray, shape (rows,), twice
+    """
+    flat = np.array([*rows], dtype=np.int64)
+    contact = np.searchsorted(step.offsets, flat, side="right") - 1
+    return contact, flat - step.offsets[contact]
+
+
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
     """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
-    offsets = step.offsets
-    pairs = []
-    for i in rows:
-        contact = min(int(np.searchsorted(offsets, i, side="right")) - 1, step.contacts.n_c)
-        pairs.append((contact, int(i - offsets[contact])))
-    return tuple(pairs)
+    contact, row = places(step, rows)
+    return tuple(zip(contact.tolist(), row.tolist(), strict=True))
 
 
 def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:

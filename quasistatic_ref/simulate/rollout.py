@@ -62,7 +62,7 @@ def rollout(
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early. While the run
-        goes on, its steps are saved in a folder beside that file; see
+        goes on, its steps are saved in a folder next to that file; see
         :class:`~quasistatic_ref.simulate.saved.SavedRun`.
     save_every : float
         Time between two saves [s].
@@ -121,13 +121,13 @@ def rollout(
 def _ended(
     recorder: Recorder,
     saved: SavedRun | None,
-    told: bool,
+    printed: bool,
     failed: str | None = None,
     interrupted: bool = False,
 ) -> Trajectory:
     """The trajectory, written where it is to be saved, and its warnings printed."""
     trajectory = recorder.trajectory(failed)
-    if told:
+    if printed:
         for sentence in trajectory.warnings:
             print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     if saved is not None:

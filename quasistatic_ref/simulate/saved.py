@@ -1,6 +1,6 @@
 """The steps of a run on disk while it goes on: what is left of one that was killed.
 
-Beside the trajectory's file, ``run.npz``, stands a folder ``run.npz.part``. Each save adds a file
+Next to the trajectory's file, ``run.npz``, stands a folder ``run.npz.part``. Each save adds a file
 with the steps since the save before, written whole or not at all. What a full record adds is not in
 it: it is a function of q, and made again. docs/guides/file_formats.md describes the files.
 """
@@ -96,7 +96,7 @@ class SavedRun:
     Parameters
     ----------
     path : str or Path
-        Of the trajectory; the folder is beside it.
+        Of the trajectory; the folder is next to it.
     settings : mapping of str to str
         Of :func:`run_settings`.
     every : float

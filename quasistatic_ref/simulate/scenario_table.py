@@ -179,7 +179,7 @@ TABLES: dict[str, dict[str, Field]] = {
         "xyz": Field("three numbers", "origin in the world", "m", (0.0, 0.0, 0.0)),
         "rpy": Field("three numbers", _TURN, "rad", (0.0, 0.0, 0.0)),
     },
-    WAYPOINT: {"t": Field("number", "time; beside it any joints and their values", "s")},
+    WAYPOINT: {"t": Field("number", "time; next to it any joints and their values", "s")},
     WRENCH: {
         "t": Field("number", "time", "s"),
         "force": Field("three numbers", "at the centre of mass, world frame", "N", (0.0, 0.0, 0.0)),

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.certify.confirm import BallHessian
+from quasistatic_ref.certify.digits import displacement_digits
 from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
@@ -143,13 +145,16 @@ def _as_said(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) 
 
 def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
+    step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
     warm: list[int] = []
     if answer is not None:
         form = natural_form(scaled.form, scaled.units)
         warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-    optimum = exact_step(scaled.step, warm)
-    return _certified(scaled, answer, statistics, optimum, exact_certificate)
+    if solver.hessian is None or not solver.hessian.fits(step):
+        solver.hessian = BallHessian(step)
+    optimum = exact_step(step, warm, solver.hessian)
+    return _certified(scaled, answer, statistics, optimum, exact_certificate, solver.hessian.norm)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
@@ -165,7 +170,8 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
-    return _certified(scaled, answer, statistics, found, enclosure_certificate)
+    norm = energy_norm(step.H)
+    return _certified(scaled, answer, statistics, found, enclosure_certificate, norm)
 
 
 def _certified(
@@ -174,13 +180,14 @@ def _certified(
     statistics: SolverStatistics,
     optimum: Any,
     certificate: Callable[..., Certificate],
+    norm: EnergyNorm,
 ) -> StepSolution:
     """A certified optimum with its residuals, and the correct digits of the backend's answer."""
     step, units, delta_q, lam = scaled.step, scaled.units, optimum.delta_q, optimum.lam
     if answer is not None:
-        said, lam_said = from_natural(answer.delta_q, answer.lam, units)
-        digits = correct_digits(step, said, delta_q, lam_said, optimum.net)
-        statistics = statistics._replace(digits=digits.delta_q)
+        said, _ = from_natural(answer.delta_q, answer.lam, units)
+        digits = displacement_digits(norm, scaled.form.g, said - delta_q)
+        statistics = statistics._replace(digits=digits)
     x = delta_q / (units.size * units.coordinate)
     residuals = asdict(scaled.residuals(x, lam * (units.length / units.size)))
     return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)

@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from quasistatic_ref.certify.confirm import BallHessian
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, ENDLESS, NONE, QPSOLVERS, Options
@@ -96,6 +97,8 @@ class Solver(ABC):
 
     Attributes
     ----------
+    hessian : BallHessian or None
+        Of the step that was certified last, for those of the same H.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -115,6 +118,7 @@ class Solver(ABC):
         self.like, self.name = like, name
         self._attempts: dict[float, list[Attempt]] = {}
         self._fitting: StepData | None = None
+        self.hessian: BallHessian | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.like, self.name)

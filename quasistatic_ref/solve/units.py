@@ -19,7 +19,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.data import Array, Extra, Mask, StepData
+from quasistatic_ref.step.arrays import finite, read_only
+from quasistatic_ref.step.data import Array, Extra, Mask, StepData, hessian
+from quasistatic_ref.step.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -140,21 +142,33 @@ def natural_form(form: StandardForm, units: Units) -> StandardForm:
 
 
 def to_natural(step: StepData, units: Units) -> StepData:
-    """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are."""
+    """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
+
+    Raises
+    ------
+    StepDataError
+        If a number leaves the range of float64.
+    """
     S, ell, rho = units.coordinate, units.length, units.size
     S_a, S_u = S[: step.n_a], S[step.n_a :]
-    dense = step.contacts.dense()
-    contacts = replace(dense, phi=dense.phi / (rho * ell), J=dense.J * (S / ell))
-    extra = Extra(step.extra.names, step.extra.A * (S / ell), step.extra.b / (rho * ell))
-    return step.replace(
-        K_q=step.K_q * np.outer(S_a, S_a),
-        M_u=step.M_u * np.outer(S_u, S_u),
-        tau_a=step.tau_a * S_a / rho,
-        tau_u=step.tau_u * S_u / rho,
-        delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
-        contacts=contacts,
-        extra=extra,
+    c, extra = step.contacts.dense(), step.extra
+    same = c.mu_v, c.mu_omega, c.rows, c.mu
+    phi, J = c.phi / (rho * ell), c.J * (S / ell)
+    K_q = read_only(step.K_q * np.outer(S_a, S_a))
+    M_u = read_only(step.M_u * np.outer(S_u, S_u))
+    if extra.names:
+        extra = Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell))
+    H = hessian(step.h, K_q, M_u)
+    tau_a, tau_u = step.tau_a * S_a / rho, step.tau_u * S_u / rho
+    natural = PosedStep(
+        Constants(step.h, step.cone, K_q, M_u, extra, H, step.layout),
+        tau_a,
+        tau_u,
+        step.delta_q_bar_a / (rho * S_a),
+        PosedContacts(c.name, phi, c.n, c.d1, c.d2, J, *same),
     )
+    own = (phi, J.ravel(), H.ravel(), tau_a, tau_u, natural.delta_q_bar_a)
+    return natural if all(map(finite, own)) else natural.replace()  # which says what is not
 
 
 def within_reach(natural: StepData) -> StepData:

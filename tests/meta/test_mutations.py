@@ -41,8 +41,8 @@ SAMPLE = (
     f"{JUDGE} optimality_residuals: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
     f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
-    f"{RATIONAL} contact_motion: [contacts.n, contacts.d1, contacts.d2] -> "
-    "[contacts.n, contacts.d2, contacts.d1]",
+    f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
+    "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
     f"{RATIONAL} _in_integers: _two_to(H.e + e_x) / h -> _two_to(H.e + e_x) * h",
     f"{KKT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",

@@ -106,6 +106,10 @@ def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
 
 
 BAD = {
+    "a duration without end": (
+        SLIDE.replace("duration = 0.02", "duration = 1e308"),
+        "duration: mak",
+    ),
     "no sweep": ("sweeps = []", "sweeps: must hold at least one table"),
     "no axes": (SLIDE.partition("[sweeps.axes.mu]")[0], "sweeps[0].axes: is missing"),
     "no values": (SLIDE.replace("values = [0.01, 0.02]", ""), "sweeps[0].axes.h.values"),

@@ -79,7 +79,7 @@ def test_ratios_are_of_pairs():
 
 
 ROADS = {
-    "microseconds": {"step, native": 180.0}, "over_solver": 12.5, "cvxpy_over_native": 9.0,
+    "microseconds": {"step, native": 180.0}, "over_solver": 16.5, "cvxpy_over_native": 9.0,
     "rebuilt_over_native": 20.0, "by_hand_over_native": 1.5,
 }  # fmt: skip
 
@@ -98,7 +98,7 @@ def test_each_promise_is_judged_by_its_limit():
         "exponent in bodies, chains": True,
     }
     rows = promise_rows(promises(tables))
-    assert rows[1] == ("step over the bare solver", "12.5", "at most 12 (stretch 8)", "FAILS")
+    assert rows[1] == ("step over the bare solver", "16.5", "at most 16 (stretch 8)", "FAILS")
 
 
 def test_the_page_says_why_mujoco_was_not_run(tmp_path):

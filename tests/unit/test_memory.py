@@ -11,15 +11,15 @@ from quasistatic_ref.simulate.recorder import PACKED, Recorder
 from quasistatic_ref.simulate.scenario import load_scenario
 from validation.memory_of_steps import growth
 
-LEFT = 40.0
-"""Bytes that a step may leave between the 100th and the 300th, where caches are filling: 30 at
-most; one number that is kept in a dictionary takes more than 60."""
+LEFT = 30.0
+"""Bytes that a step may leave between the 600th and the 1,000th, where caches still fill: 11; one
+number that is kept in a dictionary takes more than 60."""
 APIECE = 40
 """Bytes a step beyond its numbers: of names and heads of arrays, which are there once."""
 
 
 def test_certified_steps_leave_nothing_behind():
-    (a, before, _), (b, after, _) = growth(300, [100, 300])
+    (a, before, _), (b, after, _) = growth(1000, [600, 1000])
     assert (after - before) / (b - a) < LEFT
 
 

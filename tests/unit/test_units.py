@@ -168,6 +168,6 @@ def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
     natural = to_natural(step, natural_units(step))
     assert within_reach(natural) is natural
-    far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=[1e9]))
+    far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
     reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
     np.testing.assert_allclose(within_reach(far).contacts.phi, [reach], rtol=ROUNDING, atol=0.0)

@@ -57,6 +57,12 @@ ENDED = {signal.SIGPROF: "hang", signal.SIGALRM: "hang", signal.SIGKILL: "memory
 """What the signal says that ended a process; all others are crashes."""
 
 
+def scratch() -> tempfile.TemporaryDirectory[str]:
+    """A temporary folder, in memory where there is such a place: disks cost 3 ms a file."""
+    memory = Path("/dev/shm")
+    return tempfile.TemporaryDirectory(dir=memory if memory.is_dir() else None)
+
+
 def content_of(reader: Reader, i: int) -> bytes:
     """The i-th input of a reader: the same for all readers of files of that name."""
     rng = random.Random(f"{reader.file}/{i}")
@@ -99,8 +105,7 @@ def main() -> None:
     with open(os.devnull, "w") as nowhere:  # libraries print what they please
         os.dup2(nowhere.fileno(), 1)
         os.dup2(nowhere.fileno(), 2)
-    memory = Path("/dev/shm")  # disks cost 3 ms a file
-    with tempfile.TemporaryDirectory(dir=memory if memory.is_dir() else None) as folder:
+    with scratch() as folder:
         try:
             table = import_module(sys.argv[2]).readers(Path(folder))
             for found in findings(table, Path(folder), json.loads(sys.argv[1]), float(sys.argv[3])):

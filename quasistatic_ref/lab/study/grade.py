@@ -53,7 +53,7 @@ def exam(problem: Problem) -> Exam:
     """A problem prepared: its natural units, and the norm that errors are measured in."""
     units = units_of(problem.form)
     natural = natural_form(problem.form, units)
-    norm = energy_norm(natural)
+    norm = energy_norm(natural.H)
     S, rho = units.coordinate, units.size
     answer = Truth(
         problem.answer.delta_q / (rho * S), problem.answer.net * S / rho, problem.answer.bound

@@ -13,6 +13,7 @@ from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text
 from quasistatic_ref.lab.study.spec import header
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.tolerances import LARGE
 
 MOST_RUNS = 100_000
 
@@ -70,12 +71,21 @@ class Sweep:
         ]
 
     def settings(self, point: Mapping[str, Any]) -> list[str]:
-        """One combination as changes of the scenario."""
+        """One combination as changes of the scenario.
+
+        Raises
+        ------
+        InputError
+            If the study's duration makes too many steps.
+        """
         changes = [
             f"{field}={json_text(point[axis.name])}" for axis in self.axes for field in axis.fields
         ]
         if self.duration is not None:
             h = load_scenario(self.scenario, changes).h
+            if not self.duration / h <= LARGE:
+                problem = f"makes more than {LARGE:g} steps of {h:g} s"
+                raise InputError(problem, field="duration", value=self.duration)
             changes.append(f"steps={round(self.duration / h)}")
         return [*changes, 'record="light"']
 

@@ -1,0 +1,205 @@
+r"""The optimum on a working set that was guessed right, confirmed in balls without forming A.
+
+A backend that answers well presses on rows that hold the optimum. With :math:`y = h\lambda`, and
+with h H and h g, which sums and products of the step's numbers give, the minimiser on
+:math:`A_W x = b_W` is
+
+.. math:: A_W (hH)^{-1} A_W^T y = b_W - A_W (hH)^{-1} hg, \qquad
+          x = (hH)^{-1} (hg + A_W^T y).
+
+It is the optimum if the first matrix is regular (the rows of W are then independent), y > 0, and
+every other row has a positive slack or is implied by those of W. Balls show all of that but the
+zeros; these follow from how the rows of a contact are combined, or from the rank of exact rows.
+What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpz
+
+from quasistatic_ref.certify.balls import PRECISION, inverse
+from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.rational import exact_rows, h_times_hessian, matrix
+from quasistatic_ref.certify.rounding import all_nearest
+from quasistatic_ref.certify.rows import places
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
+
+
+class BallHessian:
+    """The inverse of h H in balls, H proved to be positive definite: kept while H is the same.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Attributes
+    ----------
+    norm : EnergyNorm
+        Of H in float64.
+
+    Raises
+    ------
+    StepDataError
+        If H is not positive definite without rounding.
+    """
+
+    def __init__(self, step: StepData) -> None:
+        self.of = step.h, step.K_q, step.M_u
+        H = h_times_hessian(step)
+        with ctx.workprec(PRECISION):
+            self.inverse = inverse(matrix(H.m)) * arb(2) ** -H.e
+            self.h = arb(step.h)
+            self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
+            self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
+        self.norm = energy_norm(step.H)
+
+    def fits(self, step: StepData) -> bool:
+        """Whether it is that of a step."""
+        h, K_q, M_u = self.of
+        return h == step.h and K_q is step.K_q and M_u is step.M_u
+
+    def load(self, step: StepData) -> arb_mat:
+        """The load h g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
+        tau_k = self.K_q * _column(step.delta_q_bar_a)  # Eq. (1)
+        tau = (tau_k + _column(step.tau_a)).entries() + step.tau_u.tolist()
+        return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
+
+    def net(self, step: StepData, delta_q: list[arb]) -> list[arb]:
+        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: without a radius where nothing moves."""
+        n_a, n_u = step.n_a, step.n_u
+        off = arb_mat(n_a, 1, delta_q[:n_a]) - _column(step.delta_q_bar_a)
+        actuated = (self.K_q * off - _column(step.tau_a)) * self.h
+        moved = self.M_u * arb_mat(n_u, 1, delta_q[n_a:])
+        parts = zip(moved.entries(), step.tau_u.tolist(), strict=True)
+        return actuated.entries() + [p / self.h - self.h * tau for p, tau in parts]
+
+
+def confirmed(step: StepData, guess: Sequence[int], hessian: BallHessian) -> ExactOptimum | None:
+    """The exact optimum, if a guess of its working set is right and balls show it.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    guess : sequence of int
+        Rows, as from :func:`~quasistatic_ref.certify.warm.warm_rows`.
+    hessian : BallHessian
+        That of the step.
+
+    Returns
+    -------
+    ExactOptimum or None
+        None where something stays open. Of a guess that is wrong, rows whose multipliers are not
+        surely positive are dropped; that is all.
+    """
+    working = sorted(set(guess))
+    with ctx.workprec(PRECISION):
+        A, b = _rows(step, working)
+        reached = A * hessian.inverse
+        free = hessian.inverse * hessian.load(step)
+        try:
+            y = (reached * A.transpose()).solve(b - A * free)
+        except ZeroDivisionError:
+            return None
+        pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
+        if pressed != working:
+            return confirmed(step, pressed, hessian)
+        x = free + reached.transpose() * y
+        lam = y * (1 / hessian.h)
+        net = A.transpose() * lam
+        found = *lam.entries(), *net.entries(), *x.entries(), *_slacks(step, x)
+        numbers, shown = all_nearest(found)
+    ends = np.cumsum([len(working), step.n_v, step.n_v])
+    lam_w, impulse, delta_q, slack = np.split(numbers, ends)
+    open_lam, open_impulse, open_x, open_slack = np.split(~shown, ends)
+    slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
+    idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
+    still = np.flatnonzero(open_x).tolist()
+    if open_lam.any() or (slack < 0).any() or not _implied(step, working, idle, still):
+        return None
+    delta_q[still] = 0.0
+    if open_impulse.any():
+        at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
+        with ctx.workprec(PRECISION):
+            impulse, shown = all_nearest(hessian.net(step, at))
+        if not shown.all():
+            return None
+    every = np.zeros(len(slack))
+    every[working] = lam_w
+    return ExactOptimum(
+        delta_q=delta_q,
+        lam=every,
+        net=impulse,
+        slack=slack,
+        working_set=tuple(working),
+        multipliers_unique=not idle,
+        differentiable=True,  # every row without slack is one of W, or spanned by W
+        smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
+        smallest_active_multiplier=min(lam_w.tolist(), default=None),
+        walks=0,
+    )
+
+
+def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
+    """A_W and b_W: (n~ + d~_i)'J of Eq. (8) for each row of the working set, the user's last."""
+    contacts, m = step.contacts, int(step.offsets[-1])
+    contact, row = places(step, [i for i in working if i < m])
+    own = [i - m for i in working if i >= m]
+    used = list(dict.fromkeys(contact.tolist()))
+    directions, at = arb_mat(len(contact), 4 * len(used)), {j: 4 * i for i, j in enumerate(used)}
+    frames = zip(contact.tolist(), contacts.n[contact].tolist(), contacts.d1[contact].tolist(),
+                 contacts.d2[contact].tolist(), strict=True)  # fmt: skip
+    table, mu = cone_matrix(step.cone)[row].tolist(), contacts.mu[contact].tolist()
+    for k, (j, n, d1, d2) in enumerate(frames):
+        gap, slip_1, slip_2, spin = table[k]
+        along_1, along_2, first = arb(slip_1) * mu[k][0], arb(slip_2) * mu[k][1], at[j]
+        for i in range(3):
+            directions[k, first + i] = gap * arb(n[i]) + along_1 * d1[i] + along_2 * d2[i]
+        directions[k, first + 3] = arb(spin) * mu[k][2]
+    J = arb_mat(4 * len(used), step.n_v, contacts.J[used].ravel().tolist())
+    entries = (directions * J).entries() + step.extra.A[own].ravel().tolist()
+    gaps = (-row_gaps(contacts, step.cone)[contact, row]).tolist()
+    b = gaps + step.extra.b[own].tolist()
+    return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
+
+
+def _slacks(step: StepData, x: arb_mat) -> list[arb]:
+    """A x - b of all rows: the cone's function of the gap, slip and spin of each contact."""
+    contacts, rows = step.contacts, cone_function(step.cone)
+    moved = arb_mat(4 * contacts.n_c, step.n_v, contacts.J.ravel().tolist()) * x
+    v, found = moved.entries(), list[arb]()
+    of_contacts = zip(contacts.phi.tolist(), contacts.n.tolist(), contacts.d1.tolist(),
+                      contacts.d2.tolist(), contacts.mu.tolist(), step.counts.tolist(),
+                      strict=True)  # fmt: skip
+    for j, (phi, n, d1, d2, (mu_v, _, mu_omega), count) in enumerate(of_contacts):
+        nu, spin = v[4 * j : 4 * j + 3], v[4 * j + 3]
+        gap, slip_1, slip_2 = _dot(n, nu) + phi, _dot(d1, nu) * mu_v, _dot(d2, nu) * mu_v
+        found += rows(gap, slip_1, slip_2, spin * mu_omega)[:count]  # Eq. (4)
+    if step.extra.names:
+        A = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
+        found += (A * x - _column(step.extra.b)).entries()
+    return found
+
+
+def _implied(step: StepData, working: list[int], rows: list[int], coordinates: list[int]) -> bool:
+    """Whether the working set implies that slacks of some rows and some x are zero, all of them."""
+    if coordinates or not spanned_in_contacts(step, working, rows):
+        exact = exact_rows(step, [*working, *rows])
+        n, k = step.n_v, len(working)
+        zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in coordinates]
+        return all(follow(exact[:k], [*exact[k:], *zeros]))
+    return True
+
+
+def _column(values: Array) -> arb_mat:
+    return arb_mat(len(values), 1, values.tolist())
+
+
+def _dot(direction: list[float], nu: list[arb]) -> arb:
+    return nu[0] * direction[0] + nu[1] * direction[1] + nu[2] * direction[2]

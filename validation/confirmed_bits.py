@@ -1,0 +1,122 @@
+"""A guess that is confirmed in balls ends at the bits of the exact method: each wrong one is seen.
+
+Run ``python -m validation.confirmed_bits --out FILE`` (ten minutes on two cores; ``--random`` makes
+it shorter). Random steps of every polyhedral cone, degenerate ones among them, as they are and in
+units up to 2^40 apart. Of each, the exact method finds a working set from cold; ``confirmed`` is
+then given that set, and others that are wrong: without a row, with one more, with one exchanged,
+and random ones. What it confirms must be equal in every bit to what the exact method makes of the
+same guess. (A guess with one row too many may be mended by dropping it, in both.)
+
+Prints a table, and exits with status 1 if a bit differs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.files import text_written
+from quasistatic_ref.plain import bits
+from quasistatic_ref.solve.units import Units, to_natural
+from quasistatic_ref.step.data import StepData
+from validation.random_steps import mixed_step
+
+CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
+COLUMNS = ("optima", "infeasible", "confirmed", "left open", "wrong sets", "refused", "mended")
+
+
+def random_case(seed: int) -> tuple[str, StepData]:
+    """A random step, its cone and units; the seed decides."""
+    rng = np.random.default_rng([seed, 1])
+    cone = CONES[seed % len(CONES)]
+    step = mixed_step(seed // len(CONES)).replace(cone=cone)
+    if seed % 2:
+        return cone, step
+    apart = Units(2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0)
+    return f"{cone}, badly scaled", to_natural(step, apart)
+
+
+def wrong_sets(rng: np.random.Generator, working: list[int], m: int) -> Iterator[list[int]]:
+    """Sets of rows that are others than the working set."""
+    others = sorted(set(range(m)) - set(working))
+    if working:
+        out = int(rng.choice(working))
+        rest = [i for i in working if i != out]
+        yield rest
+        if others:
+            yield [*rest, int(rng.choice(others))]
+    if others:
+        yield [*working, int(rng.choice(others))]
+    if m:
+        yield rng.choice(m, size=min(m, 1 + len(working)), replace=False).tolist()
+
+
+def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
+    """Names of the fields in which two optima differ in any bit."""
+    names = [f.name for f in fields(one)]
+    return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
+
+
+def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
+    """The kind of a random step, what was found on it, and faults in words."""
+    kind, step = random_case(seed)
+    found, faults = Counter[str](), []
+    rng, form, hessian = np.random.default_rng([seed, 2]), exact_form(step), BallHessian(step)
+    truth = exact_optimum(form)
+    if isinstance(truth, Farkas):
+        found["infeasible"] += 1
+        right: list[int] = []
+    else:
+        found["optima"] += 1
+        right = list(truth.working_set)
+        answer = confirmed(step, right, hessian)
+        found["left open" if answer is None else "confirmed"] += 1
+        if answer is not None and (wrong := differing(answer, exact_optimum(form, right))):
+            faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
+    for guess in wrong_sets(rng, right, form.m):
+        answer = confirmed(step, guess, hessian)
+        found["wrong sets"] += 1
+        found["refused" if answer is None else "mended"] += 1
+        if answer is not None and (wrong := differing(answer, exact_optimum(form, guess))):
+            faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+    return kind, found, faults
+
+
+def main() -> int:
+    """Check, print and write the table; exit status 1 if a bit differs."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--random", type=int, default=5000, metavar="STEPS")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here, too")
+    options = parser.parse_args()
+    found: dict[str, Counter[str]] = {}
+    faults: list[str] = []
+    with ProcessPoolExecutor() as pool:
+        outcomes = pool.map(checked, range(options.random), chunksize=16)
+        for kind, counts, wrong in tqdm(outcomes, total=options.random):
+            found.setdefault(kind, Counter()).update(counts)
+            faults += wrong
+    found["all"] = sum(found.values(), Counter())
+    lines = [f"{'':24}" + "".join(f"{name:>12}" for name in COLUMNS)]
+    for kind in sorted(found, key=lambda kind: (kind == "all", kind)):
+        lines.append(f"{kind:24}" + "".join(f"{found[kind][name]:>12}" for name in COLUMNS))
+    lines += faults or ["What was confirmed has the bits of the exact method, in every field."]
+    print(text := "\n".join(lines))
+    if options.out is not None:
+        text_written(options.out, text + "\n")
+    return int(bool(faults))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
