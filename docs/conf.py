@@ -41,6 +41,7 @@ nitpicky = True
 html_theme = "furo"
 html_title = f"quasistatic_ref {version}"
 html_static_path = ["_static"]
+html_extra_path = ["../validation/verifier"]  # a page of its own, and its script
 viewcode_follow_imported_members = False
 html_css_files = ["page.css"]
 html_show_sphinx = False

@@ -131,6 +131,11 @@ RESULTS = (
         ("validation/forgeries.md",),
     ),
     Result(
+        "verifier",
+        ("validation.check_verifier", "--all", "--out", "validation/results/verifier.md"),
+        ("validation/results/verifier.md",),
+    ),
+    Result(
         "confirmed_bits",
         ("validation.confirmed_bits", "--out", "validation/results/confirmed_bits.txt"),
         ("validation/results/confirmed_bits.txt",),

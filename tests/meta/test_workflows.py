@@ -69,7 +69,8 @@ case "$*" in *"$FAILS"*) exit 1 ;; esac
 @pytest.fixture
 def ran(tmp_path):
     """Status and commands of .ci/run in a folder whose programs are stubs."""
-    stubs = {"path": ("python3", "chromium"), ".venv/bin": ("pip", "python", "ruff", "mypy")}
+    programs = ("python3", "chromium", "node")
+    stubs = {"path": programs, ".venv/bin": ("pip", "python", "ruff", "mypy")}
     for place, names in stubs.items():
         folder = tmp_path / place
         folder.mkdir(parents=True)

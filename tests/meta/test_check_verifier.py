@@ -1,0 +1,38 @@
+"""What the comparison of the two checkers counts as a disagreement; Node runs in ``.ci/run``."""
+
+from __future__ import annotations
+
+import pytest
+
+from validation.check_verifier import VERIFIER, Case, disagreement
+
+MOST_LINES = 400
+"""Of the second checker, which a reader is to read whole."""
+
+
+@pytest.mark.parametrize(
+    ("refusal", "forged", "verdict", "open_fields", "disagree"),
+    [
+        (None, (), "verified", (), False),
+        (None, (), "not checked", ("gap",), False),
+        (None, (), "refused", (), True),
+        ("lam[0] is wrong", ("lam",), "refused", (), False),
+        ("lam[0] is wrong", ("lam",), "verified", (), True),
+        ("lam[0] is wrong", ("lam",), "not checked", ("lam", "gap"), False),
+        ("lam[0] is wrong", ("lam",), "not checked", ("gap",), True),
+        ("lam[0] is wrong", ("lam",), "not checked", ("all",), True),
+    ],
+)
+def test_what_one_proves_and_the_other_refuses_is_a_disagreement(
+    refusal, forged, verdict, open_fields, disagree
+):
+    case = Case("any", "", "", refusal, frozenset(forged))
+    assert disagreement(case, {"verdict": verdict, "notChecked": open_fields}) == disagree
+
+
+def test_the_second_checker_is_short_and_needs_nothing():
+    text = VERIFIER.read_text()
+    assert len(text.splitlines()) <= MOST_LINES
+    asked = [line for line in text.splitlines() if "require(" in line or "import" in line]
+    assert len(asked) == 1  # the command line, which reads two files
+    assert 'require("fs")' in asked[0]
