@@ -242,3 +242,8 @@ def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
         "h = 0.01 s": 2,
         "h = 0.02 s": 3,
     }
+
+
+def test_calls_of_no_time_at_all_are_compared_as_the_shortest_that_a_clock_tells_apart():
+    ratios = performance_ratios(np.array([[0.0, 0.0], [2e-9, 0.0]]), np.ones((2, 2), dtype=bool))
+    np.testing.assert_allclose(ratios, [[1, 1], [2, 1]], rtol=EXACT, atol=EXACT)

@@ -112,6 +112,10 @@ BAD = {
     ),
     "no sweep": ("sweeps = []", "sweeps: must hold at least one table"),
     "no axes": (SLIDE.partition("[sweeps.axes.mu]")[0], "sweeps[0].axes: is missing"),
+    "a value that is no number": (
+        SLIDE.replace("values = [0.01, 0.02]", "values = [nan, 0.02]"),
+        "sweeps[0].axes.h.values",
+    ),
     "no values": (SLIDE.replace("values = [0.01, 0.02]", ""), "sweeps[0].axes.h.values"),
     "an unknown field": (SLIDE + 'colour = "red"\n', "sweeps[0].axes.h.colour: is unknown"),
     "a field the scenario does not know": (

@@ -183,7 +183,7 @@ def spoilt_npy(rng: Rng, good: bytes) -> bytes:
         )
     try:
         array = np.load(io.BytesIO(good), allow_pickle=False)
-    except (ValueError, OSError, SyntaxError, tokenize.TokenError):  # spoilt before
+    except (ValueError, OSError, SyntaxError, MemoryError, tokenize.TokenError):  # spoilt before
         return spoilt_bytes(rng, good)
     return npy_bytes(spoilt_array(rng, array))
 

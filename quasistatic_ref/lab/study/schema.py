@@ -50,6 +50,7 @@ def _table_of(kind: Kind) -> Kind:
 
 NUMBER: Kind = ("a finite number", _is_number)
 POSITIVE: Kind = ("a number greater than 0", lambda v: _is_number(v) and v > 0)
+TIME: Kind = ("a number from 0 on", lambda v: _is_number(v) and v >= 0)
 COUNT: Kind = ("a whole number from 0 on", _is_count)
 TEXT: Kind = (f"a string of at most {LONGEST_TEXT} characters", _is_text)
 FLAG: Kind = ("true or false", lambda value: isinstance(value, bool))
@@ -62,12 +63,13 @@ SOLVER_ROW: Shape = {
     "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES), "claimed": TEXT,
     "said_optimal": FLAG, "wrong": FLAG, "digits": {"delta_q": MAYBE, "net_wrench": MAYBE},
     "residuals": _table_of(MAYBE),
-    "seconds": {"solver": MAYBE, "call": MAYBE, "spent": NUMBER}, "iterations": MAYBE,
+    "seconds": {"solver": _or_null(TIME), "call": _or_null(TIME), "spent": TIME},
+    "iterations": MAYBE,
 }  # fmt: skip
 SWEEP_ROW: Shape = {
     "sweep": TEXT, "scenario": TEXT, "values": _table_of(VALUE), "outcome": TEXT,
     "reason": _or_null(("a string", lambda value: isinstance(value, str))),
-    "measures": _table_of(MAYBE), "seconds": {"call": NUMBER},
+    "measures": _table_of(MAYBE), "seconds": {"call": TIME},
 }  # fmt: skip
 FACT: Shape = {
     "id": TEXT, "family": TEXT, "contacts": COUNT, "mass_ratio": MAYBE, "h": MAYBE, "k": COUNT,

@@ -152,11 +152,15 @@ def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
         if not fields or not all(isinstance(f, str) and f for f in fields):
             raise table.fail("fields", "must be a list of dotted fields of the scenario", fields)
         values = table.sequence("values")
-        if not values or not all(isinstance(v, int | float | str) for v in values):
-            raise table.fail("values", "must be a list of numbers or words", values)
+        if not values or not all(isinstance(v, str) or _is_finite(v) for v in values):
+            raise table.fail("values", "must be a list of finite numbers or words", values)
         table.close()
         chosen = dict.fromkeys([values[0], values[-1]] if quick else values)
         axes.append(Axis(name, tuple(fields), tuple(chosen)))
     if not axes:
         raise tables.error("must hold at least one table", field="axes")
     return tuple(axes)
+
+
+def _is_finite(value: Any) -> bool:
+    return isinstance(value, int | float) and -LARGE < value < LARGE

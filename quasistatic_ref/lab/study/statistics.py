@@ -7,6 +7,8 @@ import numpy as np
 SHIFT = 1e-3
 """Of the shifted geometric mean [s]: what is far faster than that counts alike."""
 
+TICK = 1e-9
+"""Shortest time that a clock tells apart [s]: a call of no time at all took that long."""
 LOW = 1.0
 """The percentile that stands for "nearly the worst"."""
 
@@ -48,7 +50,7 @@ def performance_ratios(seconds: np.ndarray, good: np.ndarray) -> np.ndarray:
     ndarray, shape (solvers, problems) [-]
         At least 1; infinite where the answer is not good enough.
     """
-    times = np.where(good, seconds, np.inf)
+    times = np.where(good, np.maximum(seconds, TICK), np.inf)
     fastest = times.min(axis=0, initial=np.inf)
     ratios = np.full(times.shape, np.inf)
     np.divide(times, fastest, out=ratios, where=np.isfinite(times))
