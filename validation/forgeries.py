@@ -37,7 +37,6 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read
 from quasistatic_ref.step.solution_files import solution_text as text_of
 from validation.forged_scenes import scenes
-from validation.fuzzing.worker import scratch
 from validation.solution_truth import least_bound, truth_of, wrenches
 
 Json = Any

@@ -140,7 +140,7 @@ class Contacts(Points):
         return self
 
 
-def friction_coefficients(mu_v: Array, mu_omega: Array, rows: NDArray[np.int64]) -> Array:
+def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
     return read_only(np.column_stack([mu_v, mu_v, mu_omega * (rows == 6)]))
 
