@@ -8,8 +8,8 @@ from validation.fuzzing.readers import names, readers
 PLANTED = "tests.meta.planted_readers"
 SAMPLE = 12
 """Inputs of each reader in the suite: 10 s in all. The committed table has thousands."""
-QUICK = 8.0
-"""Limit of processor time [s] for the planted hang; to fill two gigabytes takes one to four."""
+QUICK = 1.0
+"""Limit of time [s] for the planted hang."""
 
 
 def test_every_planted_fault_is_named_and_the_inputs_after_it_are_read():
@@ -17,11 +17,12 @@ def test_every_planted_fault_is_named_and_the_inputs_after_it_are_read():
         "plain": "refused", "sentence": "traceback", "traceback": "traceback", "crash": "crash",
         "hang": "hang", "memory": "memory", "too much": "memory",
     }  # fmt: skip
-    found = list(outcomes([(name, 5, 1) for name in kinds], PLANTED, QUICK))
+    found = [*outcomes([("hang", 5, 1)], PLANTED, QUICK)]
+    found += outcomes([(name, 5, 1) for name in kinds if name != "hang"], PLANTED)
     assert {name: outcome for name, _, outcome, *_ in found} == kinds
     assert {i for _, i, *_ in found} == {5}
     after = [("plain", 0, 1), ("crash", 1, 2), ("plain", 3, 1)]
-    assert [i for _, i, *_ in outcomes(after, PLANTED, QUICK)] == [0, 1, 2, 3]
+    assert [i for _, i, *_ in outcomes(after, PLANTED)] == [0, 1, 2, 3]
 
 
 def test_a_sample_of_every_reader_is_accepted_or_refused_in_a_sentence():
