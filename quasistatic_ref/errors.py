@@ -7,14 +7,13 @@ status 3). Each message is one plain sentence; each object carries the data behi
 
 from __future__ import annotations
 
-import difflib
-import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from quasistatic_ref.plain import bits
+from quasistatic_ref.quoting import clipped, one_line, short_words, shown_value
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
@@ -22,32 +21,11 @@ if TYPE_CHECKING:
     from quasistatic_ref.step.data import Array, StepData
 
 
-LONGEST = 200
-"""Most characters of anything given that a sentence repeats."""
-MOST_NAMES = 50
-"""Most names that a sentence lists."""
-OTHER_WORDS = {
-    "dt": "h",
-    "time_step": "h",
-    "timestep": "h",
-    "time": "t",
-    "friction": "mu_v",
-    "torsion": "mu_omega",
-    "stiffness": "K_q",
-    "solver": "backend",
-    "tolerance": "accuracy",
-    "tol": "accuracy",
-    "eps": "accuracy",
-    "joints": "actuated",
-}
-"""What other programs call a field, and how it is called here."""
-
-
 class QuasistaticError(Exception):
     """Root of every error that this package raises on purpose."""
 
     def __str__(self) -> str:
-        return one_line(_short_words(super().__str__()))
+        return one_line(short_words(super().__str__()))
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -91,8 +69,8 @@ class InputError(QuasistaticError):
     def __str__(self) -> str:
         where = f"{clipped(str(self.file))}: " if self.file is not None else ""
         what = f"{clipped(self.field)}: " if self.field is not None else ""
-        got = f" (got {_short(self.value)})" if self.value is not None else ""
-        return one_line(f"{where}{what}{_short_words(self.problem)}{got}")
+        got = f" (got {shown_value(self.value)})" if self.value is not None else ""
+        return one_line(f"{where}{what}{short_words(self.problem)}{got}")
 
     def in_file(self, file: str | Path) -> InputError:
         """Return the same error, saying which file it is about (unless it says so already)."""
@@ -251,51 +229,6 @@ def about_field(field: str) -> Iterator[None]:
         raise
 
 
-def one_line(text: str) -> str:
-    """Text whose line ends and control characters are escaped: names come from any file."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
-
-
-def clipped(text: str, longest: int = LONGEST) -> str:
-    """Text of at most so many characters; a longer one loses its middle."""
-    if len(text) <= longest:
-        return text
-    head = (longest - 3) // 2
-    return f"{text[:head]}...{text[head + 3 - longest :]}"
-
-
-def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'? known: ..."`` for an unknown name."""
-    names = sorted(known)
-    return f"{nearest_name(name, names) or ';'} {known_names(names)}"
-
-
-def known_names(known: Iterable[str]) -> str:
-    """Return ``"known: ..."``, the names sorted, a long list cut."""
-    names = sorted(known)
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    return f"known: {', '.join(map(clipped, names[:MOST_NAMES])) or 'none'}{more}"
-
-
-def nearest_name(name: str, known: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'?"`` for an unknown name, or nothing if none is near."""
-    if len(name) > LONGEST:  # difflib's time is quadratic
-        return ""
-    by_lower = {known_name.lower(): known_name for known_name in known}
-    near = difflib.get_close_matches(name.lower(), by_lower, n=1)
-    meant = by_lower[near[0]] if near else OTHER_WORDS.get(name.lower(), "")
-    return f"; did you mean {clipped(meant)!r}?" if meant in by_lower.values() else ""
-
-
-def _short_words(text: str) -> str:
-    """Text whose unbroken words are clipped: a sentence has none so long but what it quotes."""
-    if len(text) <= LONGEST:
-        return text
-    return re.sub(rf"\S{{{LONGEST + 1},}}", lambda word: clipped(word[0]), text)
-
-
 def _rebuilt(
     kind: type[QuasistaticError], args: tuple[Any, ...], state: dict[str, Any]
 ) -> QuasistaticError:
@@ -303,11 +236,3 @@ def _rebuilt(
     error.args = args
     error.__dict__.update(state)
     return error
-
-
-def _short(value: Any, limit: int = 80) -> str:
-    try:
-        text = " ".join(repr(value).split())
-    except (RecursionError, ValueError):  # nested without end; an integer of too many digits
-        return f"of type {type(value).__name__}, too long to show"
-    return text if len(text) <= limit else text[: limit - 3] + "..."

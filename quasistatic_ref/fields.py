@@ -11,7 +11,8 @@ from typing import Any, Final, TypeVar
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.quoting import suggestion
 
 REQUIRED: Final[Any] = object()
 E = TypeVar("E", bound=InputError)

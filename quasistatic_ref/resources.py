@@ -1,11 +1,12 @@
-"""Where the data that come with the package are: in the wheel, or beside it in a checkout."""
+"""Where the data that come with the package are: in the wheel, or next to it in a checkout."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
-from quasistatic_ref.errors import ScenarioError, suggestion
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.quoting import suggestion
 
 
 def models_folder() -> Path:
@@ -18,12 +19,12 @@ def vectors_folder() -> Path:
     return _folder("validation/vectors", "lab/vectors/data")
 
 
-def _folder(beside: str, inside: str) -> Path:
+def _folder(next_to: str, inside: str) -> Path:
     """Return a folder by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parent
     root = package.parent
-    in_checkout = (root / "pyproject.toml").is_file() and (root / beside).is_dir()
-    return root / beside if in_checkout else package / inside
+    in_checkout = (root / "pyproject.toml").is_file() and (root / next_to).is_dir()
+    return root / next_to if in_checkout else package / inside
 
 
 def scenario_names() -> list[str]:

@@ -150,3 +150,8 @@ def _minors_positive(H: fmpz_mat) -> bool:
         fmpz_mat(k, k, [H[i, j] for i in range(k) for j in range(k)]).det() > 0
         for k in range(1, n + 1)
     )
+
+
+def square_root(square: arb) -> arb:
+    """The square root of what is not negative, whatever a ball about it holds."""
+    return square.nonnegative_part().sqrt()

@@ -22,7 +22,13 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.balls import PRECISION, BallForm, ball_form, equality_solution
+from quasistatic_ref.certify.balls import (
+    PRECISION,
+    BallForm,
+    ball_form,
+    equality_solution,
+    square_root,
+)
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above
 from quasistatic_ref.step.cones import cone
@@ -82,8 +88,8 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> ErrorBound:
         H = arb_mat(form.H)
         way, off = moved - x, moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
         gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
-        length = _root(_product(way, H * way)) + _root(2 * gap)
-        free = _root(_product(balls.x_free, H * balls.x_free))
+        length = square_root(_product(way, H * way)) + square_root(2 * gap)
+        free = square_root(_product(balls.x_free, H * balls.x_free))
         energy = arb(form.net_unit * form.x_unit)
         return ErrorBound(
             gap=nearest_above(energy * length * length / 2),
@@ -146,8 +152,8 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
         delta_q = np.array([float(v * form.x_unit) for v in x.entries()])
         net = np.array([float(v * form.net_unit) for v in push.entries()])
         way = moved - _column(delta_q, form.x_unit)
-        length = _root(_product(way, H * way)) + _root(2 * gap)
-        free = _root(_product(balls.x_free, H * balls.x_free))
+        length = square_root(_product(way, H * way)) + square_root(2 * gap)
+        free = square_root(_product(balls.x_free, H * balls.x_free))
         return EnclosedAnswer(
             delta_q, net, nearest_above(length / free) if free > 0 else float("inf")
         )
@@ -202,7 +208,3 @@ def _column(values: Array, unit: fmpq) -> arb_mat:
 
 def _product(u: arb_mat, v: arb_mat) -> arb:
     return (u.transpose() * v)[0, 0] if u.nrows() else arb(0)
-
-
-def _root(square: arb) -> arb:
-    return square.nonnegative_part().sqrt()

@@ -19,7 +19,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.apex import apex_refutation, apex_rows
-from quasistatic_ref.certify.balls import BallForm, ball_form
+from quasistatic_ref.certify.balls import BallForm, ball_form, square_root
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
 from quasistatic_ref.certify.impulses import ONE, cone_blocks, raised
 from quasistatic_ref.certify.interior import Blocks, Pair, interior_point
@@ -173,7 +173,9 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
     off = arb_mat([[arb(float(v)) / form.x_unit] for v in delta_q]) - found.x
-    length = _root((off.transpose() * (arb_mat(form.H) * off))[0, 0]) + _root(2 * found.gap)
+    length = square_root((off.transpose() * (arb_mat(form.H) * off))[0, 0]) + square_root(
+        2 * found.gap
+    )
     return nearest_above(length / found.free) if found.free > 0 else float("inf")
 
 
@@ -203,7 +205,7 @@ def _interior(
     ]
     length = [_largest([a for row in block for a in row]) for block in rows]
     gaps = [abs(balls.b[block[0], 0]) / ell for block, ell in zip(blocks, length, strict=True)]
-    free = _root((balls.x_free.transpose() * (arb_mat(form.H) * balls.x_free))[0, 0])
+    free = square_root((balls.x_free.transpose() * (arb_mat(form.H) * balls.x_free))[0, 0])
     size = (free if free > 0 else max([arb(0), *(g.mid() for g in gaps)]) or arb(1)).mid()
     size = size if size > 0 else arb(1)
     problem = Blocks(
@@ -248,7 +250,7 @@ def _checked(
                arb(0))  # fmt: skip
     gap = (off.transpose() * (H * off))[0, 0] / 2 + work
     free = (balls.x_free.transpose() * (H * balls.x_free))[0, 0]
-    return Checked(pair.x, lam, gap, _root(free))
+    return Checked(pair.x, lam, gap, square_root(free))
 
 
 def _impulses(step: StepData, form: ExactForm, found: Checked, guess: Guess) -> Array:
@@ -263,7 +265,7 @@ def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
     """Return x in float64; an entry that may be zero is zero."""
     values = []
     for v in range(form.n):
-        radius = _root(2 * found.gap * balls.H_inv[v, v])
+        radius = square_root(2 * found.gap * balls.H_inv[v, v])
         middle = found.x[v, 0]
         ball = (middle + arb(0, radius.upper())) * form.x_unit
         nearest = nearest_in(ball)
@@ -296,7 +298,3 @@ def _net(form: ExactForm, found: Checked) -> Array:
 def _largest(values: list[arb]) -> arb:
     largest = max((abs(v).mid() for v in values), default=arb(0))
     return largest if largest > 0 else arb(1)
-
-
-def _root(square: arb) -> arb:
-    return square.nonnegative_part().sqrt()

@@ -74,7 +74,7 @@ def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
 
 
 def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
-    """Whether a duality gap is rounding beside the energies of the step, free and taken."""
+    """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
     return bool(gap <= fmpq(*IMPULSES.as_integer_ratio()) * (free_energy(form) + energy(form, x)))
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import clipped
+from quasistatic_ref.quoting import clipped
 from quasistatic_ref.step.data import Array
 
 

@@ -15,7 +15,8 @@ from importlib import import_module
 from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
-from quasistatic_ref.errors import InputError, QuasistaticError, clipped, nearest_name, suggestion
+from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.quoting import clipped, nearest_name, suggestion
 
 CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
 COMMANDS = {

@@ -19,8 +19,9 @@ if "matplotlib.pyplot" not in sys.modules and not os.environ.get("MPLBACKEND"):
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import written_whole
+from quasistatic_ref.quoting import suggestion
 
 PAGE: Final = 6.3
 """Width of the text on a page [in]: A4 or letter with the usual margins. No figure is wider."""

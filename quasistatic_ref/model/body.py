@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError, about_field, suggestion
+from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.frozen import finite, freeze_array
 from quasistatic_ref.model.solid import Homogeneous, solid_urdf
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.quoting import suggestion
 
 BASES = ("fixed", "floating", "planar")
 

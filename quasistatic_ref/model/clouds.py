@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, ModelError, about_field, about_file, suggestion
+from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.pcd import pcd_points
 from quasistatic_ref.model.ply import ply_points
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.text import decimal
 from quasistatic_ref.npz import npy_array, npz_arrays
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 

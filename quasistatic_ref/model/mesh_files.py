@@ -9,9 +9,10 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, about_file, suggestion
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.model.dae import check_dae
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 
 MESHES = (".stl", ".obj", ".dae")

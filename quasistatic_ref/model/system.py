@@ -14,7 +14,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
@@ -24,6 +24,7 @@ from quasistatic_ref.model.motion import Motion, constant_mass
 from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.show import shown
 

@@ -8,11 +8,12 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, about_file, suggestion
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf_xml import Tag, xml_root
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 

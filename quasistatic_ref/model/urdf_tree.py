@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, suggestion
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 
 Pose = tuple[Array, Array]

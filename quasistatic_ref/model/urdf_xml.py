@@ -13,9 +13,10 @@ from xml.parsers import expat
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, about_field, suggestion
+from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.text import decimal
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 

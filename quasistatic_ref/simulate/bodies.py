@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ScenarioError, suggestion
+from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.paths import path_in, shared_folders
 from quasistatic_ref.simulate.scenario_table import BODY, WAYPOINT, WRENCH, value
 from quasistatic_ref.simulate.tables import check_names, pose

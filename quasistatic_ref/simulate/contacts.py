@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ScenarioError, about_field, suggestion
+from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.fields import REQUIRED, Fields
 from quasistatic_ref.model.clouds import point_cloud
 from quasistatic_ref.model.shapes import PlacedShape
 from quasistatic_ref.model.system import System
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.bodies import BodyEntry
 from quasistatic_ref.simulate.scenario_table import CONTACT, value
 from quasistatic_ref.simulate.tables import check_names

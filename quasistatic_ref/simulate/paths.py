@@ -5,7 +5,7 @@ links followed: a scenario from somebody else reads nothing but what came with i
 ``--set`` is the user's own, and may lead anywhere.
 
 ``package://NAME/PATH`` is a file of an installed Python package that keeps robots, as those of
-PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, beside the modules of Python.
+PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the modules of Python.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from quasistatic_ref.fields import Fields
 from quasistatic_ref.model.mesh_files import PACKAGE
 
 SHARED = Path("cmeel.prefix", "share")
-"""Where installed packages keep robots, beside the modules of Python."""
+"""Where installed packages keep robots, next to the modules of Python."""
 
 
 class OwnWord(str):

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ScenarioError, known_names, nearest_name
+from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.quoting import known_names, nearest_name
 from quasistatic_ref.simulate.scenario_table import POSE, TABLES, value
 from quasistatic_ref.step.data import Array
 

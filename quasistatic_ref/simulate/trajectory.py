@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, about_file, nearest_name
+from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
 from quasistatic_ref.npz import npz_arrays
 from quasistatic_ref.plain import Plain
+from quasistatic_ref.quoting import nearest_name
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.simulate.table import data_frame

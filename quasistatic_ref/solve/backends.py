@@ -13,7 +13,8 @@ from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
-from quasistatic_ref.errors import BackendError, suggestion
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.quoting import suggestion
 
 Options = dict[str, Any]
 Attempts = tuple[Options, ...]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from quasistatic_ref.errors import BackendError, suggestion
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,

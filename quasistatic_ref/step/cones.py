@@ -13,7 +13,8 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.errors import StepDataError, nearest_name
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.quoting import nearest_name
 from quasistatic_ref.step.arrays import Indices
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"

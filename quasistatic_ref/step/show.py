@@ -7,7 +7,7 @@ from html import escape
 from numbers import Real
 from typing import Any
 
-from quasistatic_ref.errors import one_line
+from quasistatic_ref.quoting import one_line
 
 WIDTH, LINES = 100, 20
 """Most columns and lines of a text."""

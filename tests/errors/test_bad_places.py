@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import clipped
+from quasistatic_ref.quoting import clipped
 from quasistatic_ref.step.files import step_written
 from tests.errors.scene import BALL, SCENE, changed, scene_written
 from tests.helpers import planted_step

@@ -6,6 +6,7 @@ from pathlib import Path
 # A room imports only from rooms before it, and from itself: the core first, then the lab.
 ROOMS = (
     "plain",
+    "quoting",
     "errors",
     "tolerances",
     "progress",

@@ -1,4 +1,4 @@
-"""Closest points of pairs in the world frame: roads, signs, placements, and the guard on coal."""
+"""Closest points of pairs in the world frame: methods, signs, placements, the guard on coal."""
 
 import coal
 import numpy as np
@@ -232,7 +232,7 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
     try:
         found = found_for(placed(cone), placed(cone, 1), kinematics)
     except ContactError as error:
-        assert str(error).startswith("p: no trustworthy contact normal at this pose")  # noqa: PT017
+        assert str(error).startswith("p: no trustworthy contact normal")  # noqa: PT017 - either outcome is right
         assert spoil != "distance"
         return
     assert spoil not in REFUSED

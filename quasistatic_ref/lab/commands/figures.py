@@ -7,7 +7,8 @@ import sys
 from collections.abc import Sequence
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.quoting import suggestion
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

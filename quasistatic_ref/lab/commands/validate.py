@@ -7,11 +7,12 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
 from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
+from quasistatic_ref.quoting import suggestion
 
 IN = {
     "daqp": "daqp",

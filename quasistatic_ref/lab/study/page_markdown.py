@@ -1,4 +1,4 @@
-"""A report as Markdown, its figures in the folder ``figures`` beside it."""
+"""A report as Markdown, its figures in the folder ``figures`` next to it."""
 
 from __future__ import annotations
 

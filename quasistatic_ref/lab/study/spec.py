@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import chosen_solvers, own_solvers
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.settings import toml_tables
 

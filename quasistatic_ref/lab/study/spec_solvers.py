@@ -6,9 +6,10 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.lab.study.solvers import ROADS, Setting, Solver
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
 BY_ROAD = {"cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy], "qpsolvers": list(BACKENDS)}

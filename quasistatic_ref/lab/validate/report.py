@@ -74,7 +74,7 @@ def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[s
     ----------
     sections : mapping of str to sequence of Finding
     figures : collection of str
-        Names of the claims that have a figure; it is in the folder ``figures`` beside the page.
+        Names of the claims that have a figure; it is in the folder ``figures`` next to the page.
     """
     every = [finding for findings in sections.values() for finding in findings]
     held = sum(finding.verdict == HOLDS for finding in every)

@@ -15,7 +15,7 @@ from typing import Any, Final
 
 from flint import fmpq
 
-from quasistatic_ref.errors import InputError, suggestion
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
     ZERO,
@@ -37,6 +37,7 @@ from quasistatic_ref.lab.vectors.exact.rotation import (
     cos_sin,
     rotation,
 )
+from quasistatic_ref.quoting import suggestion
 
 SIZES: Final = {
     "fixed": (0, 0),

@@ -1,4 +1,4 @@
-"""Cases that are written by hand, in ``LAYER.toml`` beside this file."""
+"""Cases that are written by hand, in ``LAYER.toml`` next to this file."""
 
 from __future__ import annotations
 
