@@ -6,8 +6,8 @@ import pickle
 import pytest
 
 from quasistatic_ref import errors
-from quasistatic_ref.errors import MOST_NAMES, InputError, QuasistaticError, StepNotSolved
-from quasistatic_ref.quoting import LONGEST, suggestion
+from quasistatic_ref.errors import InputError, QuasistaticError, StepNotSolved
+from quasistatic_ref.quoting import LONGEST, MOST_NAMES, suggestion
 from tests.helpers import point_on_floor
 
 
