@@ -85,12 +85,14 @@ def _why(found: Finding) -> str:
 
 
 def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
-    from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.figures.validation import PICTURES
 
     drawn = []
     for name, found in findings.items():
         if found.evidence is not None and name in PICTURES:
-            figure_written(PICTURES[name](found.evidence.picture), folder / "figures", name)
+            with figure_style():
+                figure = PICTURES[name](found.evidence.picture)
+            figure_written(figure, folder / "figures", name)
             drawn.append(name)
     return drawn

@@ -7,10 +7,11 @@ of the signed distance phi with respect to q is n'J, which is what makes a row o
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.validate.claim import Evidence
@@ -36,10 +37,15 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The pair, seen along d1."""
-    return PICTURES["contact_geometry"](measured().picture)
+def figure(ax: Any = None) -> Figure:
+    """The pair, seen along d1.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    return PICTURES["contact_geometry"](measured().picture, ax)
 
 
 if __name__ == "__main__":

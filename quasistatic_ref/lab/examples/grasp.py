@@ -6,7 +6,10 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 
 from __future__ import annotations
 
-from quasistatic_ref.figures import Figure, styled
+from collections.abc import Sequence
+from typing import Any
+
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.figures.grasp import grasp_strip
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
@@ -27,11 +30,18 @@ def main() -> Numbers:
     return found | {"variables of a step [-]": variables, "rows of a step [-]": rows}
 
 
-@styled
-def figure() -> Figure:
-    """Instants in columns, with and without torsion in rows."""
+def figure(ax: Any = None, *, instants: Sequence[float] = INSTANTS) -> Figure:
+    """Instants in columns, with and without torsion in rows.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    instants : sequence of float
+        [s].
+    """
     runs = {case: grasp(case)[1] for case in CASES}
-    return grasp_strip(grasp("with torsion")[0], runs, INSTANTS)
+    return grasp_strip(grasp("with torsion")[0], runs, instants, ax)
 
 
 if __name__ == "__main__":
