@@ -79,11 +79,6 @@ def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[floa
     return [*linear_part(moved, angular), *angular]
 
 
-def place(joint: Joint) -> slice:
-    """Where a base's translation is in q: three entries, or two of a planar one."""
-    return slice(joint.q.start, joint.q.start + (3 if joint.kind == "floating" else 2))
-
-
 def translation(v: Vector, w: Vector) -> list[float]:
     """Translation of exp6 of a twist, in the frame that it starts from [m].
 

@@ -117,9 +117,8 @@ class PosedStep(StepData):
     ) -> None:
         for array in (tau_a, tau_u, delta_q_bar_a):
             array.setflags(write=False)
-        own, put = (tau_a, tau_u, delta_q_bar_a, contacts), object.__setattr__
-        for key, value in zip(NAMES, (*constant, *own), strict=True):
-            put(self, key, value)
+        own = tau_a, tau_u, delta_q_bar_a, contacts
+        vars(self).update(zip(NAMES, (*constant, *own), strict=True))
 
     @classmethod
     def compared_as(cls) -> type:
