@@ -4,8 +4,6 @@ A reader takes each field once, checks it, and refuses in :meth:`Fields.close` w
 not asked for: a misspelt name is an error, never a default.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, Final, TypeVar
 
@@ -175,7 +173,7 @@ class Fields:
             raise self.fail(field, "must be a list of strings", value)
         return value
 
-    def table(self, field: str, default: Any = REQUIRED) -> Fields:
+    def table(self, field: str, default: Any = REQUIRED) -> "Fields":
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)
 

@@ -4,8 +4,6 @@ A sign is read from balls where they show it, from an exact linear dependence wh
 and from the rational solution of the KKT system otherwise. The last is the dearest, and kept.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 

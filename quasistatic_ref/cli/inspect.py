@@ -1,7 +1,5 @@
 """``inspect URDF|SCENARIO``: coordinates in order, shapes, masses, and what the model ignores."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path

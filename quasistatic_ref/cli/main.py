@@ -3,8 +3,6 @@
 Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 130 interrupted.
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import os

@@ -1,7 +1,5 @@
 """Signed distance of points to a convex polytope, vectorised over points and triangles."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh

@@ -1,7 +1,5 @@
 """Where the two sides of many pairs are, all at once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Signed distances of rows of points, each row to a solid of its own, by few NumPy calls."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

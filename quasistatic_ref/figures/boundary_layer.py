@@ -1,7 +1,5 @@
 """Figure 3 of the paper: the boundary layer of a sphere spun on the floor."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """The friction cones: their limit surfaces, and what they make of a pinch."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Correct digits of backends against the accuracy that they were asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import Any, Final
 

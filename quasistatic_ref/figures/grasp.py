@@ -1,7 +1,5 @@
 """Figure 1 of the paper: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """The figures of a report on solvers: profiles, success, digits against time, digits by family."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Final
 

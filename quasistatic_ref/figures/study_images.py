@@ -1,7 +1,5 @@
 """The pictures of a report, drawn: as PNG beside a page and as SVG inside one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from io import BytesIO
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """The figure of a sweep: rotation and boundary layer against a parameter."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

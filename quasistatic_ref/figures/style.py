@@ -1,7 +1,5 @@
 """The common looks of all figures, for papers and for slides, and writing them."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Iterator

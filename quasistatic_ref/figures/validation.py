@@ -1,7 +1,5 @@
 """The figures of claims, each drawn from what was measured for it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 

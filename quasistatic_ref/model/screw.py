@@ -7,8 +7,6 @@ of a planar or continuous joint's angle by less than 1e-8 it sometimes makes zer
 simulation are as small as that. Here nothing that cancels is divided by a small number.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -5,8 +5,6 @@ inertia or the joint that it could not read. So every link's pose, every mass an
 is worked out twice, from the file alone and from what was loaded; a difference is an error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Steps as they are taken, collected into a trajectory."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -62,7 +60,7 @@ class Recorder:
         If there is no such record, or q is no configuration.
     """
 
-    def __init__(self, simulator: Simulator, q: Array, record: str = "full") -> None:
+    def __init__(self, simulator: "Simulator", q: Array, record: str = "full") -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.scene = Scene(simulator.system, simulator.pairs)
@@ -79,7 +77,7 @@ class Recorder:
         """End of the step that comes next [s]."""
         return (self.steps + 1) * self.h
 
-    def add(self, q_bar_a: Array, result: StepResult) -> None:
+    def add(self, q_bar_a: Array, result: "StepResult") -> None:
         """Record one step that succeeded.
 
         Parameters

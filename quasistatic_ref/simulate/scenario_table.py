@@ -5,8 +5,6 @@ such as that rows = 6 needs mu_omega, the loader checks by hand; ``RULES`` says 
 a schema can.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -3,8 +3,6 @@
 The schema is of draft 4, the latest that editors' TOML servers (taplo) understand.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -4,8 +4,6 @@ A step knows k contacts of each pair, to first order. All is read from the recor
 end, over all steps at once. Steps are counted from 0, as everywhere.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 

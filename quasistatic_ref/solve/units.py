@@ -11,8 +11,6 @@ homogeneous in (g, phi). All units are powers of two, so the conversion loses no
 underflow).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple

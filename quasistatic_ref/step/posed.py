@@ -4,8 +4,6 @@ To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, 
 same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
 """
 
-from __future__ import annotations
-
 from dataclasses import InitVar, dataclass
 from typing import NamedTuple
 
@@ -48,7 +46,7 @@ class Constants(NamedTuple):
     H: Array
     layout: RowLayout
 
-    def at(self, M_u: Array) -> Constants:
+    def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
         if M_u is self.M_u:
             return self

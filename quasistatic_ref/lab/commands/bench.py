@@ -1,7 +1,5 @@
 """``bench``: what a step costs, beside the solver alone and what else one might run."""
 
-from __future__ import annotations
-
 import argparse
 
 from quasistatic_ref.cli import options as shared

@@ -1,7 +1,5 @@
 """``demo``: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

@@ -1,7 +1,5 @@
 """``study report`` and ``study pack``: what a store says, and a store small enough to keep."""
 
-from __future__ import annotations
-
 import argparse
 
 

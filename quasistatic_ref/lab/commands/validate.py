@@ -1,7 +1,5 @@
 """``validate [NAME...]``: measure the claims about the model."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``vectors harvest|generate|check|own|export``: reference vectors for other implementations."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable

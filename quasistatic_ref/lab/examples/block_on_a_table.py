@@ -7,8 +7,6 @@ that nothing moves until the pull is mu_v m g. At rest, many forces inside the c
 ones that are drawn are those of one optimum.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

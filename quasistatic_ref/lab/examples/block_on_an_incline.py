@@ -5,8 +5,6 @@ balances what friction leaves of the weight, v = h g (sin a - mu_v cos a): no ve
 from step to step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

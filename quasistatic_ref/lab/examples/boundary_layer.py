@@ -4,8 +4,6 @@ Up to mu_omega m g it does not move at all. Beyond, it turns, and lifts off: a t
 a rise of mu_omega theta. This boundary layer is the price of convexity.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled

@@ -5,8 +5,6 @@ given torque, as in the paper's own experiment, of which it says that the layer 
 step size, the turn of a step is itself proportional to h^2.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -5,8 +5,6 @@ and the torque about n. The ellipsoid is what experiments suggest; the product l
 its limit whatever the tangential force. How much they hold is a matter of their volumes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import ConvexHull
 

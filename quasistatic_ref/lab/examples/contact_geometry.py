@@ -4,8 +4,6 @@ A capsule and a box, their closest points and the normal from the one to the oth
 of the signed distance phi with respect to q is n'J, which is what makes a row of Eq. (4) linear.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -4,8 +4,6 @@ The hinge is a coordinate that nothing drives: M_u is one number, its inertia. T
 tip puts it, and stays there when the tip stops, since no velocity is carried from step to step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

@@ -4,8 +4,6 @@ The only difference between the rows is mu_omega of the fingers. Without it, not
 about the points by which the two fingers hold it, and the bunny hangs down.
 """
 
-from __future__ import annotations
-
 from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.grasp import grasp_strip
 from quasistatic_ref.lab.examples.runs import Numbers, script

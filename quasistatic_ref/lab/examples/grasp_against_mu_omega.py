@@ -5,8 +5,6 @@ have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a p
 finger under Hertz's pressure, (R15). The scene's value lies between the two.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How far the bunny of Figure 1 turns in the grip, with and without torsional friction."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled

@@ -5,8 +5,6 @@ drum's angle theta obeys R theta = (R + rho) gamma - rho psi, gamma being the an
 the axle and psi the turn of its link. The hand comes with the extra `robots`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

@@ -4,8 +4,6 @@ The gantry's springs give way until the peg is in. Inside, they press it on the 
 K (e - c + b), b being the boundary layer, and friction on both walls holds it back.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

@@ -4,8 +4,6 @@ With torsional friction the bar's weight m g has a lever d that the fingers can 
 paper's pyramid the normal force is shared: N = m g / (2 mu_v) + m g d / (2 mu_omega), (R21).
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -5,8 +5,6 @@ slowly. Under the ellipsoid a step agrees with it while the quasi-dynamic number
 when the slider's radius of gyration rho is c = mu_omega / mu_v, at any speed.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

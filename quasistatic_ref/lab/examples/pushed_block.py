@@ -5,8 +5,6 @@ block starts every step from rest. The drag is small where the quasi-dynamic num
 is; here it is a quarter of friction, on purpose.
 """
 
-from __future__ import annotations
-
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.runs import ran

@@ -6,8 +6,6 @@ F = mu_v m g + m v / h, and the sum of two joints' torques is F times the differ
 heights.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled

@@ -7,8 +7,6 @@ A ball that only slides along d1 stands on one of the six; one that slides and s
 cost the same stands on two. The rows that it stands on push back, all others are open.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels, styled

@@ -5,8 +5,6 @@ optimum of each step says how many digits of the answer are right. docs/exactnes
 for all 600 steps, and for problems that are not written in natural units.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

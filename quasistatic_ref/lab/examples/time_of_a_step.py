@@ -5,8 +5,6 @@ distances are evaluated. Here that depends on the solver, and on whether all dis
 or a tracker leaves out those that cannot matter. The times are those of this machine.
 """
 
-from __future__ import annotations
-
 from quasistatic_ref.figures import Figure, styled
 from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script

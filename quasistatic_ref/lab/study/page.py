@@ -1,7 +1,5 @@
 """What a report is made of: sections of sentences, tables and pictures; as data."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

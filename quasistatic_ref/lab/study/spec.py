@@ -1,7 +1,5 @@
 """STUDY.toml: what is compared on what, read field by field; a mistake is one sentence."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The ``[solvers.NAME]`` tables of a study, and the lists that choose among solvers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Studies of kind ``"sweep"``: which scenarios are run with which values, read field by field."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The 13 x 80 step of the bunny: native, through CVXPY, rebuilt, by hand; and the solver alone."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace

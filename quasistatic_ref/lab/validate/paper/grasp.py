@@ -1,7 +1,5 @@
 """Figure 1: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP

@@ -1,7 +1,5 @@
 """The size of the bunny's quadratic program: 13 x 80."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.runs import grasp

@@ -1,7 +1,5 @@
 """The table of classic mistakes: a name, what is right, and what would be answered."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
