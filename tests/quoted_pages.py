@@ -60,8 +60,9 @@ QUOTED = {
     ],
     "docs/quickstart.md": [
         ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
-        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; the points "
-         "that they come to hold it by, one under each, are {:.0f} and {:.0f} mm behind it",
+        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; "
+         "each finger comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
+         "behind it",
          lambda: of.levers()[:3]),
         ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
         ("With 1 mm the bunny turns by {:.0f} degrees, with 1.75 mm by {:.1f}, with 1.8 mm by "
