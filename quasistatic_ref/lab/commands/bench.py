@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _figure(found: dict[str, object], options: argparse.Namespace) -> None:
-    from quasistatic_ref.figures.bench import step_times
     from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.lab.figures.bench import step_times
 
     figure_written(step_times(found, PAPER), options.out, "step_times")

@@ -51,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
     from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
 
     strip = grasp_strip(scenario, runs, INSTANTS)
     rotation = rotation_plot(scenario, runs, "bunny", CLOSED)

@@ -7,8 +7,8 @@ a rise of mu_omega theta. This boundary layer is the price of convexity.
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures import boundary_layer as drawing
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures import boundary_layer as drawing
 from quasistatic_ref.lab.runs import ran
 
 RADIUS, MU_OMEGA, M, G = 0.05, 0.01, 0.3, 9.81

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.cones import limit_surfaces
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.cones import limit_surfaces
 from quasistatic_ref.step.friction import cone_matrix
 
 

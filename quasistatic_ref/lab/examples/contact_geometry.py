@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.claim import Evidence
 from quasistatic_ref.lab.validate.paper.contact_geometry import evidence
 

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.cones import pinch_thresholds
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.cones import pinch_thresholds
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.validate.measures import threshold

@@ -10,8 +10,8 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.slider import GYRATION, H
 from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
 from quasistatic_ref.step.data import Array

@@ -10,8 +10,8 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.solve.solve import solve_step
 

@@ -6,8 +6,8 @@ or a tracker leaves out those that cannot matter. The times are those of this ma
 """
 
 from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.paper.step_time import measured
 
 

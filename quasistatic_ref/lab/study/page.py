@@ -36,7 +36,7 @@ class Picture:
     name : str
         Of its file.
     kind : str
-        Which figure of ``figures/study.py``.
+        Which figure of ``lab/figures/study.py``.
     data : mapping
         What that one draws.
     caption : str

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study_pens import MARKS
 from quasistatic_ref.figures.style import scaled, sized, styled
+from quasistatic_ref.lab.figures.study_pens import MARKS
 
 Picture = Mapping[str, Any]
 THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}

@@ -7,8 +7,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study_pens import COLOURS, DASHES, MARKS
 from quasistatic_ref.figures.style import figure_style, scaled, sized
+from quasistatic_ref.lab.figures.study_pens import COLOURS, DASHES, MARKS
 
 SPREAD = 0.17
 """Distance between backends at the same setting, settings being one apart."""
