@@ -149,6 +149,6 @@ def _print(record: dict[str, Any]) -> None:
         for line in field_lines(record["fields"]):
             print(f"  {line}")
     if record["notes"]:
-        print("\nit takes otherwise than written:")
+        print("\nthe model differs from its files in:")
     for sentence in record["notes"]:
         shared.print_wrapped(sentence, "  ", "- ")

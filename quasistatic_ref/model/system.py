@@ -69,7 +69,7 @@ class System:
     ignored : tuple of str
         What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
     notes : tuple of str
-        What was taken otherwise than written, e.g. ``arm: tool#0: mesh replaced by its hull``.
+        Where the model differs from its files, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
     Raises
     ------

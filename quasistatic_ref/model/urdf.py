@@ -47,7 +47,7 @@ class Urdf:
     shapes : tuple of PlacedShape
         Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
     notes : tuple of str
-        What was taken otherwise than written: meshes as hulls, inertias that do not matter.
+        Where the model differs from its file: meshes as hulls, inertias that do not matter.
     """
 
     file: UrdfFile

@@ -49,7 +49,7 @@ class Units(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Metric:
-    """What units take from H alone, kept by whoever asks again with the same H.
+    """What natural units take from H alone; a solver keeps it while H is the same.
 
     Parameters
     ----------

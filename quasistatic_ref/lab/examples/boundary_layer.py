@@ -1,4 +1,4 @@
-"""Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
+"""After Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
 
 Up to mu_omega m g it does not move at all. Beyond, it turns, and lifts off: a turn of theta needs
 a rise of mu_omega theta. This boundary layer is the price of convexity.

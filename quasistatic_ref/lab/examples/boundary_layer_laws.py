@@ -1,8 +1,8 @@
 """How the boundary layer shrinks with the time step: like h at a rate, like h^2 at a torque.
 
-The paper says h of sliding: where the motion is imposed, the layer is mu_omega h omega. Under a
-given torque, as in the paper's own experiment, of which it says that the layer decreases with the
-step size, the turn of a step is itself proportional to h^2.
+The paper calls the layer proportional to h. So it is where the motion is imposed, mu_omega h omega.
+Under a given torque, as in the paper's own experiment, of which it says that the layer decreases
+with the step size, the turn of a step is itself proportional to h^2.
 """
 
 from __future__ import annotations

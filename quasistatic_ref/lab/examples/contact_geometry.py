@@ -1,4 +1,4 @@
-"""Figure 2 of the paper, from data: alpha, beta, phi and the frame {d1, d2, n} of a contact.
+"""After Figure 2 of the paper, from data: alpha, beta, phi and the frame {d1, d2, n} of a contact.
 
 A capsule and a box, their closest points and the normal from the one to the other. The derivative
 of the signed distance phi with respect to q is n'J, which is what makes a row of Eq. (4) linear.

@@ -1,4 +1,4 @@
-"""Figure 1 of the paper: a 992-point bunny, grasped behind its centre of mass and lifted.
+"""After Figure 1 of the paper: a 992-point bunny, here held behind its centre of mass and lifted.
 
 The only difference between the rows is mu_omega of the fingers. Without it, nothing resists turning
 about the points by which the two fingers hold it, and the bunny hangs down.

@@ -1,8 +1,8 @@
 """How far the bunny of Figure 1 turns in the grip, against mu_omega of the fingers.
 
-It is a threshold: from about 1.8 mm on the contacts stick, and more changes nothing. A finger can
-have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as wide as the
-finger under Hertz's pressure, (R15). The scene's value lies between the two.
+It is a threshold: from about 1.8 mm on the contacts stick, and more changes next to nothing. A
+finger can have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as
+wide as the finger under Hertz's pressure, (R15). The scene's value lies between the two.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Figure 4 of the paper: where the time of a step goes.
+"""After Figure 4 of the paper: where the time of a step goes.
 
 The paper says that a majority of it goes into the quadratic program, although almost 3,000 signed
 distances are evaluated. Here that depends on the solver, and on whether all distances are evaluated

@@ -28,7 +28,7 @@ BLOCK = 50
 
 
 def block_rows(keeper: Keeper, block: Block, limit: float, left: float) -> list[Row]:
-    """Measure one block; what the budget does not cover is told so.
+    """Measure one block; a measurement beyond the budget is a row that says so.
 
     Parameters
     ----------

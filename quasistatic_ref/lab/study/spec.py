@@ -68,7 +68,7 @@ class Part:
     warm : tuple of bool
     repetitions : int
     every : int
-        Each so-manieth problem only.
+        3 asks every third problem, in a random order of all families.
     """
 
     solvers: tuple[Solver, ...]
