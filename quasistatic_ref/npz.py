@@ -5,8 +5,6 @@ few kilobytes of ZIP can hold gigabytes of zeros. Here sizes are compared before
 unpacked.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import tokenize

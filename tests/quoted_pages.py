@@ -60,8 +60,9 @@ QUOTED = {
     ],
     "docs/quickstart.md": [
         ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
-        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; the points "
-         "that they come to hold it by, one under each, are {:.0f} and {:.0f} mm behind it",
+        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; "
+         "each finger comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
+         "behind it",
          lambda: of.levers()[:3]),
         ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
         ("With 1 mm the bunny turns by {:.0f} degrees, with 1.75 mm by {:.1f}, with 1.8 mm by "
@@ -170,6 +171,7 @@ QUOTED = {
          "s, and by {2:.0f} at 0.04 s", lambda: of.sweep_turns(0.0)),
         ("it still turns, by {:.0f} to {:.0f} degrees",
          lambda: [min(turns := of.sweep_turns(1e-3)), max(turns)]),
+        ("({:.0f} at h = 0.01 s to t = 2.9 s", lambda: [of.turned(1)]),
         ("from 2 mm on by {:.2f} degrees or less at every h",
          lambda: [max(of.sweep_turns(2e-3, 3e-3, 5e-3, 1e-2, 2e-2))]),
         ("A grip of 500 N/m or less is too light: the bunny turns by {:.0f} degrees and more",
@@ -267,7 +269,11 @@ MEANT = {
         "The step took 11.8 times that call before",
     ],
     "docs/theory/notation.md": ["6 or 4 times"],
-    "docs/theory/the_paper.md": ["less than 90 µs for a step", "and 90 µs where it is quoted"],
+    "docs/theory/the_paper.md": [
+        "= 0.39 mm",
+        "less than 90 µs for a step",
+        "and 90 µs where it is quoted",
+    ],
     "docs/tour.md": [
         "the height c = 40 mm",
         "corners at w = 50 mm",

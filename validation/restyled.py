@@ -6,8 +6,6 @@ inches, 8 pt), in slides and on a poster, and into one cell of a user's own grid
 page wide. Exit status 1 if any of them has a fault; with --out, each is kept as a PNG.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable

@@ -14,8 +14,6 @@ answer in float64, right to 1e-16 itself, leaves a gap of about 1e-16 and thus s
 digits. The exact method shows all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ unique. Verification does that in rational numbers alone: it shares the formatio
 with the method that found the answer, not its balls or its walks.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

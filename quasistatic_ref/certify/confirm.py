@@ -13,8 +13,6 @@ zeros; these follow from how the rows of a contact are combined, or from the ran
 What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

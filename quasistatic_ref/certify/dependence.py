@@ -5,8 +5,6 @@ finitely many primes, so a dependence seen modulo a prime is checked in integers
 and another prime is taken if it was an accident.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterator, Sequence
 from functools import cache
 from typing import Final

@@ -12,8 +12,6 @@ slacks are measured as the displacements that they stand for, so that the three 
   max_i |a_i'(x - x*)| / ||a_i||_{H^-1} / ||H^-1 g||_H, never more than the error of x.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -10,8 +10,6 @@ alone, whatever a backend said. Membership and gap are then computed in balls, w
 that shows is true.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The exact answer of a step: the optimum, or a plain account of why there is none."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -9,8 +9,6 @@ with equality at x = x*. The first term is what lam leaves unbalanced (Eq. :eq:`
 is complementarity (Eq. :eq:`eq-12`): a force where nothing touches cannot hide in it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The norm that errors and lengths are measured in: ||v||_H, with ||v||_H^2 = v'Hv."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ They are those of Eqs. :eq:`eq-1`, :eq:`eq-4`-:eq:`eq-8`, :eq:`eq-13`.
 Each derivative is a rational number in SI units; A and b are affine in every parameter.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

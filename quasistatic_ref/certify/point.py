@@ -1,10 +1,9 @@
 """The minimiser on a working set, with every sign that is asked of it decided exactly.
 
 A sign is read from balls where they show it, from an exact linear dependence where a row is one,
-and from the rational solution of the KKT system otherwise. The last is the dearest, and kept.
+and from the rational solution of the KKT system otherwise. That solution takes the
+longest to compute, and is kept for the next sign.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property

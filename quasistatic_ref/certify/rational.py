@@ -12,8 +12,6 @@ the order of summation. All quantities are brought to integers by one positive f
 so that the exact problem is one in integers, and its answer is scaled back at the end.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """``completion SHELL``: a script by which a shell completes the arguments of this program."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path

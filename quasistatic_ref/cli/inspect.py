@@ -1,9 +1,8 @@
 """``inspect URDF|SCENARIO``: coordinates in order, shapes, masses, and what the model ignores."""
 
-from __future__ import annotations
-
 import argparse
 import re
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +58,7 @@ def system_record(system: System) -> dict[str, Any]:
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
         ],
+        "mimics": [asdict(mimic) for mimic in system.mimics],
         "n_a": system.n_a,
         "n_u": system.n_u,
         "links": [
@@ -118,6 +118,8 @@ def _print(record: dict[str, Any]) -> None:
         stiffness = f"{c['K_q']:g} {'N/m' if c['unit'] == 'm' else 'N m/rad'}" if "K_q" in c else ""
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
+    for m in record["mimics"]:
+        print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()
     rows, notes = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]")], []
     for link in record["links"]:
@@ -145,6 +147,6 @@ def _print(record: dict[str, Any]) -> None:
         for line in field_lines(record["fields"]):
             print(f"  {line}")
     if record["notes"]:
-        print("\nit takes otherwise than written:")
+        print("\nthe model differs from its files in:")
     for sentence in record["notes"]:
         shared.print_wrapped(sentence, "  ", "- ")

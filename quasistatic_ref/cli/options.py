@@ -1,7 +1,5 @@
 """Options and habits that several commands share."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import textwrap

@@ -1,7 +1,5 @@
 """``run SCENARIO``: simulate a scenario and write its trajectory."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Short lists of several clouds, measured by few NumPy calls, and the proof that they suffice."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from operator import methodcaller
 from typing import NamedTuple
@@ -43,7 +41,7 @@ class Nearest(NamedTuple):
     point: Indices
     proved: Mask
 
-    def chosen(self, order: Indices) -> Nearest:
+    def chosen(self, order: Indices) -> "Nearest":
         """The same contacts in another order, shape (k,)."""
         phi, normal, local, point = map(methodcaller("take", order, axis=-1), self[:-1])
         return Nearest(phi, normal, local, point, self.proved)

@@ -1,7 +1,5 @@
 """A trajectory as a film: an animated GIF, or MP4 where ffmpeg is there."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory

@@ -1,7 +1,5 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from typing import Any, Final
 
@@ -10,7 +8,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.labels import legend_above
 from quasistatic_ref.figures.moments import BEARING, DrawnContact, Moment, extent
 from quasistatic_ref.figures.pens import (
     CONE_EDGE,
@@ -22,7 +19,7 @@ from quasistatic_ref.figures.pens import (
     Pen2D,
     Pen3D,
 )
-from quasistatic_ref.figures.style import scaled
+from quasistatic_ref.figures.style import room, scaled
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
@@ -31,6 +28,9 @@ LONGEST, FRAME = 0.4, 0.1
 
 MARGIN, PADDING = 1.1, 0.1
 """Around everything, as a factor; and on each side, as a share of half the scene's size."""
+
+BESIDE: Final = 0.85
+"""Share of a cell's width that is above the axes, not above the labels beside it [-]."""
 
 SIGNS: Final = np.array([[-1.0], [1.0]])
 FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
@@ -164,3 +164,24 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
         for label, dashes in FRAME_LINES:
             handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
     legend_above(axes, handles)
+
+
+def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
+    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
+
+    Parameters
+    ----------
+    axes : Axes
+    handles : sequence of Artist
+        With their labels.
+    title : str
+        Above the entries.
+    """
+    for columns in range(len(handles), 0, -1):
+        legend = axes.legend(
+            handles=handles, title=title, ncols=columns,
+            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
+            handlelength=1.8, borderaxespad=0.2,
+        )  # fmt: skip
+        if legend.get_window_extent().width <= BESIDE * room(axes)[0]:
+            return

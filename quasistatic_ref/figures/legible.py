@@ -1,7 +1,5 @@
 """Whether a figure can be read on a page: units, text, lines told apart without colour."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Pens: world points drawn in millimetres, as a camera sees them or in three dimensions."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from contextlib import suppress
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Looks of figures for papers, slides and posters; where figures are drawn; writing them."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

@@ -6,8 +6,6 @@ twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(de
 base has x, y and the angle of the same twist, in the plane.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,7 +67,7 @@ class System:
     ignored : tuple of str
         What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
     notes : tuple of str
-        What was taken otherwise than written, e.g. ``arm: tool#0: mesh replaced by its hull``.
+        Where the model differs from its files, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
     Raises
     ------
@@ -165,11 +163,11 @@ class System:
         """Configuration q (+) delta_q, shape (n_q,)."""
         order = self._order
         after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
-        q_next = order.paper_q(after)
-        at, change = q.tolist(), delta_q.tolist()
+        q_next, at, change = order.paper_q(after).tolist(), q.tolist(), delta_q.tolist()
         for joint in self._bases:
-            q_next[screw.place(joint)] = screw.position(joint, at, change)
-        return q_next
+            position, start = screw.position(joint, at, change), joint.q.start
+            q_next[start : start + len(position)] = position
+        return np.array(q_next)
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""

@@ -4,8 +4,6 @@ Bodies move on their own (all of them hang from the world), so what pinocchio sa
 of them at once is what it says about each.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The simulator: one step as the algorithm of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial

@@ -1,7 +1,5 @@
 """The word `engine` of scenarios and the command line: it chooses the class of a solver."""
 
-from __future__ import annotations
-
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import (

@@ -5,8 +5,6 @@ written into arrays that are kept, in natural units, and the backend is updated 
 the steps of a simulator it starts from the answer before, where it can.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any

@@ -1,7 +1,5 @@
 """A step with its natural units."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cached_property

@@ -6,8 +6,6 @@ It knows its backend (``name``), the interface by which it reaches that
 :func:`~quasistatic_ref.solve.engines.solver_for` chooses among them.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the e
 there. Nothing here is certified exactly: residuals are what can be computed at this size.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -94,11 +92,11 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(self, step: StepData) -> SparseStep:
+    def scaled(self, step: StepData) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 
-    def write(self, scaled: SparseStep) -> Mask:
+    def write(self, scaled: "SparseStep") -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
         squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))

@@ -17,8 +17,6 @@ surface. A term whose coefficient is zero means that its force is zero. A contac
 not used has the leading rows only, and a spin of zero.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any, TypeAlias

@@ -4,8 +4,6 @@ r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
           \quad\text{s.t.}\quad A\,\delta q \ge b
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

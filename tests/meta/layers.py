@@ -13,6 +13,8 @@ ROOMS = (
     "fields",
     "files",
     "resources",
+    "declared",
+    "schema",
     "npz",
     "step",
     "certify",
@@ -25,6 +27,7 @@ ROOMS = (
     "__main__",
     "lab/grasp",
     "lab/runs",
+    "lab/figures",
     "lab/scenes",
     "lab/vectors",
     "lab/study",
@@ -44,15 +47,16 @@ WALLS = {
     "qpsolvers": ("solve", "lab/validate/engines/by_hand.py", "lab/study/bench/by_hand.py"),
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
-    "matplotlib": ("figures",),
+    "matplotlib": ("figures", "lab/figures"),
     "meshcat": ("figures",),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
     "flint": ("certify", "lab/vectors"),
 }
 
 # What a room may not import although it comes before: figures draw what they are given.
-CLOSED = {
-    "figures": (
+CLOSED = dict.fromkeys(
+    ("figures", "lab/figures"),
+    (
         "solve",
         "certify",
         "contact",
@@ -60,7 +64,7 @@ CLOSED = {
         "step/data/StepData",
         "step/data/Contacts",
     ),
-}
+)
 
 DYNAMIC = ("import_module", "__import__")
 

@@ -70,6 +70,11 @@ PLANTED = {
         "from quasistatic_ref.step.data import StepData",
         "closed to figures",
     ),
+    "a solver in the lab's figures": (
+        "lab/figures/a.py",
+        "from quasistatic_ref.solve.solve import solve_step",
+        "closed to lab/figures",
+    ),
     "flint in solve": ("solve/a.py", "from flint import fmpq", "imports flint"),
 }
 

@@ -7,8 +7,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.figures.cones import limit_surfaces
 from quasistatic_ref.lab.examples import pinch_threshold
+from quasistatic_ref.lab.figures.cones import limit_surfaces
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_written

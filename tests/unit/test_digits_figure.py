@@ -7,7 +7,7 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
-from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from tests.quoted import filled, stale
 from validation.digits_of_backends import (
     ACCURACIES,

@@ -8,10 +8,10 @@ from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.grasp import CAMERA, grasp_strip, rotation_plot
 from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.figures.surfaces import surface_points
 from quasistatic_ref.lab.examples import boundary_layer
+from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
 from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.model.shapes import (
     Box,

@@ -10,8 +10,8 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.commands import validate as command
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.claim import (
     FAILS,
     HOLDS,

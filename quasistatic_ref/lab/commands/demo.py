@@ -1,7 +1,5 @@
 """``demo``: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 
@@ -53,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
     from quasistatic_ref.figures.style import figure_style, figure_written
+    from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
 
     with figure_style():
         strip = grasp_strip(scenario, runs, INSTANTS)

@@ -1,7 +1,5 @@
 """``figures [NAME...]``: make the figures of the examples, as PNG and PDF."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

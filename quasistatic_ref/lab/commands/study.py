@@ -1,7 +1,5 @@
 """``study``: compare solvers, sweep the parameters of scenarios, report what was found."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections import Counter

@@ -1,7 +1,5 @@
 """``validate [NAME...]``: measure the claims about the model."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path
@@ -86,7 +84,7 @@ def _why(found: Finding) -> str:
 
 def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
     from quasistatic_ref.figures.style import figure_style, figure_written
-    from quasistatic_ref.figures.validation import PICTURES
+    from quasistatic_ref.lab.figures.validation import PICTURES
 
     drawn = []
     for name, found in findings.items():

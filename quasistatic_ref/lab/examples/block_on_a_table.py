@@ -7,16 +7,14 @@ that nothing moves until the pull is mu_v m g. At rest, many forces inside the c
 ones that are drawn are those of one optimum.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step

@@ -5,15 +5,13 @@ balances what friction leaves of the weight, v = h g (sin a - mu_v cos a): no ve
 from step to step.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, only, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

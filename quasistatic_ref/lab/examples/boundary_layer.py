@@ -1,18 +1,16 @@
-"""Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
+"""After Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
 
 Up to mu_omega m g it does not move at all. Beyond, it turns, and lifts off: a turn of theta needs
 a rise of mu_omega theta. This boundary layer is the price of convexity.
 """
-
-from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

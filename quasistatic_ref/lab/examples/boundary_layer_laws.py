@@ -1,11 +1,9 @@
 """How the boundary layer shrinks with the time step: like h at a rate, like h^2 at a torque.
 
-The paper says h of sliding: where the motion is imposed, the layer is mu_omega h omega. Under a
-given torque, as in the paper's own experiment, of which it says that the layer decreases with the
-step size, the turn of a step is itself proportional to h^2.
+The paper calls the layer proportional to h. So it is where the motion is imposed, mu_omega h omega.
+Under a given torque, as in the paper's own experiment, of which it says that the layer decreases
+with the step size, the turn of a step is itself proportional to h^2.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
@@ -14,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.validate.measures import slope
 from quasistatic_ref.lab.validate.paper.boundary_layer import LIMIT, layer_at_rate, layer_at_torque
 from quasistatic_ref.step.data import Array

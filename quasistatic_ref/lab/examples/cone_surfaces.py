@@ -5,8 +5,6 @@ and the torque about n. The ellipsoid is what experiments suggest; the product l
 its limit whatever the tangential force. How much they hold is a matter of their volumes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,8 +12,8 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.figures import Figure
-from quasistatic_ref.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.step.friction import cone_matrix
 
 

@@ -4,15 +4,13 @@ The hinge is a coordinate that nothing drives: M_u is one number, its inertia. T
 tip puts it, and stays there when the tip stops, since no velocity is carried from step to step.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

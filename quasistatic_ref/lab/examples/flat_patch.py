@@ -7,17 +7,15 @@ the nearer of the two is an angle e off the slip: at the corners of a square wit
 sides 1 / sqrt(2). In the ellipsoid tangents do not matter.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.lab.validate.measures import threshold

@@ -1,7 +1,5 @@
 """Every example by name, in the order in which they are best read."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any, Final
 

@@ -1,17 +1,15 @@
-"""Figure 1 of the paper: a 992-point bunny, grasped behind its centre of mass and lifted.
+"""After Figure 1 of the paper: a 992-point bunny, here held behind its centre of mass and lifted.
 
 The only difference between the rows is mu_omega of the fingers. Without it, nothing resists turning
 about the points by which the two fingers hold it, and the bunny hangs down.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
 from quasistatic_ref.figures import Figure
-from quasistatic_ref.figures.grasp import grasp_strip
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion

@@ -1,11 +1,9 @@
 """How far the bunny of Figure 1 turns in the grip, against mu_omega of the fingers.
 
-It is a threshold: from about 1.8 mm on the contacts stick, and more changes nothing. A finger can
-have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as wide as the
-finger under Hertz's pressure, (R15). The scene's value lies between the two.
+It is a threshold: from about 1.8 mm on the contacts stick, and more changes next to nothing. A
+finger can have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as
+wide as the finger under Hertz's pressure, (R15). The scene's value lies between the two.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
@@ -14,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp, ran
 from quasistatic_ref.model.shapes import Box

@@ -4,15 +4,13 @@ The gantry's springs give way until the peg is in. Inside, they press it on the 
 K (e - c + b), b being the boundary layer, and friction on both walls holds it back.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -4,17 +4,15 @@ With torsional friction the bar's weight m g has a lever d that the fingers can 
 paper's pyramid the normal force is shared: N = m g / (2 mu_v) + m g d / (2 mu_omega), (R21).
 """
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import labelled
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.validate.measures import threshold

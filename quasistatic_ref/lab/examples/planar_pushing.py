@@ -5,8 +5,6 @@ slowly. Under the ellipsoid a step agrees with it while the quasi-dynamic number
 when the slider's radius of gyration rho is c = mu_omega / mu_v, at any speed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -14,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.figures import Figure
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.slider import GYRATION, H
 from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
 from quasistatic_ref.step.data import Array

@@ -5,13 +5,11 @@ block starts every step from rest. The drag is small where the quasi-dynamic num
 is; here it is a quarter of friction, on purpose.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

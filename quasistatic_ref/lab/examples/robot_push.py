@@ -6,15 +6,13 @@ F = mu_v m g + m v / h, and the sum of two joints' torques is F times the differ
 heights.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, draw_scene, moment, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -1,7 +1,5 @@
 """What examples share: being a script."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace

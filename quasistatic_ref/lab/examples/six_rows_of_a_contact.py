@@ -7,16 +7,14 @@ A ball that only slides along d1 stands on one of the six; one that slides and s
 cost the same stands on two. The rows that it stands on push back, all others are open.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.labels import caption, labelled
 from quasistatic_ref.figures.pens import CONTACT
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.solve.solve import solve_step

@@ -5,8 +5,6 @@ optimum of each step says how many digits of the answer are right. docs/exactnes
 for all 600 steps, and for problems that are not written in natural units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -14,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.figures import Figure
-from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.solve.solve import solve_step
 

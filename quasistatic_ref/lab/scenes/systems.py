@@ -1,7 +1,5 @@
 """Scenes with bodies: URDF texts and the systems that they make."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory

@@ -1,7 +1,5 @@
 """The test set of a study: made once, from a seed, and kept in a folder with its exact answers."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

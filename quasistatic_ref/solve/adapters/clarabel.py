@@ -1,7 +1,5 @@
 """Clarabel, an interior-point method: its data are updated in place."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import clarabel

@@ -1,7 +1,5 @@
 """The one protocol of adapters: what each is given, and what it gives back."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, Protocol

@@ -1,7 +1,5 @@
 """What was promised, with its limit, beside what was measured."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

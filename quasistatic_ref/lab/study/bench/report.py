@@ -1,7 +1,5 @@
 """The benchmark as a page of tables."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """All tables of the benchmark, each from its own module."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict

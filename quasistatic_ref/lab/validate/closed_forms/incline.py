@@ -1,7 +1,5 @@
 """A block on an incline: it stays, slides without turning, or tips over its lower edge."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair

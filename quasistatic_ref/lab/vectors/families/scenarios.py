@@ -1,7 +1,5 @@
 """Inputs from every scenario that comes with the package: some steps of each run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Final
 

@@ -1,19 +1,16 @@
 """What stands around axes, in as many lines as there is room for."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from typing import Any, Final
 
+from quasistatic_ref.figures.draw import legend_above
 from quasistatic_ref.figures.style import room
 
 LETTER: Final = 0.62
 """Width of a letter over the size of its font [-]: most letters are slimmer."""
 LABEL: Final = 0.8
 """Share of a cell that a label along an axis may take [-]."""
-BESIDE: Final = 0.85
-"""Share of a cell's width that is above the axes, not above the labels beside it [-]."""
 WORD = re.compile(r"(?:\$[^$]*\$|\[[^\]]*\]|[^\s$\[])+")
 """What a line may not break: a formula, a unit, a word."""
 QUIET = re.compile(r"\\(?:mathrm|[,;!])|[\\${}_^]")
@@ -59,27 +56,6 @@ def broken(text: str, width: float) -> str:
 def caption(h: float, cone: str = "pyramid") -> str:
     """What each figure of a run says of it: time step [s] and friction cone."""
     return f"h = {1e3 * h:g} ms, " + (cone if cone == "frictionless" else f"friction {cone}")
-
-
-def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
-    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
-
-    Parameters
-    ----------
-    axes : Axes
-    handles : sequence of Artist
-        With their labels.
-    title : str
-        Above the entries.
-    """
-    for columns in range(len(handles), 0, -1):
-        legend = axes.legend(
-            handles=handles, title=title, ncols=columns,
-            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
-            handlelength=1.8, borderaxespad=0.2,
-        )  # fmt: skip
-        if legend.get_window_extent().width <= BESIDE * room(axes)[0]:
-            return
 
 
 def legend_below(grid: Sequence[Any], handles: Sequence[Any], title: str = "") -> None:

@@ -1,7 +1,5 @@
 """The friction cones: their limit surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Figure 1 of the paper: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
@@ -10,9 +8,9 @@ from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.draw import draw_scene
-from quasistatic_ref.figures.labels import caption, labelled, note_below
 from quasistatic_ref.figures.moments import moment
 from quasistatic_ref.figures.style import panels
+from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -1,16 +1,14 @@
 """The figures of claims, each drawn from what was measured for it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.labels import caption, labelled, legend_below
-from quasistatic_ref.figures.study_pens import MARKS
 from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
+from quasistatic_ref.lab.figures.study_pens import MARKS
 
 Picture = Mapping[str, Any]
 THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}

@@ -1,7 +1,5 @@
 """Correct digits of backends against the accuracy that they were asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,9 +7,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.labels import labelled, legend_below
-from quasistatic_ref.figures.study_pens import COLOURS, DASHES, MARKS
 from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.study_pens import COLOURS, DASHES, MARKS
 
 SPREAD = 0.17
 """Distance between backends at the same setting, settings being one apart."""
