@@ -78,6 +78,15 @@ QUOTED = {
         ("Above {:.0f} % a run warns", lambda: [100 * SLOW]),
         ("its angle, {:.2f} degrees,", lambda: [of.since_the_start()]),
     ],
+    "docs/lecture.md": [
+        ("$\\delta q_a = (h^2K_q\\,\\delta\\bar q_a + m\\phi)/(h^2K_q + m)$ = {:.3f} mm",
+         lambda: [1e3 * (0.02**2 * 500 * 0.004 + 0.5 * 0.001) / (0.02**2 * 500 + 0.5)]),
+        ("$\\lvert r\\rvert\\theta^2/2$ = 0.06 / 2 x 1e-4 m = {:.0f} µm",
+         lambda: [1e6 * math.hypot(0.05, 0.03, 0.02) * 0.01**2 / 2]),
+        ("$r(1 - \\cos\\theta)$: {:.2f} mm for theta = 0.1", lambda: [50 * (1 - math.cos(0.1))]),
+        ("m v / h = {:.0f} N, lag 1 N / K_q = {:.0f} mm",
+         lambda: [0.5 * 0.02 / 0.01, 1e3 * 0.5 * 0.02 / 0.01 / 500]),
+    ],
     "docs/tour.md": [
         ("h^2 g = {:.0f} µm *down*", lambda: [1e6 * H**2 * G]),
         ("the point slides by {:.0f} µm and rises by half of that",  # (R8)
@@ -240,6 +249,12 @@ MEANT = {
     ],
     "docs/guides/in_python.md": ["1 mm above the ground", "h^2 g = 3.9 mm"],
     "docs/guides/write_a_scenario.md": ["deeper than 1 %", "the same 1 %"],
+    "docs/lecture.md": [
+        "$K_q$ = 500 N/m whose target is 4 mm ahead, and 1 mm ahead",
+        "$\\delta q_a = \\phi$ = 1 mm, and $N = K_q(\\delta\\bar q_a - \\phi)$ = 500 N/m x 3 mm",
+        "A wheel of radius r = 50 mm",
+        "With h = 10 ms instead",
+    ],
     "docs/quickstart.md": [
         "mu_omega = 10 mm",
         "0.5 times the weight",
