@@ -233,8 +233,9 @@ def saved_steps(path: str | Path) -> int:
     files = _files(saved_folder(path))
     if not files:
         return 0
-    top = Fields(npz_record(files[-1], WHAT)[0])
+    header, _ = npz_record(files[-1], WHAT)
     with about_file(files[-1]):
+        top = Fields(header)
         return top.integer("first", least=0) + top.integer("steps", least=0)
 
 
