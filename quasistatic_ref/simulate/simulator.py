@@ -152,19 +152,10 @@ class Simulator:
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        settings: dict[str, Any] = {
-            "h": self.h,
-            "K_q": self.K_q,
-            "gravity": self.gravity,
-            "feels_gravity": self.weighs[: self.system.n_a],
-            "solver": self.named,
-            "engine": self.asked,
-            "accuracy": self.accuracy,
-            "certify": self.certify,
-            "cone": self.cone,
-            "extension": self.extension,
-            "limits": self.limits,
-        }
+        same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
+        settings: dict[str, Any] = {name: getattr(self, name) for name in same}
+        settings |= {"solver": self.named, "engine": self.asked}
+        settings["feels_gravity"] = self.weighs[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:

@@ -6,12 +6,13 @@ import tomllib
 import pytest
 from jsonschema import Draft4Validator
 
+from docs.scenario_fields import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.resources import scenario_names, scenario_path
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.scenario_table import SOLIDS, TABLES
-from quasistatic_ref.simulate.schema import reference_page, scenario_schema
+from quasistatic_ref.simulate.schema import scenario_schema
 from tests.errors.scene import SCENE, changed, scene_written, toml_text
 
 RICH = changed(
