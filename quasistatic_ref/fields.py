@@ -79,8 +79,9 @@ class Fields:
         *,
         above: float | None = None,
         least: float | None = None,
+        most: float | None = None,
     ) -> float:
-        """Return a finite number, greater than `above` and at least `least` [the field's unit]."""
+        """Return a finite number, above `above`, from `least` to `most` [the field's unit]."""
         value = self._typed(field, int | float, "a number", default)
         if value is None:
             return None  # type: ignore[return-value]  # the caller's own default
@@ -94,6 +95,8 @@ class Fields:
             raise self.fail(field, f"must be greater than {above:g}", value)
         if least is not None and not number >= least:
             raise self.fail(field, f"must be at least {least:g}", value)
+        if most is not None and not number <= most:
+            raise self.fail(field, f"must be at most {most:g}", value)
         return number
 
     def integer(
@@ -169,7 +172,7 @@ class Fields:
     def words(self, field: str, default: Any = REQUIRED) -> list[str]:
         """Return a list of strings."""
         value = self.sequence(field, default)
-        if not all(isinstance(word, str) for word in value):
+        if value is not default and not all(isinstance(word, str) for word in value):
             raise self.fail(field, "must be a list of strings", value)
         return value
 

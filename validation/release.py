@@ -158,8 +158,8 @@ RESULTS = (
     ),
     Result(
         "hostile_steps",
-        ("validation.fuzz", "--readers", "validation.hostile_steps", "--out", "{temporary}",
-         "--table", "validation/results/hostile_steps.md"),
+        ("validation.fuzz", "--readers", "validation.hostile_steps", "--inputs", "105000",
+         "--out", "{temporary}", "--table", "validation/results/hostile_steps.md"),
         ("validation/results/hostile_steps.md",),
     ),
     Result(

@@ -2,6 +2,7 @@
 
 import argparse
 import re
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +58,7 @@ def system_record(system: System) -> dict[str, Any]:
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
         ],
+        "mimics": [asdict(mimic) for mimic in system.mimics],
         "n_a": system.n_a,
         "n_u": system.n_u,
         "links": [
@@ -116,6 +118,8 @@ def _print(record: dict[str, Any]) -> None:
         stiffness = f"{c['K_q']:g} {'N/m' if c['unit'] == 'm' else 'N m/rad'}" if "K_q" in c else ""
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
+    for m in record["mimics"]:
+        print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()
     rows, notes = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]")], []
     for link in record["links"]:

@@ -30,10 +30,10 @@ COMMANDS = {
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
-    "schema": "print the JSON Schema of scenario files, by which editors complete and check them",
+    "schema": "print the JSON Schema of scenario or study files, for editors",
     "completion": "print a script by which bash, zsh or fish complete these commands",
 }
-LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
+LABS = ("demo", "vectors", "validate", "study", "figures", "bench", "schema")
 """Commands that do something with the core rather than are part of it."""
 
 

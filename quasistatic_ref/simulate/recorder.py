@@ -177,11 +177,11 @@ class Recorder:
         q = np.concatenate([self.start[None], all_of.get("q", np.zeros((0, len(self.start))))])
         arrays = {"q": q + 0.0, **arrays, **constant}
         drags = warning(header)
-        header["warnings"] = [] if drags is None else [drags]
         if self.steps:
-            header["warnings"] += watched(self.scene, arrays, all_of["gap"])
+            header["warnings"] = watched(self.scene, arrays, all_of["gap"])
         else:  # it failed in its first step, for which a unit may be the reason
-            header["warnings"] += doubtful_units(self.scene)
+            header["warnings"] = list(doubtful_units(self.scene))
+        header["warnings"] += [] if drags is None else [drags]
         seconds = {k.removeprefix(SECONDS): all_of[k] for k in all_of if k.startswith(SECONDS)}
         return Trajectory(header, arrays, seconds, self.scene)
 

@@ -13,6 +13,8 @@ ROOMS = (
     "fields",
     "files",
     "resources",
+    "declared",
+    "schema",
     "npz",
     "step",
     "certify",

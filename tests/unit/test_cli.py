@@ -20,7 +20,7 @@ from quasistatic_ref.step.files import step_read, step_sha256, step_written
 from tests.helpers import point_on_floor
 from tests.scenes import PUSH, RAIL, SWING, written_scenario
 from tests.tolerances import EXACT, MULTIPLIERS, ROUNDING
-from tests.unit.urdf_texts import written
+from tests.unit.urdf_texts import CHAIN, written
 
 
 @pytest.fixture
@@ -212,6 +212,15 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     text = capsys.readouterr().out
     assert "rail/slide" in text
     assert "the model ignores:" in text
+
+
+def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):
+    path = str(written(tmp_path, CHAIN, "arm.urdf"))
+    assert main(["inspect", path]) == 0
+    assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in capsys.readouterr().out
+    assert main(["inspect", path, "--json"]) == 0
+    follows = {"name": "arm/swing_mimic", "of": "arm/swing", "multiplier": -0.7, "offset": 0.2}
+    assert json.loads(capsys.readouterr().out)["mimics"] == [follows]
 
 
 def test_inspect_shows_a_scenario(scene, capsys):

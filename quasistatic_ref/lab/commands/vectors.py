@@ -32,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         if name == "check":
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
             shared.add(action, "--json")
+            _add_choices(action)
         else:
             shared.add(action, "--out", default="answers" if name == "own" else "vectors")
         if name in ("generate", "own", "harvest"):
@@ -46,6 +47,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             )
 
 
+def _add_choices(action: argparse.ArgumentParser) -> None:
+    """Which cases are checked, how strictly, and what is printed."""
+    action.add_argument("--quiet", action="store_true", help="print nothing if nothing failed")
+    words = "only cases whose ids begin so, e.g. rows/cone"
+    action.add_argument("--only", metavar="PREFIX", default="", help=words)
+    action.add_argument("--case", metavar="ID", help="one case alone, number beside number")
+    words = "answers that are right to D digits are acceptable"
+    action.add_argument("--digits", type=float, metavar="D", help=words)
+
+
 def run(options: argparse.Namespace) -> int:
     """Do one of the actions."""
     return RUNS[options.action](options)
@@ -54,14 +65,36 @@ def run(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
 
-    report = check_answers(options.answers, _source(options), options.layers)
+    source, only = _source(options), options.case or options.only
+    report = check_answers(options.answers, source, options.layers, only=only,
+                           digits=options.digits)  # fmt: skip
     if options.json:
         shared.print_json(report.record)
         return report.status
-    shared.print_rows(report.rows)
+    if not options.quiet or not report.ok:
+        shared.print_rows(report.rows)
+    if options.case:
+        _show_case(options, source)
     for sentence in report.sentences:
         print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     return report.status
+
+
+def _show_case(options: argparse.Namespace, source: Path) -> None:
+    """Expected and given of one case, in the package's conventions."""
+    from quasistatic_ref.lab.vectors.check.answers import answers_read
+    from quasistatic_ref.lab.vectors.check.beside import beside
+    from quasistatic_ref.lab.vectors.check.folder import answer_judged
+    from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
+
+    layer = options.case.partition("/")[0]
+    answers = answers_read(options.answers, layer)
+    for case in inputs_read(source, layer):
+        if case.id == options.case and case.id in answers.outputs:
+            record, given = expected_read(source, layer)[case.id], answers.outputs[case.id]
+            one = answer_judged(layer, case, record, given, answers, options.digits)
+            print(f"{case.id}: {case.provenance}: {one.verdict.verdict} {one.verdict.reason}")
+            shared.print_rows(beside(record["output"], one.output))
 
 
 def _generate(options: argparse.Namespace) -> int:

@@ -155,9 +155,8 @@ def _selection(simulator: Simulator, q: Array) -> float:
     return seconds(lambda: [batch.selection(*found) for batch, found in measured])
 
 
-UNFIT = ("highs", "qpsolvers:highs", "proxqp", "qpsolvers:proxqp")
-"""At the accuracy asked for HiGHS leaves a third of the grasp unsolved (docs/conventions.md);
-ProxQP was in one step for six minutes."""
+UNFIT = ("highs", "qpsolvers:highs")
+"""At the accuracy asked for HiGHS leaves a third of the grasp unsolved (docs/conventions.md)."""
 
 
 def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:

@@ -13,7 +13,8 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
-from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES, Hypothesis
+from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES
+from quasistatic_ref.lab.vectors.check.hypothesis import Hypothesis
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
@@ -92,6 +93,9 @@ def _spread(cases: Sequence[Failed]) -> Sequence[Failed]:
 
 
 def _predictions(layer: str, hypothesis: Hypothesis, one: Failed) -> list[Json]:
+    first = hypothesis.first if layer == "step" else ()
+    if first and one.verdict.field and one.verdict.field not in first:
+        return []
     try:
         return list(hypothesis.predictions[layer](one.case, one.record["output"]))
     except (QuasistaticError, ValueError, KeyError, IndexError, TypeError, ArithmeticError):

@@ -70,6 +70,8 @@ class Verdict:
         The first field that fails.
     digits : float or None
         Fewest correct digits of a field that was compared number by number.
+    without : tuple of str
+        Fields of a whole step that are not answered, of which nothing is said.
     """
 
     id: str
@@ -77,6 +79,7 @@ class Verdict:
     reason: str = ""
     field: str = ""
     digits: float | None = None
+    without: tuple[str, ...] = ()
 
     @property
     def record(self) -> dict[str, Json]:

@@ -1,6 +1,6 @@
 """What mistakes about a contact answer: its normal, its bodies, its rows and its friction."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import numpy as np
@@ -11,6 +11,7 @@ from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 MUJOCO_ORDER: Final = (0, 2, 1, 3, 4, 5)
 """Ours of +d1 -d1 +d2 -d2 +spin -spin."""
+SPINS_EXCHANGED: Final = (0, 1, 2, 3, 5, 4)
 
 
 def _rows_case(case: Json, output: Json) -> Json:
@@ -65,6 +66,50 @@ def reversed_wrench(case: Json, output: Json) -> Iterable[Json]:
 def reversed_spin(case: Json, output: Json) -> Iterable[Json]:
     """The spin about -n."""
     return [{"J": [[*J[:3], times(J[3], -1.0)] for J in output["J"]]}]
+
+
+def reversed_torque(case: Json, output: Json) -> Iterable[Json]:
+    """The torque about -n, in the wrenches and in what they come to."""
+    turned = [again("wrench", with_mu_omega(lambda c: -c["mu_omega"])(case))]
+    return [*turned, {"wrench": [[*w[:3], -w[3]] for w in output["wrench"]]}]
+
+
+def spins_exchanged(case: Json, output: Json) -> Iterable[Json]:
+    """-spin before +spin, in the pyramid."""
+    return [_kept_rows(case, output, lambda count: SPINS_EXCHANGED[:count])]
+
+
+def one_point(case: Json, output: Json) -> Iterable[Json]:
+    """J of one point for both bodies: midway, alpha or beta."""
+    for share in (0.5, 0.0, 1.0):
+        contacts = []
+        for c in case["contacts"]:
+            alpha, beta = np.array(c["alpha"]), np.array(c["beta"])
+            point = (alpha + share * (beta - alpha)).tolist()
+            contacts.append({**c, "alpha": point, "beta": point})
+        yield again("jacobian", {**case, "contacts": contacts})
+
+
+def other_offset(case: Json, output: Json) -> Iterable[Json]:
+    """A half-space whose offset is not divided by its normal's length, or has the other sign."""
+    for change in OFFSETS:
+        sides = {side: change(case[side]) for side in ("alpha", "beta")}
+        if sides != {side: case[side] for side in sides}:
+            yield again("distance", {**case, **sides})
+
+
+def _undivided(shape: Json) -> Json:
+    if shape["kind"] != "halfspace":
+        return shape
+    return {**shape, "offset": shape["offset"] * float(np.linalg.norm(shape["normal"]))}
+
+
+def _opposite_offset(shape: Json) -> Json:
+    return {**shape, "offset": -shape["offset"]} if shape["kind"] == "halfspace" else shape
+
+
+OFFSETS: Final = (_undivided, _opposite_offset)
+"""Wrong half-spaces of a shape."""
 
 
 def unsigned(case: Json, output: Json) -> Iterable[Json]:
@@ -122,11 +167,14 @@ def interleaved(case: Json, output: Json) -> Iterable[Json]:
     return [_kept_rows(case, output, lambda count: MUJOCO_ORDER[:count])]
 
 
-def interleaved_lam(case: Json, output: Json) -> Iterable[Json]:
-    """Lam read in MuJoCo's order."""
+def lam_in_order(order: Sequence[int]) -> Prediction:
+    """Lam of the pyramid read in another order of its rows."""
 
-    def read(contact: Json) -> Json:
-        lam = contact["lam"]
-        return {"lam": [lam[MUJOCO_ORDER.index(i)] for i in range(len(lam))]}
+    def prediction(case: Json, output: Json) -> Iterable[Json]:
+        def read(contact: Json) -> Json:
+            lam = contact["lam"]
+            return {"lam": [lam[order.index(i)] for i in range(len(lam))]}
 
-    return [again("wrench", {**case, "contacts": each(case["contacts"], read)})]
+        return [again("wrench", {**case, "contacts": each(case["contacts"], read)})]
+
+    return prediction

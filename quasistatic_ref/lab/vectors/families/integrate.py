@@ -8,6 +8,7 @@ from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.by_hand import Case, by_hand
 from quasistatic_ref.lab.vectors.families.mechanisms import (
+    follower,
     free_body,
     gripper,
     link,
@@ -48,6 +49,10 @@ def integrate_cases() -> Iterator[Case]:
         tree = {"bodies": [free_body(), *gripper()["bodies"]]}
         why = f"a gripper and a body, a step of about {size:g}: actuated coordinates come first"
         yield f"integrate/grasp/{number}", why, _at_random(rng, tree, size)
+    stand = link("stand", None, "fixed")
+    tree = {"bodies": [free_body(), stand, *follower("revolute", "stand", actuated=True)]}
+    why = "a joint that follows another has no entry of q"
+    yield "integrate/mimic", why, _at_random(rng, tree)
 
 
 def _at_random(rng: Rng, tree: Json, size: float = 0.5) -> Json:

@@ -9,6 +9,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.mechanisms import (
     few_digits,
+    follower,
     free_body,
     gripper,
     link,
@@ -99,6 +100,10 @@ def _corners(rng: Rng) -> Iterator[Case]:
         why = "the normal along the vertical, up and down: the spin changes its sign"
         turned = [table["contacts"][0] | frame]
         yield f"jacobian/normal/{number}", why, table | {"contacts": turned}
+    for joint in ("prismatic", "revolute"):
+        tree = {"bodies": [link("stand", None, "fixed"), *follower(joint, "stand")]}
+        why = f"a {joint} joint that follows another at -1/2 of it and 0.35 away, on both sides"
+        yield f"jacobian/mimic/{joint}", why, _with_contacts(rng, tree, 2, [("drive", "finger")])
 
 
 def _with_contacts(rng: Rng, tree: Json, count: int, pairs: Pairs | None = None) -> Json:

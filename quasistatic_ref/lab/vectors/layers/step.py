@@ -41,15 +41,14 @@ ROUNDINGS: Final = 16
 def expected(case_input: Json) -> Expected:
     """All that one step comes to, and q after it."""
     tree, q = mechanism(case_input["mechanism"]), case_input["q"]
-    found = _chosen(tree, case_input)
-    contacts, friction = _contacts(case_input, found)
+    contacts, friction, found = contacts_of(tree, case_input)
     place = {"mechanism": case_input["mechanism"], "q": q}
     jacobian = layer("jacobian").expected({**place, "contacts": contacts})
     for contact, J in zip(contacts, jacobian.output["J"], strict=True):
         contact["J"] = J
     both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
     rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
-    H, g, g_size = _objective(tree, case_input)
+    H, g, g_size = objective(tree, case_input)
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, g_size)
     solved = _solved(program, errors)
@@ -128,8 +127,9 @@ def shape_pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
     return rounded(world)[0]
 
 
-def _contacts(case: Json, found: list[Chosen]) -> tuple[list[Json], list[Json]]:
-    """Contacts of all pairs, with their tangents, and each one's coefficients of friction."""
+def contacts_of(tree: Mechanism, case: Json) -> tuple[list[Json], list[Json], list[Chosen]]:
+    """Contacts of all pairs without J, each one's coefficients of friction, and whence they are."""
+    found = _chosen(tree, case)
     contacts, friction = [], []
     for pair, one in zip(case["pairs"], found, strict=True):
         bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
@@ -137,7 +137,7 @@ def _contacts(case: Json, found: list[Chosen]) -> tuple[list[Json], list[Json]]:
             tangents = _tangents(contact["n"])
             contacts.append({"pair": pair["name"], **bodies, **contact, **tangents})
             friction.append({key: pair[key] for key in ("mu_v", "mu_omega", "rows")})
-    return contacts, friction
+    return contacts, friction, found
 
 
 def _tangents(normal: list[float]) -> dict[str, Json]:
@@ -153,8 +153,8 @@ def _tangents(normal: list[float]) -> dict[str, Json]:
     return {"d1": first, "d2": rounded(lambda: cross(numbers(normal), numbers(first)))[0]}
 
 
-def _objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
-    """H and g of Eq. (13), each entry rounded once, and the largest term of g."""
+def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
+    """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
     h, n_a = number(case["h"]), tree.n_a
     K = [numbers(row) for row in case["K_q"]]
 

@@ -1,14 +1,14 @@
-"""Every field of a scenario as the page on scenarios lists them."""
+"""The fields of a file, of a scenario or of a study, as the pages about them list them."""
 
+from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.fields import REQUIRED
 from quasistatic_ref.files import json_text
-from quasistatic_ref.simulate.scenario_table import TABLES, Field
 
 
-def reference_page() -> str:
-    """Every field as Markdown, one table for each kind of table."""
+def reference_page(tables: Tables) -> str:
+    """Every field of a file as Markdown, one table for each kind of table."""
     parts = []
-    for kind, fields in TABLES.items():
+    for kind, fields in tables.items():
         rows = ["| field | value | unit | default | says |", "|---|---|---|---|---|"]
         for name, one in fields.items():
             cells = (f"`{name}`", _values(one), one.unit, _default(one), one.says)
@@ -25,8 +25,10 @@ def _values(one: Field) -> str:
     """What a field may hold, in words."""
     if one.choices is not None:
         return ", ".join(f"`{json_text(choice)}`" for choice in one.choices)
+    if one.kind.startswith("list of "):
+        return f"{one.kind}{', not empty' if one.least else ''}"
     bounds = [(one.above, "above"), (one.least, "from"), (one.most, "to")]
-    said = " ".join(f"{word} {bound:g}" for bound, word in bounds if bound is not None)
+    said = " ".join(f"{word} {bound:.10g}" for bound, word in bounds if bound is not None)
     return f"{one.kind}{', ' if said else ''}{said}"
 
 

@@ -1,31 +1,47 @@
-"""The table of a scenario's fields as a JSON Schema.
+"""The table of a file's fields as a JSON Schema.
 
 It is of draft 4, the latest that editors' TOML servers (taplo) understand.
 """
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
+from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.fields import REQUIRED
-from quasistatic_ref.simulate.scenario_table import RULES, TABLES, TOP, Field
 from quasistatic_ref.tolerances import LARGE
 
 DRAFT = "http://json-schema.org/draft-04/schema#"
 NUMBER = {"type": "number", "minimum": -LARGE, "maximum": LARGE}
 
 
-def scenario_schema() -> dict[str, Any]:
-    """The JSON Schema of a scenario file."""
-    definitions = {_key(kind): _table(kind) for kind in TABLES if kind != TOP}
-    return {"$schema": DRAFT, "title": "A scenario", **_table(TOP), "definitions": definitions}
+def json_schema(
+    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], *tops: str
+) -> dict[str, Any]:
+    """The JSON Schema of a file.
+
+    Parameters
+    ----------
+    title : str
+        Of the schema.
+    tables : Tables
+    rules : mapping
+        JSON Schema that a kind of table has besides its fields.
+    tops : str
+        The kind, or kinds, of the table that a whole file is.
+    """
+    every = {kind: _table(fields, rules.get(kind, {})) for kind, fields in tables.items()}
+    whole = [every.pop(top) for top in tops]
+    top = whole[0] if len(whole) == 1 else {"oneOf": whole}
+    definitions = {_key(kind): schema for kind, schema in every.items()}
+    return {"$schema": DRAFT, "title": title, **top, "definitions": definitions}
 
 
 def _key(kind: str) -> str:
     return re.sub(r"\W+", "_", kind).strip("_")
 
 
-def _table(kind: str) -> dict[str, Any]:
-    fields = TABLES[kind]
+def _table(fields: Mapping[str, Field], rule: Mapping[str, Any]) -> dict[str, Any]:
     required = [name for name, one in fields.items() if one.default is REQUIRED]
     schema: dict[str, Any] = {
         "type": "object",
@@ -33,7 +49,7 @@ def _table(kind: str) -> dict[str, Any]:
         "additionalProperties": False,
         **({"required": required} if required else {}),
     }
-    return schema | dict(RULES.get(kind, {}))
+    return schema | dict(rule)
 
 
 def _field(one: Field) -> dict[str, Any]:
@@ -50,7 +66,7 @@ def _field(one: Field) -> dict[str, Any]:
 
 def _value(one: Field) -> dict[str, Any]:
     """The schema of a kind of value; nothing for a kind that brings its own."""
-    inner = {"$ref": f"#/definitions/{_key(one.of)}"}
+    inner = {"$ref": f"#/definitions/{_key(one.of)}"} if one.of else {"type": "object"}
     kinds: dict[str, dict[str, Any]] = {
         "number": NUMBER,
         "integer": NUMBER | {"type": "integer"},
@@ -66,7 +82,7 @@ def _value(one: Field) -> dict[str, Any]:
     if one.above is not None:
         schema |= {"minimum": one.above, "exclusiveMinimum": True}
     if one.least is not None:
-        schema["minimum"] = one.least
+        schema["minItems" if one.kind.startswith("list of ") else "minimum"] = one.least
     if one.most is not None:
         schema["maximum"] = one.most
     if one.choices is not None:
