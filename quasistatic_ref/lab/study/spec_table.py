@@ -3,8 +3,6 @@
 What goes beyond one field, such as that a solver is installed, the loader checks by hand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
