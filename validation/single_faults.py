@@ -108,9 +108,12 @@ def on_other_rows() -> Iterator[Fault]:
     free = held.replace(extra=Extra((), np.zeros((0, held.n_v)), np.zeros(0)))
     record = solved(free) | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
     yield fault(held, record, "the minimiser on the rows of active violates a row")
-    record = solved(sticks)
-    record["certificate"]["active"].reverse()
-    yield fault(sticks, record, "active is not in increasing order")
+    for active, reason in (
+        ([[0, 3], [0, 2]], "active is not in increasing order without repetition"),
+        ([[0, 2], [0, 2]], "active is not in increasing order without repetition"),
+        ([[0, i] for i in range(4)], "the rows of active are not independent"),
+    ):
+        yield fault(sticks, put(solved(sticks), ("certificate", "active"), active), reason)
 
 
 def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,)) -> StepData:
