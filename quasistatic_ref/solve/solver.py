@@ -16,7 +16,7 @@ import numpy as np
 from quasistatic_ref.certify.confirm import BallHessian
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS, ENDLESS, NONE, QPSOLVERS, Options
+from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -194,11 +194,11 @@ class Solver(ABC):
         Raises
         ------
         StepNotSolved
-            If it says anything but a full solution, or the numbers are not finite; or if nothing
-            would end it and the rows of the step are unlike each other.
+            If it says anything but a full solution, or the numbers are not finite; or if it may
+            not return and the rows of the step are unlike each other.
         """
-        endless = self.name.removeprefix(QPSOLVERS) in ENDLESS
-        if endless and isinstance(scaled, Scaled) and not scaled.unlike <= ALIKE:
+        unsafe = self.name.removeprefix(QPSOLVERS) in UNSAFE
+        if unsafe and isinstance(scaled, Scaled) and not scaled.unlike <= ALIKE:
             status = f"not asked: its rows differ by {scaled.unlike:.0e} in natural units"
             raise StepNotSolved(self.name, status, scaled.step, accuracy)
         idle = self.write(scaled)
