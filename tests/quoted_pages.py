@@ -41,8 +41,8 @@ QUOTED = {
         ("({:.0f} points, as in the paper)", lambda: [claim("structure", "points of the cloud")]),
         ("{:,} contact problems with known answers (exact for all but {})",
          lambda: [of.problems(), solver_study.of.enclosed()]),
-        ("and {} gigabyte of disk: more than a third of it is pinocchio and coal with their C++ "
-         "libraries, then SciPy, SCS (through CVXPY) and NumPy", of.base),
+        ("and {} gigabyte of disk: {} of it is Boost, whose libraries pinocchio and coal load, "
+         "then {} (through CVXPY), {} and {}", of.base),
         ("measures {} claims", lambda: [len(BY_NAME)]),
         ("(certified steps meet them to {:.0e})", lambda: [CLOSED_FORM]),
     ],
