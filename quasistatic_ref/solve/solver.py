@@ -22,6 +22,7 @@ from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -151,9 +152,9 @@ class Solver(ABC):
         """Whether the numbers of a step can be written into the problem."""
         return not self.differences(step)
 
-    def scaled(self, step: StepData) -> NaturalStep:
-        """The step in natural units."""
-        return Scaled(step)
+    def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
+        """The step in natural units; with its matrices, where these are known."""
+        return Scaled(step, form=form)
 
     @abstractmethod
     def write(self, scaled: Any) -> Mask | None:
