@@ -1,5 +1,7 @@
 """A simulator's step in compiled code: the same algorithm, the same numbers to the last bit."""
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,7 +60,7 @@ def measured_by_numpy(simulator: Simulator) -> list[str]:
     ]
 
 
-def compiled_step(simulator: Simulator) -> "CompiledStep | None":
+def compiled_step(simulator: Simulator) -> CompiledStep | None:
     """What takes a simulator's steps, or None: :func:`unknown` says why."""
     return CompiledStep(simulator) if unknown(simulator) is None else None
 
