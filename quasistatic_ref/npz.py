@@ -64,6 +64,12 @@ def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
 def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
     """The JSON header of a .npz file, and its other arrays, as :func:`npz_arrays` reads them.
 
+    Returns
+    -------
+    header : object
+    arrays : dict of str to ndarray
+        Each of the shape that the file has.
+
     Raises
     ------
     InputError

@@ -33,7 +33,7 @@ SAMPLE = (
     f"{CONES} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
     "row_gaps(step.contacts, step.cone)[step.mask]",
-    f"{FORM} standard_form: tau_k + step.tau_a -> tau_k - step.tau_a",
+    f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{JUDGE} optimality_residuals: -slack -> slack",
     f"{JUDGE} ellipsoid_residuals: mu * s[:, 1:] -> mu / s[:, 1:]",

@@ -113,7 +113,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
-    honest, calls = simulator.solve_step, []
+    honest, calls = simulator.Simulator.step, []
 
     def interrupted(*arguments, **options):
         calls.append(1)
@@ -121,7 +121,7 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
             raise KeyboardInterrupt
         return honest(*arguments, **options)
 
-    monkeypatch.setattr(simulator, "solve_step", interrupted)
+    monkeypatch.setattr(simulator.Simulator, "step", interrupted)
     assert main(["run", scene, "--out", str(out)]) == 130
     assert one_sentence(capsys.readouterr().err).startswith(
         "step 2: interrupted; the first 2 steps"
