@@ -16,7 +16,7 @@ NUMBER = {"type": "number", "minimum": -LARGE, "maximum": LARGE}
 
 
 def json_schema(
-    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], *tops: str
+    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], top: str
 ) -> dict[str, Any]:
     """The JSON Schema of a file.
 
@@ -27,14 +27,13 @@ def json_schema(
     tables : Tables
     rules : mapping
         JSON Schema that a kind of table has besides its fields.
-    tops : str
-        The kind, or kinds, of the table that a whole file is.
+    top : str
+        The kind of the table that a whole file is.
     """
     every = {kind: _table(fields, rules.get(kind, {})) for kind, fields in tables.items()}
-    whole = [every.pop(top) for top in tops]
-    top = whole[0] if len(whole) == 1 else {"oneOf": whole}
+    whole = every.pop(top)
     definitions = {_key(kind): schema for kind, schema in every.items()}
-    return {"$schema": DRAFT, "title": title, **top, "definitions": definitions}
+    return {"$schema": DRAFT, "title": title, **whole, "definitions": definitions}
 
 
 def _key(kind: str) -> str:

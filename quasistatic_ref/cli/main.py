@@ -118,7 +118,15 @@ def command_parser(asked: Container[str | None]) -> Parser:
         command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
         if name in asked:
             _module(name).add_options(command)
+            for last in _actions(command):
+                last.add_argument("--quiet", action="store_true", help="show no progress")
     return parser
+
+
+def _actions(command: Parser) -> list[Parser]:
+    """The parsers of a command's actions; its own, if it has none."""
+    below = (a for a in command._actions if isinstance(a, argparse._SubParsersAction))
+    return [action for choice in below for action in choice.choices.values()] or [command]
 
 
 def _module(command: str) -> Any:

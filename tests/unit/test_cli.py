@@ -435,6 +435,18 @@ def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
     assert capsys.readouterr().out == f"wrote {path}\n"
 
 
+@pytest.mark.parametrize(
+    "words",
+    [[name] for name in COMMANDS if name not in ("study", "vectors")]
+    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
+    ids=" ".join,
+)
+def test_every_command_takes_quiet(words, capsys):
+    with pytest.raises(SystemExit):
+        main([*words, "--help"])
+    assert "--quiet" in capsys.readouterr().out
+
+
 def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
     class Terminal(io.StringIO):
         def isatty(self):

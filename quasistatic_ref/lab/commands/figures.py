@@ -19,7 +19,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
     )
     shared.add(parser, "--out", default="figures")
-    shared.add(parser, "--quiet")
 
 
 def _examples() -> Sequence[str]:

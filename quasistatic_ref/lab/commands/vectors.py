@@ -35,8 +35,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             _add_choices(action)
         else:
             shared.add(action, "--out", default="answers" if name == "own" else "vectors")
-        if name in ("generate", "own", "harvest"):
-            shared.add(action, "--quiet")
         if name in ("check", "own"):
             action.add_argument(
                 "--layer",
