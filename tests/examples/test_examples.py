@@ -14,6 +14,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.figures import faults
 from quasistatic_ref.lab.examples import (
+    flat_patch,
     grasp,
     grasp_against_mu_omega,
     grasp_rotation,
@@ -40,6 +41,8 @@ def runs_of_the_demo(demo, monkeypatch):
     for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
+    monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
+    monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
     monkeypatch.setattr(step_time, "STEPS", 20)
 
 
@@ -62,7 +65,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 19
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 20
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -117,6 +120,10 @@ def test_a_slider_turns_as_lynch_says_when_it_is_slow():
     slow, fast, law = found.T
     np.testing.assert_allclose(slow, 1.0, atol=2e-3)  # Pi (1 - (rho / c)^2), Pi = 1e-3
     np.testing.assert_allclose(fast, law, rtol=ROUNDING)
+
+
+def test_a_square_patch_holds_mu_a_times_the_cosine_of_its_tangents_angle():
+    pairs("flat_patch", atol=2 * flat_patch.PRECISION)
 
 
 def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():

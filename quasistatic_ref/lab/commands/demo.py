@@ -51,11 +51,12 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
 
-    strip = grasp_strip(scenario, runs, INSTANTS)
-    rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
+    with figure_style():
+        strip = grasp_strip(scenario, runs, INSTANTS)
+        rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
     return [path.name for path in paths]

@@ -16,7 +16,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(names, _examples)
     parser.add_argument(
-        "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
+        "--style",
+        default="paper",
+        metavar="STYLE",
+        help="paper (default), slides, poster, one of matplotlib's, or a file such as my.mplstyle",
     )
     shared.add(parser, "--out", default="figures")
 

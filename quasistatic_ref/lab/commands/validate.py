@@ -38,9 +38,7 @@ def run(options: argparse.Namespace) -> int:
     """
     for name in options.names:
         if name not in BY_NAME:
-            raise InputError(
-                f"is not the name of a claim{suggestion(name, BY_NAME)}", field="NAME", value=name
-            )
+            raise InputError(f"is no claim{suggestion(name, BY_NAME)}", field="NAME", value=name)
     chosen = options.names or list(BY_NAME)
     findings: dict[str, Finding] = {}
     for k, name in enumerate(chosen, start=1):
@@ -85,12 +83,14 @@ def _why(found: Finding) -> str:
 
 
 def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
-    from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.lab.figures.validation import PICTURES
 
     drawn = []
     for name, found in findings.items():
         if found.evidence is not None and name in PICTURES:
-            figure_written(PICTURES[name](found.evidence.picture), folder / "figures", name)
+            with figure_style():
+                figure = PICTURES[name](found.evidence.picture)
+            figure_written(figure, folder / "figures", name)
             drawn.append(name)
     return drawn

@@ -5,10 +5,11 @@ of the signed distance phi with respect to q is n'J, which is what makes a row o
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.claim import Evidence
@@ -34,10 +35,15 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The pair, seen along d1."""
-    return PICTURES["contact_geometry"](measured().picture)
+def figure(ax: Any = None) -> Figure:
+    """The pair, seen along d1.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    return PICTURES["contact_geometry"](measured().picture, ax)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,9 @@ distances are evaluated. Here that depends on the solver, and on whether all dis
 or a tracker leaves out those that cannot matter. The times are those of this machine.
 """
 
-from quasistatic_ref.figures import Figure, styled
+from typing import Any
+
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.paper.step_time import measured
@@ -24,10 +26,15 @@ def main() -> Numbers:
     return numbers
 
 
-@styled
-def figure() -> Figure:
-    """All parts, as stacked bars."""
-    return PICTURES["step_time"](measured())
+def figure(ax: Any = None) -> Figure:
+    """All parts, as stacked bars.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    return PICTURES["step_time"](measured(), ax)
 
 
 if __name__ == "__main__":

@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from quasistatic_ref.figures.camera import Camera
 from quasistatic_ref.figures.draw import draw_scene
 from quasistatic_ref.figures.moments import moment
-from quasistatic_ref.figures.style import figure_style, sized
+from quasistatic_ref.figures.style import panels
+from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -25,7 +25,10 @@ SHOWN: Final[dict[str, Any]] = {
 
 
 def grasp_strip(
-    scenario: Scenario, runs: Mapping[str, Trajectory], instants: Sequence[float]
+    scenario: Scenario,
+    runs: Mapping[str, Trajectory],
+    instants: Sequence[float],
+    within: Any = None,
 ) -> Figure:
     """Runs in rows, instants in columns.
 
@@ -37,41 +40,42 @@ def grasp_strip(
         Row title -> run.
     instants : sequence of float
         Times of the columns [s].
+    within : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
     """
-    with figure_style():
-        figure, grid = plt.subplots(
-            len(runs), len(instants), figsize=sized(6.3, 1.45 * len(runs)), squeeze=False,
-            gridspec_kw={"wspace": 0.03, "hspace": 0.05},
-        )  # fmt: skip
-        for row, (title, run) in zip(grid, runs.items(), strict=True):
-            for axes, instant in zip(row, instants, strict=True):
-                k = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
-                draw_scene(axes, moment(scenario, run, k), **SHOWN)
-            row[0].set_ylabel(title.replace(" ", "\n"))
-        for axes, instant in zip(grid[0], instants, strict=True):
-            axes.set_title(f"t = {instant:g} s")
-        figure.text(
-            0.5, 0.03,
-            f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}; "
-            "open dots: contacts considered, filled dots: contacts that bear load",
-            ha="center", fontsize="small",
-        )  # fmt: skip
-    return figure
+    rows, columns = len(runs), len(instants)
+    page, grid = panels(
+        6.3, 1.2 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
+        gridspec_kw={"wspace": 0.0, "hspace": 0.0},
+    )  # fmt: skip
+    for k, (title, run) in enumerate(runs.items()):
+        row = grid[k * columns : (k + 1) * columns]
+        for axes, instant in zip(row, instants, strict=True):
+            j = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
+            draw_scene(axes, moment(scenario, run, j), **SHOWN)
+        row[0].set_ylabel(title.replace(" ", "\n"))
+    for axes, instant in zip(grid, instants, strict=False):
+        axes.set_title(f"{instant:g} s")
+    dots = "open dots: contacts considered, filled dots: contacts that bear load"
+    note_below(grid, f"{caption(scenario.h, scenario.cone)}; {dots}")
+    return page
 
 
 def rotation_plot(
-    scenario: Scenario, runs: Mapping[str, Trajectory], link: str, since: float
+    scenario: Scenario,
+    runs: Mapping[str, Trajectory],
+    link: str,
+    since: float,
+    within: Any = None,
 ) -> Figure:
     """Angle that a body has turned since the grip closed, at the time `since` [s], against time."""
-    with figure_style():
-        figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
-        for title, run in runs.items():
-            motion = link_motion(scenario.system, run, link)
-            after = motion.index(since)
-            angle = np.degrees(motion.rotation_since(since))
-            axes.plot(motion.times[after:], angle[after:], label=title)
-        axes.set(xlabel="time t [s]", ylabel="rotation since the grip closed [deg]")
-        axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-        axes.set_ylim(bottom=-1)
-        axes.legend()
-    return figure
+    page, (axes,) = panels(4.6, 2.8, within=within)
+    for title, run in runs.items():
+        motion = link_motion(scenario.system, run, link)
+        after = motion.index(since)
+        angle = np.degrees(motion.rotation_since(since))
+        axes.plot(motion.times[after:], angle[after:], label=title)
+    axes.set_ylim(bottom=-1)
+    what = "rotation since the grip closed [deg]"
+    labelled(axes, "time t [s]", what, caption(scenario.h, scenario.cone))
+    return page
