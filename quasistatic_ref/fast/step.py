@@ -14,7 +14,7 @@ from quasistatic_ref.fast.products import products
 from quasistatic_ref.fast.scene import Scene, known
 from quasistatic_ref.fast.screws import Screws
 from quasistatic_ref.plain import bits
-from quasistatic_ref.simulate.simulator import StepResult
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.step.data import Array, StepData
@@ -105,6 +105,7 @@ class CompiledStep:
         if self.equal is None:
             self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
             if not self.equal:
+                simulator.fast = None
                 return None
         lap("rows")
         solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)

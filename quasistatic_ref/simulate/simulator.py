@@ -1,9 +1,8 @@
 """The simulator: one step as the algorithm of the paper."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +13,10 @@ from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.result import CompiledStep, StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
+from quasistatic_ref.simulate.words import simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import (
     CVXPY,
@@ -39,36 +38,6 @@ from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
-
-
-CompiledStep: TypeAlias = "Callable[[Simulator, Array, Array, Array | float], StepResult | None]"
-"""A step in compiled code; nothing where its numbers turn out to be others than NumPy's."""
-
-
-@dataclass(frozen=True, eq=False)
-class StepResult(Plain):
-    """Everything that one step came to.
-
-    Parameters
-    ----------
-    q : ndarray, shape (n_q,)
-        Configuration after the step.
-    step : StepData
-        The problem of the step.
-    solution : StepSolution
-    points : ClosestPoints
-        Where the contacts were, before the step.
-    seconds : dict of str to float
-        Wall time of the parts: distances, rows, solve, integrate [s]; not compared.
-    """
-
-    q: Array
-    step: StepData
-    solution: StepSolution
-    points: ClosestPoints
-    seconds: dict[str, float] = field(compare=False)
-
-    __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
 
 
 class Simulator:
@@ -108,7 +77,7 @@ class Simulator:
     ----------
     backend : str
         Name of the backend.
-    fast : CompiledStep or None
+    fast : callable or None
         What takes its steps in compiled code, to the same bits; None where nothing does.
     solver : Solver or None
         What solved the last step; it takes the next one if that fits.
@@ -190,11 +159,8 @@ class Simulator:
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
         """
-        if self.fast is not None and self.extension is None:
-            taken = self.fast(self, q, q_bar_a, force)
-            if taken is not None:
-                return taken
-            self.fast = None
+        if self.fast is not None and (taken := self.fast(self, q, q_bar_a, force)) is not None:
+            return taken  # the same numbers, by compiled code
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
         points = self.tracker.closest_points(kinematics.R, kinematics.t)
