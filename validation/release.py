@@ -141,6 +141,11 @@ RESULTS = (
         ("validation/results/verifier.md",),
     ),
     Result(
+        "verifier_faults",
+        ("validation.verifier_faults", "--out", "validation/results/verifier_faults.md"),
+        ("validation/results/verifier_faults.md",),
+    ),
+    Result(
         "confirmed_bits",
         ("validation.confirmed_bits", "--out", "validation/results/confirmed_bits.txt"),
         ("validation/results/confirmed_bits.txt",),
