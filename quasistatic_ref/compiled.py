@@ -4,8 +4,6 @@ Whatever comes through it is equal to the last bit to what NumPy and python-flin
 and nothing else in the package names that room.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 from types import ModuleType
