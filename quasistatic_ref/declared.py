@@ -4,8 +4,6 @@ A field has a kind of value, bounds, a unit, a default and a sentence. What goes
 the loader checks by hand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,6 +1,6 @@
-"""What a file's table of fields gives besides the loader: a JSON Schema, a reference page.
+"""The table of a file's fields as a JSON Schema.
 
-The schema is of draft 4, the latest that editors' TOML servers (taplo) understand.
+It is of draft 4, the latest that editors' TOML servers (taplo) understand.
 """
 
 import re
@@ -9,7 +9,6 @@ from typing import Any
 
 from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.fields import REQUIRED
-from quasistatic_ref.files import json_text
 from quasistatic_ref.tolerances import LARGE
 
 DRAFT = "http://json-schema.org/draft-04/schema#"
@@ -17,7 +16,7 @@ NUMBER = {"type": "number", "minimum": -LARGE, "maximum": LARGE}
 
 
 def json_schema(
-    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], *tops: str
+    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], top: str
 ) -> dict[str, Any]:
     """The JSON Schema of a file.
 
@@ -28,30 +27,13 @@ def json_schema(
     tables : Tables
     rules : mapping
         JSON Schema that a kind of table has besides its fields.
-    tops : str
-        The kind, or kinds, of the table that a whole file is.
+    top : str
+        The kind of the table that a whole file is.
     """
     every = {kind: _table(fields, rules.get(kind, {})) for kind, fields in tables.items()}
-    whole = [every.pop(top) for top in tops]
-    top = whole[0] if len(whole) == 1 else {"oneOf": whole}
+    whole = every.pop(top)
     definitions = {_key(kind): schema for kind, schema in every.items()}
-    return {"$schema": DRAFT, "title": title, **top, "definitions": definitions}
-
-
-def reference_page(tables: Tables) -> str:
-    """Every field of a file as Markdown, one table for each kind of table."""
-    parts = []
-    for kind, fields in tables.items():
-        rows = ["| field | value | unit | default | says |", "|---|---|---|---|---|"]
-        for name, one in fields.items():
-            cells = (f"`{name}`", _values(one), one.unit, _default(one), one.says)
-            rows.append(f"| {' | '.join(cells)} |")
-        parts.append("\n".join([f"## {_heading(kind)}", "", *rows]))
-    return "\n\n".join(parts) + "\n"
-
-
-def _heading(kind: str) -> str:
-    return f"`{kind}`" if kind[0] == "[" else kind[0].upper() + kind[1:]
+    return {"$schema": DRAFT, "title": title, **whole, "definitions": definitions}
 
 
 def _key(kind: str) -> str:
@@ -105,20 +87,3 @@ def _value(one: Field) -> dict[str, Any]:
     if one.choices is not None:
         schema["enum"] = list(one.choices)
     return schema
-
-
-def _values(one: Field) -> str:
-    """What a field may hold, in words."""
-    if one.choices is not None:
-        return ", ".join(f"`{json_text(choice)}`" for choice in one.choices)
-    if one.kind.startswith("list of "):
-        return f"{one.kind}{', not empty' if one.least else ''}"
-    bounds = [(one.above, "above"), (one.least, "from"), (one.most, "to")]
-    said = " ".join(f"{word} {bound:.10g}" for bound, word in bounds if bound is not None)
-    return f"{one.kind}{', ' if said else ''}{said}"
-
-
-def _default(one: Field) -> str:
-    if one.default is REQUIRED:
-        return "required"
-    return "" if one.default is None else f"`{json_text(one.default)}`"

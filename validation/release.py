@@ -63,6 +63,11 @@ class Result:
 
 RESULTS = (
     Result(
+        "compilers",
+        ("validation.compilers", "--out", "validation/results/compilers.md"),
+        ("validation/results/compilers.md",),
+    ),
+    Result(
         "memory_of_steps",
         ("validation.memory_of_steps",),
         ("validation/results/memory_of_steps.md",),
@@ -134,6 +139,11 @@ RESULTS = (
         "verifier",
         ("validation.check_verifier", "--all", "--out", "validation/results/verifier.md"),
         ("validation/results/verifier.md",),
+    ),
+    Result(
+        "verifier_faults",
+        ("validation.verifier_faults", "--out", "validation/results/verifier_faults.md"),
+        ("validation/results/verifier_faults.md",),
     ),
     Result(
         "confirmed_bits",

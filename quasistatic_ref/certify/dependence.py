@@ -60,7 +60,26 @@ def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> lis
     -------
     list of bool
     """
-    return follow([[*form.row(i), form.b[i, 0]] for i in working], rows)
+    return follow([form.equation(i) for i in working], rows)
+
+
+def idle_rows(
+    form: ExactForm, working: Sequence[int], slack: Sequence[fmpz]
+) -> tuple[list[int], list[int]]:
+    """Rows outside of the working set whose slack is zero: those that it implies, and the others.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows.
+    slack : sequence of fmpz, length m
+        Of the minimiser on them [any unit].
+    """
+    idle = [i for i, s in enumerate(slack) if not s and i not in working]
+    spans = implied(form, working, [form.equation(i) for i in idle]) if idle else []
+    at = dict(zip(idle, spans, strict=True))
+    return [i for i in idle if at[i]], [i for i in idle if not at[i]]
 
 
 def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:

@@ -12,6 +12,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.cli.shape_words import shape_words
+from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.resources import scenario_names
@@ -92,11 +93,17 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record |= {"engine": scenario.engine, "cone": scenario.cone}
+    record |= {"engine": scenario.engine, "cone": scenario.cone, "steps_by": steps_by(scenario)}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["fields"] = named_fields(scenario.path)
     return record
+
+
+def steps_by(scenario: Scenario) -> str:
+    """What takes the steps of a scenario, in words."""
+    fast = compiled("step")
+    return f"NumPy: {why_not()}" if fast is None else fast.taken_by(scenario.simulator())
 
 
 def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
@@ -139,6 +146,7 @@ def _print(record: dict[str, Any]) -> None:
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
         print(f"solved by {record['backend']}, engine {record['engine']}")
+        shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         shared.print_wrapped(sentence, "  ", "- ")

@@ -22,7 +22,8 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import Simulator, StepResult
+    from quasistatic_ref.simulate.result import StepResult
+    from quasistatic_ref.simulate.simulator import Simulator
 
 PACKED = 1000
 """Steps that are kept one by one before they become arrays, which take less memory."""

@@ -56,9 +56,9 @@ class Backend:
         Whether it takes second-order cones, which the ellipsoid needs, through CVXPY.
     steps : bool
         Whether steps are solved with it; otherwise it is in studies only.
-    stops : bool
-        Whether a limit of iterations or of time ends it. One that nothing ends is asked only for
-        steps whose rows are alike (``ALIKE`` in tolerances.py).
+    returns : bool
+        Whether it returned from every step that it was given. One that loops for ever, or ends the
+        process, is asked only for steps whose rows are alike (``ALIKE`` in tolerances.py).
     """
 
     name: str
@@ -75,7 +75,7 @@ class Backend:
     required: bool = False
     cones: bool = False
     steps: bool = True
-    stops: bool = True
+    returns: bool = True
 
     def first(self, accuracy: float) -> Options:
         """The options tried first for an accuracy in natural units [-]."""
@@ -188,16 +188,16 @@ BACKENDS: dict[str, Backend] = {
         Backend("scs", "operator splitting", _once(_scs), _plain_scs, time_limit="time_limit_secs",
                 warm=BOTH, cones=True),
         Backend("highs", "active set", _highs, _plain_highs, floor=1e-10, warm=("cvxpy",),
-                time_limit="time_limit", package="highspy"),
+                time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
         Backend("quadprog", "dual active set", lambda _: ({},), None, adapter="Quadprog",
-                cvxpy=False, stops=False),
+                cvxpy=False, returns=False),
         Backend("qpalm", "augmented Lagrangian", _once(_plain_osqp), _plain_osqp,
                 warm=BOTH, steps=False),
     )
 }  # fmt: skip
-ENDLESS = frozenset(b.name for b in BACKENDS.values() if not b.stops)
-"""Backends that nothing ends."""
+UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
+"""Backends from which not every step came back."""
 DEFAULT = "clarabel"
 """Of a single step, through CVXPY: it takes every cone and every extension."""
 DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT

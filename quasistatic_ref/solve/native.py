@@ -21,6 +21,7 @@ from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import Metric, reach_of_rows
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 
@@ -97,9 +98,9 @@ class NativeSolver(Solver):
         alike = step.layout is self.like.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
-    def scaled(self, step: StepData) -> NaturalStep:
+    def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
         """The step in natural units; what H gives of them is kept while H is the same array."""
-        return Scaled(step, self.metric)
+        return Scaled(step, self.metric, form)
 
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""

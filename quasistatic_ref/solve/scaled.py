@@ -13,7 +13,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.units import Metric, Units, metric, to_natural, units_of
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
 class NaturalStep(Protocol):
@@ -38,6 +38,8 @@ class Scaled:
         SI units.
     like : Metric, optional
         Of an earlier step: taken over if H is the same array.
+    form : StandardForm, optional
+        That of the step, where it is known.
 
     Raises
     ------
@@ -45,8 +47,10 @@ class Scaled:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, step: StepData, like: Metric | None = None) -> None:
-        self.step, self.form = step, standard_form(step)
+    def __init__(
+        self, step: StepData, like: Metric | None = None, form: StandardForm | None = None
+    ) -> None:
+        self.step, self.form = step, standard_form(step) if form is None else form
         try:
             kept = like if like is not None and like.H is self.form.H else None
             self.metric = metric(self.form.H) if kept is None else kept

@@ -32,6 +32,7 @@ from quasistatic_ref.step.solution import (
     StepSolution,
     step_solution,
 )
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
@@ -107,20 +108,46 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver)
+    return solved(step, solver, accuracy, certify)
+
+
+def solved(
+    step: StepData,
+    solver: Solver,
+    accuracy: float,
+    certify: str,
+    form: StandardForm | None = None,
+) -> StepSolution:
+    """The optimum of a step that fits a solver; arguments and errors are :func:`solve_step`'s.
+
+    Parameters
+    ----------
+    step, solver, accuracy, certify
+        As there.
+    form : StandardForm, optional
+        That of the step, where the caller has it; not kept.
+
+    Raises
+    ------
+    BackendError
+        If the solver cannot do what is asked of it.
+    """
     if certify == "full" and not solver.certifies:
         problem = "of sparse matrices gives residuals at most; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
     if certify != "full" and solver.name == NONE:
         raise BackendError("gives no answer of its own; use certify = 'full'", value=NONE)
-    solution = QUIET.copy().run(_solved, step, solver, accuracy, certify)
+    solution = QUIET.copy().run(_solved, step, solver, accuracy, certify, form)
     if solution is None:
         raise out_of_range(step)
     return solution
 
 
-def _solved(step: StepData, solver: Solver, accuracy: float, certify: str) -> StepSolution | None:
+def _solved(
+    step: StepData, solver: Solver, accuracy: float, certify: str, form: StandardForm | None
+) -> StepSolution | None:
     """The solution, or None if it is not finite."""
-    scaled = solver.scaled(step)
+    scaled = solver.scaled(step, form)
     if certify != "full" or not isinstance(scaled, Scaled):
         solution = _as_said(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:

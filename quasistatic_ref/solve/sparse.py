@@ -20,6 +20,7 @@ from quasistatic_ref.solve.solver import Attempt
 from quasistatic_ref.solve.units import coordinate_units, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -92,7 +93,7 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(self, step: StepData) -> "SparseStep":
+    def scaled(self, step: StepData, form: StandardForm | None = None) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 

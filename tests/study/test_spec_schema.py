@@ -6,12 +6,12 @@ import tomllib
 import pytest
 from jsonschema import Draft4Validator
 
+from docs.fields_page import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_names, study_tables
 from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.study.spec_table import TABLES, study_schema
-from quasistatic_ref.schema import reference_page
 
 
 def test_every_field_of_a_study_is_on_the_page_that_is_made_of_the_table():
@@ -117,3 +117,12 @@ def test_every_study_that_comes_along_is_valid(name, validator):
 def test_the_command_prints_the_schema_of_studies(capsys):
     assert main(["schema", "study"]) == 0
     assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(study_schema()))
+
+
+@pytest.mark.parametrize(("name", "path"), [
+    ("a word for a time", ["time_limit"]), ("a misspelt name", ["sweeps", 0]),
+    ("no repetition", ["runs", 0, "repetitions"]),
+])  # fmt: skip
+def test_the_schema_marks_what_is_wrong_and_not_the_whole_file(name, path, validator):
+    errors = validator.iter_errors(tomllib.loads(MISTAKES[name]))
+    assert [list(error.absolute_path) for error in errors] == [path]

@@ -214,20 +214,21 @@ def test_the_default_backend_is_daqp_where_certified_rows_are_solved_natively():
 
 
 WITHOUT_DAQP = """
-import importlib.util as util
-found = util.find_spec
-util.find_spec = lambda name, *more: None if name == "daqp" else found(name, *more)
+import sys
+sys.modules["daqp"] = None
 from quasistatic_ref import load_scenario
+from quasistatic_ref.cli.main import main
 run = load_scenario("sphere_spin", steps=2).run(progress=False)
-print(run.header["backend"], *run["certificate"])
+print(run.header["backend"], *run["certificate"], main(["bench", "--out", sys.argv[1]]))
 """
 
 
-def test_without_daqp_clarabel_takes_its_place():
-    told = subprocess.run(
-        [sys.executable, "-c", WITHOUT_DAQP], capture_output=True, text=True, check=True
-    )
-    assert told.stdout == "clarabel exact exact\n"
+def test_without_daqp_clarabel_takes_its_place_but_in_bench_which_asks_for_it(tmp_path):
+    command = [sys.executable, "-c", WITHOUT_DAQP, str(tmp_path)]
+    told = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert told.stdout == "clarabel exact exact 2\n"
+    assert "pip install daqp" in told.stderr
+    assert "Traceback" not in told.stderr
 
 
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():

@@ -6,10 +6,10 @@ import tomllib
 import pytest
 from jsonschema import Draft4Validator
 
+from docs.fields_page import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.resources import scenario_names, scenario_path
-from quasistatic_ref.schema import reference_page
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.scenario_table import SOLIDS, TABLES, scenario_schema
 from tests.errors.scene import SCENE, changed, scene_written, toml_text

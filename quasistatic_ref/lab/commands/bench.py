@@ -15,7 +15,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--quick", action="store_true", help="a little of everything, to see that it runs"
     )
     shared.add(parser, "--out", default="validation/benchmarks")
-    shared.add(parser, "--json", "--quiet")
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

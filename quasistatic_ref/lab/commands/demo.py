@@ -14,7 +14,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     shared.add(parser, "--out", default="demo")
-    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
+    shared.add(parser, *shared.SOLVER, "--set", "--json")
 
 
 def run(options: argparse.Namespace) -> int:

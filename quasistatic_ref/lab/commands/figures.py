@@ -22,7 +22,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="paper (default), slides, poster, one of matplotlib's, or a file such as my.mplstyle",
     )
     shared.add(parser, "--out", default="figures")
-    shared.add(parser, "--quiet")
 
 
 def _examples() -> Sequence[str]:

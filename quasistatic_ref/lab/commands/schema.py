@@ -1,7 +1,5 @@
 """``schema``: the JSON Schema of scenario or study files, for editors."""
 
-from __future__ import annotations
-
 import argparse
 import json
 

@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
     shared.completed(names, lambda: BY_NAME)
     shared.add(parser, "--out", default="validation")
-    shared.add(parser, "--json", "--quiet")
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -35,8 +35,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             _add_choices(action)
         else:
             shared.add(action, "--out", default="answers" if name == "own" else "vectors")
-        if name in ("generate", "own", "harvest"):
-            shared.add(action, "--quiet")
         if name in ("check", "own"):
             action.add_argument(
                 "--layer",
@@ -49,7 +47,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def _add_choices(action: argparse.ArgumentParser) -> None:
     """Which cases are checked, how strictly, and what is printed."""
-    action.add_argument("--quiet", action="store_true", help="print nothing if nothing failed")
     words = "only cases whose ids begin so, e.g. rows/cone"
     action.add_argument("--only", metavar="PREFIX", default="", help=words)
     action.add_argument("--case", metavar="ID", help="one case alone, number beside number")

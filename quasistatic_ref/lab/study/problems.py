@@ -174,7 +174,7 @@ def problems_read(folder: str | Path) -> list[Problem]:
     """
     folder = Path(folder)
     head, lines = _head(folder), lines_read(folder / FACTS, FACT)
-    arrays = npz_arrays(folder / NUMBERS)
+    arrays = npz_arrays(folder / NUMBERS, "the numbers of a test set")
     sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in NAMES}
     if (
         head.get("format") != FORMAT

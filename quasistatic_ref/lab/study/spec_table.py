@@ -3,9 +3,8 @@
 What goes beyond one field, such as that a solver is installed, the loader checks by hand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.declared import Field, Tables
@@ -19,7 +18,7 @@ MOST_PROBLEMS = 100_000
 LONGEST_LIMIT = 1e6
 """Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
 MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
-SOLVERS, SWEEPS = "a study of solvers", "a study of sweeps"
+STUDY, SOLVERS, SWEEPS = "a study", "a study of solvers", "a study of sweeps"
 PROBLEMS, COUNTS, SETTING, SOLVER = (
     "[problems]",
     "[problems.families]",
@@ -128,10 +127,30 @@ TABLES = Tables({
 })  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""
 
-RULES: Mapping[str, Mapping[str, Any]] = {SOLVER: {"oneOf": [{"required": [r]} for r in ROADS]}}
-"""What a kind of table asks for beyond its fields, in JSON Schema."""
-
 
 def study_schema() -> dict[str, Any]:
-    """The JSON Schema of a study file, of either kind."""
-    return json_schema("A study", TABLES, RULES, SOLVERS, SWEEPS)
+    """The JSON Schema of a study file, of either kind.
+
+    One table has the fields of both kinds: an editor then marks the field that is wrong, and not
+    the whole file.
+    """
+    inner = {kind: fields for kind, fields in TABLES.items() if kind not in (SOLVERS, SWEEPS)}
+    solvers, sweeps = TABLES[SOLVERS], TABLES[SWEEPS]
+    kind = replace(solvers["kind"], choices=(*_kinds(SOLVERS), *_kinds(SWEEPS)))
+    both = {**solvers, "sweeps": replace(sweeps["sweeps"], default=None), "kind": kind}
+    rules = {
+        STUDY: {"oneOf": [_only(SOLVERS, sweeps), {"required": ["kind", "sweeps"],
+                                                   **_only(SWEEPS, solvers)}]},
+        SOLVER: {"oneOf": [{"required": [road]} for road in ROADS]},
+    }  # fmt: skip
+    return json_schema("A study", Tables({STUDY: both, **inner}), rules, STUDY)
+
+
+def _kinds(top: str) -> tuple[str, ...]:
+    return TABLES[top]["kind"].choices or ()
+
+
+def _only(top: str, other: Mapping[str, Field]) -> dict[str, Any]:
+    """The rule of a file of one kind, which has no field that only the other kind has."""
+    strangers = [{"required": [name]} for name in other if name not in TABLES[top]]
+    return {"properties": {"kind": {"enum": list(_kinds(top))}}, "not": {"anyOf": strangers}}

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-import daqp
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
@@ -197,7 +196,9 @@ def bare_daqp(program: Program) -> Callable[[], Any]:
     ----------
     program : Program
     """
+    from daqp import solve  # here, where the grasp's scenario has been loaded, which asks for it
+
     m = len(program.b)
     unbounded, sense = np.full(m, np.inf), np.zeros(m, dtype=np.int32)
     given = (program.H, program.f, program.A, unbounded, program.b, sense)
-    return partial(daqp.solve, *given, primal_tol=ACCURACY, dual_tol=ACCURACY)
+    return partial(solve, *given, primal_tol=ACCURACY, dual_tol=ACCURACY)

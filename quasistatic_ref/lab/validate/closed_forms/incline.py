@@ -14,7 +14,7 @@ from quasistatic_ref.lab.scenes.systems import (
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
 from quasistatic_ref.lab.validate.measures import grid
-from quasistatic_ref.simulate.simulator import StepResult
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
