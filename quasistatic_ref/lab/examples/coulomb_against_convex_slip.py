@@ -3,7 +3,7 @@
 Coulomb's friction opposes the slip with mu_v m g, so that a point from rest slips along its push by
 h^2 (F - mu_v m g) / m. The first step of the convex model also rises, which makes it shorter by
 1 + mu_v^2, (R8); step after step the rise ends, and the slip becomes Coulomb's, along an axis of
-the pyramid. Between the axes the pyramid turns it: towards d1, d2 or the diagonal.
+the pyramid. Between the axes the pyramid turns it towards the diagonal.
 """
 
 from typing import Any
