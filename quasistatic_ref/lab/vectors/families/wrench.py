@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -77,17 +78,8 @@ def wrench_input(at: Contacts, cone: str, h: float, lam: Array, points: Json, bo
     return {"h": h, "cone": cone, "contacts": entries, "bodies": bodies}
 
 
-def random_loads(rng: np.random.Generator, n_c: int, cone: str, **fixed: float) -> Json:
-    """The input with multipliers at random, on contacts between three bodies and the world.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-    n_c : int
-    cone : str
-    **fixed : float
-        Fields of the contacts that are not random.
-    """
+def random_loads(rng: np.random.Generator, n_c: int, cone: str, **fixed: Any) -> Json:
+    """The input with multipliers at random, on contacts between three bodies and the world."""
     at = random_contacts(rng, n_c, 1, **fixed)
     names = [None, "a", "b", "c"]
     points = []
