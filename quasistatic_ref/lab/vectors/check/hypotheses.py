@@ -167,7 +167,7 @@ HYPOTHESES: Final = (
     Hypothesis(
         "un-actuated coordinates first",
         "delta_q holds the actuated joints first, then the others",
-        {"jacobian": wrong_frames.unactuated_first},
+        {"jacobian": wrong_frames.unactuated_first, "step": wrong_frames.unactuated_step},
     ),
     Hypothesis(
         "a straight line in the place of the screw",

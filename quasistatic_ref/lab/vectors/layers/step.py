@@ -6,6 +6,7 @@ Contacts of a pair stand in the order of their index. Gravity acts on the un-act
 that of the others is compensated.
 """
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final
 
@@ -38,8 +39,8 @@ ROUNDINGS: Final = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 
-def expected(case_input: Json) -> Expected:
-    """All that one step comes to, and q after it."""
+def expected(case_input: Json, terms: Callable[[Mechanism, Json], float] | None = None) -> Expected:
+    """All that one step comes to, and q after it; `terms` is how large what makes g is [N s]."""
     tree, q = mechanism(case_input["mechanism"]), case_input["q"]
     contacts, friction, found = contacts_of(tree, case_input)
     place = {"mechanism": case_input["mechanism"], "q": q}
@@ -49,6 +50,7 @@ def expected(case_input: Json) -> Expected:
     both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
     rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
     H, g, g_size = objective(tree, case_input)
+    g_size = max(g_size, terms(tree, case_input)) if terms else g_size
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, g_size)
     solved = _solved(program, errors)
