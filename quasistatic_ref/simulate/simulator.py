@@ -123,7 +123,7 @@ class Simulator:
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = may_be_sparse(self.engine, self.backend, certify)
+        blocks = may_be_sparse(self.engine, self.backend, certify, cone)
         blocks = blocks and extension is None and system.rigid
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
         fast = compiled("step")

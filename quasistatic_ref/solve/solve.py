@@ -209,7 +209,10 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The optimum in the ellipsoid with a proved bound; where there is none, a judged answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
-    found = enclosure(step)
+    start = None
+    if answer is not None:
+        start = from_natural(answer.delta_q, answer.lam, scaled.units)
+    found = enclosure(step, start)
     if found is None:
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
