@@ -40,7 +40,7 @@ def followed(
     N : ndarray, shape (steps,)
         [N].
     """
-    t = h * np.arange(1.0, 1.0 + round(TIME / h))
+    t = np.linspace(h, TIME, round(TIME / h))
     target = v * np.minimum(t, MOVES)
     q, N = [np.array([0.0, GAP])], []
     for q_bar in target:
