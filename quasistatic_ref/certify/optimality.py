@@ -82,7 +82,13 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
 
 
 def residuals_of_rows(balance: Array, slack: Array, lam: Array) -> Residuals:
-    """The same of the left-hand side of (9), shape (n_v,), slacks and multipliers, shape (m,)."""
+    """The same, where the left-hand side of (9) and the slacks are known.
+
+    Parameters
+    ----------
+    balance : ndarray, shape (n_v,)
+    slack, lam : ndarray, shape (m,)
+    """
     short = -slack  # Eq. (10): slack >= 0
     pull = -lam  # Eq. (11): lam >= 0
     work = slack * lam  # Eq. (12): zero, row by row
