@@ -35,10 +35,10 @@ SAMPLE = (
     "row_gaps(step.contacts, step.cone)[step.mask]",
     f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
-    f"{JUDGE} residuals_of_rows: -slack -> slack",
+    f"{JUDGE} optimality_residuals: -slack -> slack",
     f"{JUDGE} ellipsoid_residuals: mu * s[:, 1:] -> mu / s[:, 1:]",
     f"{JUDGE} ellipsoid_residuals: -lam[k:] -> lam[k:]",
-    f"{JUDGE} residuals_of_rows: -lam -> lam",
+    f"{JUDGE} optimality_residuals: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
     f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
