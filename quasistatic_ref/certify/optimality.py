@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.standard_form import standard_form
 
 
 @dataclass(frozen=True)
@@ -72,20 +72,17 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     -------
     Residuals
     """
-    return residuals_in(standard_form(step), delta_q, lam)
+    h, n_a = step.h, step.n_a
+    A, b = (form := standard_form(step)).A, form.b
+    delta_q_a, delta_q_u = delta_q[:n_a], delta_q[n_a:]
+    actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
+    unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
+    balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
+    return residuals_of_rows(balance, A @ delta_q - b, lam)
 
 
-def residuals_in(form: StandardForm, delta_q: Array, lam: Array) -> Residuals:
-    """The same of a step whose standard form is known.
-
-    Parameters
-    ----------
-    form : StandardForm
-    delta_q : ndarray, shape (n_v,)
-    lam : ndarray, shape (m,)
-    """
-    balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), mended
-    slack = form.A @ delta_q - form.b
+def residuals_of_rows(balance: Array, slack: Array, lam: Array) -> Residuals:
+    """The same of the left-hand side of (9), shape (n_v,), slacks and multipliers, shape (m,)."""
     short = -slack  # Eq. (10): slack >= 0
     pull = -lam  # Eq. (11): lam >= 0
     work = slack * lam  # Eq. (12): zero, row by row

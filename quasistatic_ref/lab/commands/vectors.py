@@ -77,7 +77,7 @@ def _add_challenge(action: argparse.ArgumentParser) -> None:
     say("--serve", nargs="?", const="exact", choices=("exact", "own"), help=words)
     _add_digits(action)
     shared.add(action, "--out", default=Path("counterexamples"))
-    shared.add(action, "--json", "--quiet")
+    shared.add(action, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

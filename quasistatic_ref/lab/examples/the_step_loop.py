@@ -40,8 +40,8 @@ def followed(
     N : ndarray, shape (steps,)
         [N].
     """
-    t: Array = h * (1 + np.arange(round(TIME / h)))
-    target: Array = v * np.minimum(t, MOVES)
+    t = np.linspace(h, TIME, round(TIME / h))
+    target = v * np.minimum(t, MOVES)
     q, N = [np.array([0.0, GAP])], []
     for q_bar in target:
         finger, block = q[-1]
