@@ -1,7 +1,5 @@
 """The exact optimum on a guessed working set, proved in compiled fixed point."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.certify.confirm import implied_zeros
