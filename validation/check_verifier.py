@@ -37,6 +37,7 @@ from validation.browser import Browser
 from validation.forged_scenes import scenes
 from validation.forgeries import at_random, forgeries, good_file, refutation
 from validation.random_steps import mixed_step
+from validation.single_faults import single_faults
 
 HERE = Path(__file__).parent
 VERIFIER = HERE / "verifier" / "verify.js"
@@ -52,13 +53,14 @@ CASES: dict[str, list[str]] = {"torsion": [], "no torsion": ["contacts.grip.mu_o
 
 
 class Case(NamedTuple):
-    """Two texts, the verdict of `verify`, and which fields were forged, if any."""
+    """Two texts, the verdict of `verify`, which fields were forged, and the only right reason."""
 
     family: str
     step: str
     solution: str
     refusal: str | None
     forged: frozenset[str] = frozenset()
+    reason: str = ""
 
 
 def verify_refusal(step: Path, solution: Path) -> str | None:
@@ -219,20 +221,22 @@ def all_cases(folder: Path, whole: bool) -> Iterator[Case]:
         run = load_scenario("bunny_grasp", settings).run(progress=False)
         for k in range(0, len(run), 1 if whole else 30):
             yield from cases.solved(f"bunny_grasp, {name}", run.step_data(k))
-    for family, step in random_steps(1000 if whole else 60):
+    for family, step in random_steps(2000 if whole else 60):
         yield from cases.solved(family, step)
+    for step_file, record, reason in single_faults():
+        yield cases.case("one fault alone", step_file, record)._replace(reason=reason)
     yield from written_otherwise(cases)
     yield from cases.forged(1 if whole else 7, 500 if whole else 40)
 
 
-def verdicts(cases: list[Case]) -> list[dict[str, Any]]:
+def verdicts(cases: list[Case], verifier: Path = VERIFIER) -> list[dict[str, Any]]:
     """What ``verify.js`` says of each case; many in one process."""
     node = shutil.which("node") or sys.exit("no Node on this machine: install Debian's nodejs")
     found = []
     for k in range(0, len(cases), BATCH):
         given = json.dumps([[case.step, case.solution] for case in cases[k : k + BATCH]])
         done = subprocess.run(
-            [node, "-e", NODE, str(VERIFIER)],
+            [node, "-e", NODE, str(verifier)],
             input=given,
             stdout=subprocess.PIPE,
             text=True,
@@ -243,7 +247,9 @@ def verdicts(cases: list[Case]) -> list[dict[str, Any]]:
 
 
 def disagreement(case: Case, said: dict[str, Any]) -> bool:
-    """Whether the two checkers contradict each other."""
+    """Whether the two checkers contradict each other, or the second is right for a wrong reason."""
+    if not said["reason"].startswith(case.reason):
+        return True
     if case.refusal is None:
         return bool(said["verdict"] == "refused")
     open_fields = set(said["notChecked"]) & case.forged

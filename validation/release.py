@@ -63,6 +63,11 @@ class Result:
 
 RESULTS = (
     Result(
+        "compilers",
+        ("validation.compilers", "--out", "validation/results/compilers.md"),
+        ("validation/results/compilers.md",),
+    ),
+    Result(
         "memory_of_steps",
         ("validation.memory_of_steps",),
         ("validation/results/memory_of_steps.md",),
@@ -136,6 +141,11 @@ RESULTS = (
         ("validation/results/verifier.md",),
     ),
     Result(
+        "verifier_faults",
+        ("validation.verifier_faults", "--out", "validation/results/verifier_faults.md"),
+        ("validation/results/verifier_faults.md",),
+    ),
+    Result(
         "confirmed_bits",
         ("validation.confirmed_bits", "--out", "validation/results/confirmed_bits.txt"),
         ("validation/results/confirmed_bits.txt",),
@@ -158,8 +168,8 @@ RESULTS = (
     ),
     Result(
         "hostile_steps",
-        ("validation.fuzz", "--readers", "validation.hostile_steps", "--out", "{temporary}",
-         "--table", "validation/results/hostile_steps.md"),
+        ("validation.fuzz", "--readers", "validation.hostile_steps", "--inputs", "105000",
+         "--out", "{temporary}", "--table", "validation/results/hostile_steps.md"),
         ("validation/results/hostile_steps.md",),
     ),
     Result(

@@ -3,8 +3,6 @@
 Nothing here knows which solver gave the answer, or by which interface it was asked.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -80,7 +78,11 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
     unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
     balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
-    slack = A @ delta_q - b
+    return residuals_of_rows(balance, A @ delta_q - b, lam)
+
+
+def residuals_of_rows(balance: Array, slack: Array, lam: Array) -> Residuals:
+    """The same of the left-hand side of (9), shape (n_v,), slacks and multipliers, shape (m,)."""
     short = -slack  # Eq. (10): slack >= 0
     pull = -lam  # Eq. (11): lam >= 0
     work = slack * lam  # Eq. (12): zero, row by row

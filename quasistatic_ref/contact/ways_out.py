@@ -5,8 +5,6 @@ of them, up to the size of the solids away from the best. So the search starts f
 directions: a spread over the sphere, and those in which maxima are sharp.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed

@@ -1,7 +1,5 @@
 """Convex polytopes: the hull of a mesh's vertices, and how far the mesh is from being it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from validation.check_verifier import VERIFIER, Case, disagreement
+from validation.verifier_faults import CHANGES, faults
 
 MOST_LINES = 400
 """Of the second checker, which a reader is to read whole."""
@@ -26,8 +27,10 @@ MOST_LINES = 400
 def test_what_one_proves_and_the_other_refuses_is_a_disagreement(
     refusal, forged, verdict, open_fields, disagree
 ):
-    case = Case("any", "", "", refusal, frozenset(forged))
-    assert disagreement(case, {"verdict": verdict, "notChecked": open_fields}) == disagree
+    case = Case("any", "", "", refusal, frozenset(forged), reason="lam is")
+    said = {"verdict": verdict, "reason": "lam is wrong", "notChecked": open_fields}
+    assert disagreement(case, said) == disagree
+    assert disagreement(case, said | {"reason": "gap is wrong"})
 
 
 def test_the_second_checker_is_short_and_needs_nothing():
@@ -36,3 +39,11 @@ def test_the_second_checker_is_short_and_needs_nothing():
     asked = [line for line in text.splitlines() if "require(" in line or "import" in line]
     assert len(asked) == 1  # the command line, which reads two files
     assert 'require("fs")' in asked[0]
+
+
+def test_faults_are_planted_for_every_refusal_and_every_change():
+    text = VERIFIER.read_text()
+    planted = [changed for _, changed in faults(text)]
+    assert text not in planted
+    assert len(set(planted)) == len(planted)
+    assert len(planted) == text.count("need(") + text.count("json(") + len(CHANGES)

@@ -175,6 +175,13 @@ def test_where_the_normal_is_not_unique_the_first_one_wins(name, point, phi, n):
     np.testing.assert_allclose(found_n, [n], rtol=EXACT, atol=SIGNED_DISTANCE)
 
 
+def test_half_way_between_a_disc_s_caps_the_upper_one_is_the_nearest():
+    disc = Cylinder(0.25, 0.125)
+    phi, n = signed_distance(disc, np.array([[0.0, 0.0, 0.0], [0.0625, 0.0, -0.0]]))
+    np.testing.assert_allclose(phi, [-0.125, -0.125], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(n, [[0, 0, 1], [0, 0, 1]], rtol=EXACT, atol=EXACT)
+
+
 def test_a_tie_of_faces_goes_to_the_first_of_them():
     box = Box(np.array([0.25, 0.5, 0.75]))  # exact in binary, so that the ties are exact
     phi, n = signed_distance(box, np.array([[0.125, 0.375, 0.0], [0.0, -0.25, -0.5]]))

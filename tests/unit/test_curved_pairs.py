@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact import by_coal
 from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.curved_pair import curved_witness
 from quasistatic_ref.contact.faces import Face, curvature, face, kinks
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.settle import settled
@@ -133,6 +134,17 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
     assert wide
 
 
+@pytest.mark.parametrize("end", [1.0, -1.0])
+def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
+    way = np.array([0.0, 0.0, end])
+    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), way)
+    assert cap.radius == 0.1
+    np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+    base = face(Placed(Cone(0.1, 0.25), *HERE), way)
+    assert base.radius == (0.1 if end < 0 else 0.0)
+    np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+
+
 def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> None:
     corners = np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
     square = Face(corners, 0.0, np.array([0.0, 0.0, 1.0]))
@@ -178,3 +190,26 @@ def test_a_cone_upside_down_next_to_a_cylinder_just_touches_it() -> None:
     found = solid_pair("p", Placed(Cylinder(0.05, 0.08), *HERE), cone)
     np.testing.assert_allclose(found.phi, 0.1 - 0.05 - 0.05, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
+
+
+ABOVE = {
+    "the cap": (0.03, 0.01, 0.2),
+    "the rim": (0.2, 0.05, 0.2),
+    "the side": (0.3, 0.05, 0.02),
+}
+
+
+@pytest.mark.parametrize("place", ABOVE.values(), ids=ABOVE)
+@pytest.mark.parametrize("other", ["ellipsoid", "cone"])
+def test_what_is_below_a_cylinder_is_as_near_as_what_is_above_it(other, place) -> None:
+    # Of an upright cylinder and a solid turned about x, mirrored in z: the other way round, and a
+    # cone upside down.
+    cylinder = Placed(Cylinder(0.1, 0.05), *HERE)
+    turned = Rotation.from_rotvec([0.4, 0, 0]).as_matrix()
+    mirror = np.array([1, 1, -1])
+    flipped = turned.T @ (np.eye(3) if other == "ellipsoid" else np.diag([1, -1, -1]))
+    above = curved_witness(cylinder, Placed(SOLIDS[other], turned, np.array(place)))
+    below = curved_witness(cylinder, Placed(SOLIDS[other], flipped, mirror * place))
+    np.testing.assert_allclose(below.phi, above.phi, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(below.n, mirror * above.n, rtol=EXACT, atol=DIFFERENCE)
+    np.testing.assert_allclose(below.alpha, mirror * above.alpha, rtol=EXACT, atol=DIFFERENCE)

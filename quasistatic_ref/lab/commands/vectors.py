@@ -1,7 +1,5 @@
 """``vectors check|challenge|generate|own|export|harvest``: for other implementations."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable
@@ -42,15 +40,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             _add_digits(action)
         else:
             shared.add(action, "--out", default="answers" if name == "own" else "vectors")
-        if name in ("generate", "own", "harvest"):
-            shared.add(action, "--quiet")
         if name in ("check", "own"):
             _add_layers(action)
 
 
 def _add_choices(action: argparse.ArgumentParser) -> None:
     """Which cases are checked, how strictly, and what is printed."""
-    action.add_argument("--quiet", action="store_true", help="print nothing if nothing failed")
     words = "only cases whose ids begin so, e.g. rows/cone"
     action.add_argument("--only", metavar="PREFIX", default="", help=words)
     action.add_argument("--case", metavar="ID", help="one case alone, number by number")
@@ -82,7 +77,7 @@ def _add_challenge(action: argparse.ArgumentParser) -> None:
     say("--serve", nargs="?", const="exact", choices=("exact", "own"), help=words)
     _add_digits(action)
     shared.add(action, "--out", default=Path("counterexamples"))
-    shared.add(action, "--json", "--quiet")
+    shared.add(action, "--json")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,7 +1,5 @@
 """The folder of vectors from its inputs: every output anew, identical bytes on any machine."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """The one protocol of adapters: what each is given, and what it gives back."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, Protocol
@@ -24,12 +22,15 @@ class Program:
     A : ndarray, shape (m, n_v)
         In the memory order that the adapter asks for.
     b : ndarray, shape (m,)
+    cones : int
+        How many cones s_0 >= ||(s_1, s_2, s_3)|| the first rows of s = A x - b make, four each.
     """
 
     H: Array
     f: Array
     A: Array
     b: Array
+    cones: int = 0
 
     @cached_property
     def upper(self) -> tuple[Indices, Indices]:

@@ -1,7 +1,5 @@
 """What the number of points costs: the bunny's surface sampled anew, and grasped as before."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from dataclasses import replace

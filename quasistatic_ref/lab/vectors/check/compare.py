@@ -1,7 +1,5 @@
 """Two outputs of one layer side by side: their shape, and number by number."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """``vectors check``: a folder of answers against the reference vectors, layer by layer."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

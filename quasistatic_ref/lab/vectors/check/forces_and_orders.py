@@ -1,7 +1,5 @@
 """The table of mistakes about the order of numbers, and about the forces of a step."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from quasistatic_ref.lab.vectors.check import wrong_contacts, wrong_orders, wrong_steps

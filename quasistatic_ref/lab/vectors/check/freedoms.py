@@ -4,8 +4,6 @@ Each function takes a case, what is expected, the answer and the fields in which
 beyond tolerance, and says why that is a documented freedom, or what is wrong.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Final
 

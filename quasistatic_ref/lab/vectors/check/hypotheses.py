@@ -1,7 +1,5 @@
 """The table of classic mistakes: a name, what is right, and what would be answered."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from quasistatic_ref.lab.vectors.check import wrong_contacts, wrong_frames, wrong_steps

@@ -1,7 +1,5 @@
 """One classic mistake: its name, what is right, and what would be answered."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What is asked of programs that are right to fewer digits than float64 holds."""
 
-from __future__ import annotations
-
 from quasistatic_ref.lab.vectors.check.compare import leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import NEGLIGIBLE
 from quasistatic_ref.lab.vectors.expected import Json

@@ -5,8 +5,6 @@ of them to within a multiple of their tolerance where the right answer is anothe
 than right answers that it would have made wrong.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

@@ -4,8 +4,6 @@ Where the rows that bear load depend on each other, lam is one of many. All of t
 the same A'lam, and vanish on rows with a slack.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Final
 

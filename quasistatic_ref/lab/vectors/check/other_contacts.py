@@ -6,8 +6,6 @@ in float64. Such contacts are checked by what they have to be; J, A, b and the a
 computed from them without rounding.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Final
 

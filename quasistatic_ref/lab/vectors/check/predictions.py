@@ -4,8 +4,6 @@ A prediction is a part of an output, or several where a mistake comes in variant
 only the field that fails first is compared, so that what follows from it need not be predicted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 

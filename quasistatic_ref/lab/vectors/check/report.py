@@ -1,7 +1,5 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from typing import Final
 
@@ -62,7 +60,7 @@ class LayerReport:
     mistakes: tuple[Named, ...] = ()
     must: bool = False
 
-    def required(self) -> LayerReport:
+    def required(self) -> "LayerReport":
         """The same of a layer that has to be answered."""
         return replace(self, must=True)
 

@@ -1,7 +1,5 @@
 """What is expected and what is given, side by side."""
 
-from __future__ import annotations
-
 from quasistatic_ref.lab.vectors.check.compare import leaves
 from quasistatic_ref.lab.vectors.expected import Json
 

@@ -1,7 +1,5 @@
 """What the checker says of one answer."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from typing import Final
 
@@ -88,7 +86,7 @@ class Verdict:
         """As it stands in a JSON report."""
         return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
-    def named(self, id: str) -> Verdict:
+    def named(self, id: str) -> "Verdict":
         """The same about a case of that id."""
         return replace(self, id=id)
 

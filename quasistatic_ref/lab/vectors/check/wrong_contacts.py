@@ -1,7 +1,5 @@
 """What mistakes about a contact answer: its normal, its bodies, its rows and its friction."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 

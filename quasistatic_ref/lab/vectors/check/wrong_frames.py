@@ -1,7 +1,5 @@
 """What mistakes about frames, orders and lengths answer: wrong tangents, wxyz, transposes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

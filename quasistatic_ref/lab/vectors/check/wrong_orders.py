@@ -1,7 +1,5 @@
 """What mistakes about the order of numbers answer: parts exchanged, transposes, other counts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What mistakes about a whole step answer: H and g of other forces, and other contacts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The optimum in second-order cones, enclosed in balls that are small enough for 30 digits."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import inf
 from typing import Final

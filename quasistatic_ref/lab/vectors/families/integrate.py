@@ -1,7 +1,5 @@
 """Inputs of the layer `integrate`: twists of every size, about every kind of joint."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

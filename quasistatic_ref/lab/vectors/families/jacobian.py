@@ -1,7 +1,5 @@
 """Inputs of the layer `jacobian`: every kind of joint, both sides, chains and far contacts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -3,8 +3,6 @@
 Numbers come from a seeded generator, rounded to few digits, so that the cases can be read.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Inputs of the layer `step`: small scenes with every kind of joint, and those without."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -3,8 +3,6 @@
 The centre of mass is not the origin of its body wherever a wrench or gravity acts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from quasistatic_ref.lab.vectors.expected import Json

@@ -1,7 +1,5 @@
 """What the scenes of the layer `step` are made of: shapes, masses, pairs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from quasistatic_ref.lab.vectors.expected import Json

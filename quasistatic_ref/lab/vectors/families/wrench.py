@@ -1,7 +1,5 @@
 """Inputs of the layer `wrench`: multipliers in every cone, on bodies that share contacts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

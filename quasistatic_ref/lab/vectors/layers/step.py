@@ -6,8 +6,6 @@ Contacts of a pair stand in the order of their index. Gravity acts on the un-act
 that of the others is compensated.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final

@@ -1,15 +1,13 @@
 """The figure of a sweep: rotation and boundary layer against a parameter."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study_pens import pens
 from quasistatic_ref.figures.style import PAGE
+from quasistatic_ref.lab.figures.study_pens import pens
 
 PANELS = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
 

@@ -1,7 +1,5 @@
 """Figure 4 of the paper: where the time of a step goes, by engine and backend."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The pictures of a report, drawn: as PNG beside a page and as SVG inside one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from io import BytesIO
 from typing import Any, Final
@@ -9,9 +7,9 @@ from typing import Any, Final
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study import digits_time, families, profiles, success
-from quasistatic_ref.figures.study_sweep import sweep
 from quasistatic_ref.figures.style import figure_style
+from quasistatic_ref.lab.figures.study import digits_time, families, profiles, success
+from quasistatic_ref.lab.figures.study_sweep import sweep
 
 KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
     draw.__name__: draw for draw in (profiles, success, digits_time, families, sweep)

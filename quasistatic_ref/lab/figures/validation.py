@@ -1,25 +1,19 @@
 """The figures of claims, each drawn from what was measured for it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
 import numpy as np
-from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study_pens import MARKS
-from quasistatic_ref.figures.style import scaled, sized, styled
+from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
+from quasistatic_ref.lab.figures.study_pens import MARKS
 
 Picture = Mapping[str, Any]
 THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}
 """Lines of closed forms."""
 GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
-
-
-def _caption(h: float) -> str:
-    return f"h = {1e3 * h:g} ms, friction pyramid"
 
 
 def _open(mark: str) -> dict[str, Any]:
@@ -28,21 +22,19 @@ def _open(mark: str) -> dict[str, Any]:
     return {"marker": mark, "markersize": size, "fillstyle": "none"}
 
 
-def grasp(picture: Picture) -> Figure:
+def grasp(picture: Picture, within: Any = None) -> Figure:
     """Rotation of the bunny during the lift."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     for case, angle in picture["angles"].items():
         axes.plot(picture["times"], angle, label=case)
-    axes.set(xlabel="time t [s]", ylabel="rotation since the grip closed [deg]")
-    axes.set_title(_caption(picture["h"]), loc="right")
-    axes.legend()
+    labelled(axes, "time t [s]", "rotation since the grip closed [deg]", caption(picture["h"]))
     return figure
 
 
-def contact_geometry(picture: Picture) -> Figure:
+def contact_geometry(picture: Picture, within: Any = None) -> Figure:
     """Two bodies, their closest points, phi and the frame; in the plane of d1 or d2 and n."""
     data = picture["outline"]
-    figure, axes = plt.subplots(figsize=sized(4.6, 3.2))
+    figure, (axes,) = panels(4.6, 3.2, within=within)
     for body in ("capsule", "box"):
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
     alpha, beta = 1e3 * data["alpha"][[0, 2]], 1e3 * data["beta"][[0, 2]]
@@ -58,16 +50,15 @@ def contact_geometry(picture: Picture) -> Figure:
         axes.annotate("", beta + arrow, xytext=beta, arrowprops={"arrowstyle": "->"})
         axes.annotate(f"${name[0]}{'_' + name[1] if name[1:] else ''}$", beta + 1.15 * arrow)
     axes.set_aspect("equal")
-    axes.set(xlabel="x [mm]", ylabel="z [mm]")
     gap = 1e3 * data["phi"][0]
     title = rf"a capsule and a box, $\phi$ = {gap:.1f} mm; $d_1$ is normal to the page"
-    axes.set_title(title, loc="right")
+    labelled(axes, "x [mm]", "z [mm]", title)
     return figure
 
 
-def boundary_layer(picture: Picture) -> Figure:
+def boundary_layer(picture: Picture, within: Any = None) -> Figure:
     """Spin and lift-off against torque; size of the layer against the time step."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=sized(6.3, 2.8), layout="constrained")
+    figure, (left, right) = panels(6.3, 2.8, columns=2, within=within)
     left.plot(1e3 * picture["torque"], 1e3 * picture["lift"])
     left.axvline(1e3 * picture["limit"], color="black", linestyle=":", linewidth=1)
     left.annotate(
@@ -75,7 +66,7 @@ def boundary_layer(picture: Picture) -> Figure:
         xytext=(-4, 0), textcoords="offset points", ha="right",
     )  # fmt: skip
     left.set(xlabel="applied torque [mN m]", ylabel="lift-off [mm]")
-    left.set_title(_caption(picture["h"]), loc="right")
+    left.set_title(caption(picture["h"]), loc="right")
     sizes = 1e3 * picture["sizes"]
     right.loglog(sizes, 1e6 * picture["at_rate"], marker="o", label="fixed rate: slope 1")
     right.loglog(sizes, 1e6 * picture["at_torque"], marker="s", label="fixed torque: slope 2")
@@ -85,9 +76,9 @@ def boundary_layer(picture: Picture) -> Figure:
     return figure
 
 
-def step_time(picture: Picture) -> Figure:
-    """Parts of a step by backend and by distances, stacked from the solve on."""
-    figure, axes = plt.subplots(figsize=sized(6.3, 3.9), layout="constrained")
+def step_time(picture: Picture, within: Any = None) -> Figure:
+    """Parts of a step by backend, each with the tracker and with all distances, stacked."""
+    figure, (axes,) = panels(6.3, 3.9, within=within)
     profiles = picture["profiles"].all
     # Two bars of a backend touch, backends stand apart.
     at = -np.array([k + 0.5 * (k // 2) for k in range(len(profiles))])
@@ -99,17 +90,22 @@ def step_time(picture: Picture) -> Figure:
         axes.barh(at, width, 0.9, left=left, label=part, color=grey, edgecolor="black",
                   linewidth=scaled(0.5))  # fmt: skip
         left += width
-    for y, p, total in zip(at, profiles, whole, strict=True):
-        text = f"solve {100 * p.solve:.0f} % of {_duration(total)}"
-        axes.annotate(text, (102, y), va="center", fontsize="small")
     axes.axvline(50, color="black", linestyle=":", linewidth=scaled(1.2))
-    axes.set_yticks(at, [p.name for p in profiles])
+    for y, p, total in zip(at, profiles, whole, strict=True):
+        text = f"{100 * p.solve:.0f} % of {_duration(total)}"
+        axes.annotate(text, (102, y), va="center", annotation_clip=False)
+    names = [p.name.split(",")[0].replace(" ", "\n") for p in profiles[::2]]
+    axes.set_yticks((at[::2] + at[1::2]) / 2, names)
     axes.grid(False)
-    axes.set(xlabel="share of the time of a step, medians [%]", xlim=(0, 140))
-    axes.set_xticks(range(0, 101, 25))
-    counts = f"{picture['all']} distances by brute force, {picture['tracked']:.0f} by the tracker"
-    axes.set_title(f"{_caption(picture['h'])}; {counts}", loc="right")
-    figure.legend(loc="outside upper center", ncols=len(GREYS))
+    axes.set(xlim=(0, 100), xticks=range(0, 101, 25))
+    bars = (
+        f"upper bars: {picture['tracked']:.0f} distances by the tracker, lower bars: all "
+        f"{picture['all']}; right: share of the solve"
+    )
+    labelled(
+        axes, "share of the time of a step, medians [%]", title=caption(picture["h"]), key=False
+    )
+    legend_below([axes], axes.get_legend_handles_labels()[0], bars)
     return figure
 
 
@@ -118,9 +114,9 @@ def _duration(microseconds: float) -> str:
     return f"{microseconds / 1000:.1f} ms" if ms else rf"{microseconds:.0f} $\mu$s"
 
 
-def sliding_threshold(picture: Picture) -> Figure:
+def sliding_threshold(picture: Picture, within: Any = None) -> Figure:
     """Least force that moves a point, by direction: the pyramid beside Coulomb's circle."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     degrees = np.degrees(picture["angles"])
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
@@ -129,14 +125,14 @@ def sliding_threshold(picture: Picture) -> Figure:
         axes.plot(degrees, found, linestyle="", **_open(mark), label=rf"$\mu_v$ = {mu:g}")
     axes.set_xlabel("direction of the force from $d_1$ [deg]")
     axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
-    axes.set_title(_caption(picture["h"]), loc="right")
+    axes.set_title(caption(picture["h"]), loc="right")
     axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.62))
     return figure
 
 
-def pushed_block(picture: Picture) -> Figure:
+def pushed_block(picture: Picture, within: Any = None) -> Figure:
     """Force of the finger over friction, against the quasi-dynamic number."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     friction = picture["mu"] * picture["m"] * 9.81
     pi = picture["v"] / (picture["mu"] * 9.81 * picture["h"])
     line = np.geomspace(0.8 * pi.min(), 1.2 * pi.max(), 100)
@@ -153,25 +149,24 @@ def pushed_block(picture: Picture) -> Figure:
     return figure
 
 
-def planar_push(picture: Picture) -> Figure:
+def planar_push(picture: Picture, within: Any = None) -> Figure:
     """Turn of a pushed slider over that of the quasi-static law, against its speed."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     rho = picture["rho"]
     line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
         axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), **THIN)
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
         axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
-    axes.set(xscale="log", ylabel="turn / Lynch's turn [-]")
-    axes.set_xlabel(r"quasi-dynamic number $\Pi$ [-]")
-    axes.set_title(f"h = {1e3 * picture['h']:g} ms, friction ellipsoid; lines: (R28)", loc="right")
-    axes.legend()
+    axes.set_xscale("log")
+    title = f"{caption(picture['h'], 'ellipsoid')}; lines: (R28)"
+    labelled(axes, r"quasi-dynamic number $\Pi$ [-]", "turn / Lynch's turn [-]", title)
     return figure
 
 
-def patch_torsion(picture: Picture) -> Figure:
+def patch_torsion(picture: Picture, within: Any = None) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
         axes.plot(picture["rings"], found, marker=mark, label=name)
         axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
@@ -183,9 +178,9 @@ def patch_torsion(picture: Picture) -> Figure:
     return figure
 
 
-def flat_patch(picture: Picture) -> Figure:
+def flat_patch(picture: Picture, within: Any = None) -> Figure:
     """Who bears the load of a rigid disk that turns."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.6))
+    figure, (axes,) = panels(4.6, 2.6, within=within)
     at = np.arange(len(picture["r"]))
     uniform = np.full(len(at), 1 / len(at))
     axes.set_axisbelow(True)
@@ -193,14 +188,14 @@ def flat_patch(picture: Picture) -> Figure:
     axes.bar(at + 0.2, picture["shares"], 0.4, color="0.5", edgecolor="black", label="this model")
     axes.set_xticks(at, [f"{1e3 * r:.0f}" for r in picture["r"]])
     axes.set(xlabel="radius of the ring of points [mm]", ylabel="share of the load [-]")
-    axes.set_title(_caption(picture["h"]), loc="right")
+    axes.set_title(caption(picture["h"]), loc="right")
     axes.legend(loc="upper left")
     return figure
 
 
-def peg_wedging(picture: Picture) -> Figure:
+def peg_wedging(picture: Picture, within: Any = None) -> Figure:
     """Depth at which a peg stops to wedge, against Whitney's line."""
-    figure, axes = plt.subplots(figsize=sized(4.6, 2.8))
+    figure, (axes,) = panels(4.6, 2.8, within=within)
     line = np.array([0, 0.9])
     axes.plot(line, line, label=r"$l = \mu d$, (R17)", **THIN)
     for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
@@ -210,14 +205,14 @@ def peg_wedging(picture: Picture) -> Figure:
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
     axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
-    axes.set_title(f"{_caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
+    axes.set_title(f"{caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
     axes.legend(loc="upper left")
     return figure
 
 
-def mujoco_friction(picture: Picture) -> Figure:
+def mujoco_friction(picture: Picture, within: Any = None) -> Figure:
     """Velocity against load, below and beyond the threshold, of both engines."""
-    figure, both = plt.subplots(1, 2, figsize=sized(6.3, 2.8), layout="constrained")
+    figure, both = panels(6.3, 2.8, columns=2, within=within)
     units = {"torsion": "spin rate [rad/s]", "tangent": "velocity [m/s]"}
     for axes, (kind, unit) in zip(both, units.items(), strict=True):
         for (what, cone), final in picture["creep"].items():
@@ -230,15 +225,15 @@ def mujoco_friction(picture: Picture) -> Figure:
         axes.axvline(1, color="black", linestyle=":", linewidth=1)
         axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
         axes.set_title(f"{kind}, h = {1e3 * picture['h']:g} ms", loc="right")
-    figure.legend(*both[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    legend_below(both, both[0].get_legend_handles_labels()[0])
     return figure
 
 
-PICTURES: Final[dict[str, Callable[[Picture], Figure]]] = {
-    draw.__name__: styled(draw)
+PICTURES: Final[dict[str, Callable[..., Figure]]] = {
+    draw.__name__: draw
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
         patch_torsion, flat_patch, peg_wedging, mujoco_friction, planar_push,
     )
 }  # fmt: skip
-"""Claim -> its figure."""
+"""Claim -> its figure, of what was measured, drawn where it is told to."""

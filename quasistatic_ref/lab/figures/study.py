@@ -1,7 +1,5 @@
 """The figures of a report on solvers: profiles, success, digits against time, digits by family."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -11,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from quasistatic_ref.figures.study_pens import pens, short
 from quasistatic_ref.figures.style import PAGE
+from quasistatic_ref.lab.figures.study_pens import pens, short
 
 FURTHEST: Final = 1e4
 """Largest ratio of times that a profile shows."""

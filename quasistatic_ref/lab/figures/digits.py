@@ -1,16 +1,15 @@
 """Correct digits of backends against the accuracy that they were asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.study_pens import COLOURS, DASHES, MARKS
-from quasistatic_ref.figures.style import figure_style, scaled, sized
+from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.study_pens import COLOURS, DASHES, MARKS
 
 SPREAD = 0.17
 """Distance between backends at the same setting, settings being one apart."""
@@ -45,7 +44,9 @@ class BackendDigits:
     best: float
 
 
-def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure:
+def digits_of_backends(
+    records: Sequence[BackendDigits], subject: str, within: Any = None
+) -> Figure:
     """Correct digits against the setting; one panel for each kind of units.
 
     Parameters
@@ -54,34 +55,34 @@ def digits_of_backends(records: Sequence[BackendDigits], subject: str) -> Figure
         Panels, ticks and the legend are in the order in which they come.
     subject : str
         Which steps these are, with their time step and cone.
+    within : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
     """
-    panels = list(dict.fromkeys(r.units for r in records))
+    units = list(dict.fromkeys(r.units for r in records))
     backends = list(dict.fromkeys(r.backend for r in records))
     settings = list(dict.fromkeys(r.accuracy for r in records))
-    with figure_style():
-        figure, (grid,) = plt.subplots(
-            1, len(panels), figsize=sized(6.3, 3.1), sharey=True, squeeze=False,
-            gridspec_kw={"wspace": 0.06},
-        )  # fmt: skip
-        for axes, units in zip(grid, panels, strict=True):
-            for k, backend in enumerate(backends):
-                own = [r for r in records if (r.units, r.backend) == (units, backend)]
-                aside = SPREAD * (k - (len(backends) - 1) / 2)
-                _draw(axes, own, [settings.index(r.accuracy) + aside for r in own], k)
-            axes.set(title=units, xlabel="accuracy asked of the backend [-]")
-            axes.set_xticks(range(len(settings)), settings)
-            axes.grid(visible=False, axis="x")
-        label = r"correct digits of $\delta q$ [-]"
-        grid[0].set(ylim=(-0.6, 16.6), yticks=range(0, 17, 4), ylabel=label)
-        handles, labels = grid[0].get_legend_handles_labels()
-        unsolved = any(r.unsolved for r in records)
-        told = "some steps unsolved" if unsolved else "no step unsolved"
-        figure.legend(
-            handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(backends),
-            title="marker: median step; bar: first percentile; line: worst step to best; "
-            f"{told}\n{subject}",
-
-        )  # fmt: skip
+    figure, grid = panels(6.3, 3.9, columns=len(units), within=within, sharey=True)
+    for axes, kind in zip(grid, units, strict=True):
+        for k, backend in enumerate(backends):
+            own = [r for r in records if (r.units, r.backend) == (kind, backend)]
+            aside = SPREAD * (k - (len(backends) - 1) / 2)
+            _draw(axes, own, [settings.index(r.accuracy) + aside for r in own], k)
+        axes.set_title(kind)
+        axes.set_xticks(range(len(settings)), settings)
+        axes.grid(visible=False, axis="x")
+        axes.set(ylim=(-0.6, 16.6), yticks=range(0, 17, 4))
+        labelled(
+            axes,
+            "accuracy asked of the backend [-]",
+            r"correct digits of $\delta q$ [-]",
+            key=False,
+        )
+        axes.label_outer(remove_inner_ticks=True)
+    unsolved = any(r.unsolved for r in records)
+    said = "some steps unsolved" if unsolved else "no step unsolved"
+    key = "marker: median step; bar: first percentile; line: worst step to best"
+    handles = grid[0].get_legend_handles_labels()[0]
+    legend_below(grid, handles, f"{key}; {said}; {subject}")
     return figure
 
 

@@ -1,7 +1,5 @@
 """Lines for many solvers, told apart by dashes and marks, in colour and without."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Final
 

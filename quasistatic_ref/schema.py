@@ -1,50 +1,46 @@
-"""What the table of a scenario's fields gives besides the loader: a JSON Schema, a reference page.
+"""The table of a file's fields as a JSON Schema.
 
-The schema is of draft 4, the latest that editors' TOML servers (taplo) understand.
+It is of draft 4, the latest that editors' TOML servers (taplo) understand.
 """
 
-from __future__ import annotations
-
 import re
+from collections.abc import Mapping
 from typing import Any
 
+from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.fields import REQUIRED
-from quasistatic_ref.files import json_text
-from quasistatic_ref.simulate.scenario_table import RULES, TABLES, TOP, Field
 from quasistatic_ref.tolerances import LARGE
 
 DRAFT = "http://json-schema.org/draft-04/schema#"
 NUMBER = {"type": "number", "minimum": -LARGE, "maximum": LARGE}
 
 
-def scenario_schema() -> dict[str, Any]:
-    """The JSON Schema of a scenario file."""
-    definitions = {_key(kind): _table(kind) for kind in TABLES if kind != TOP}
-    return {"$schema": DRAFT, "title": "A scenario", **_table(TOP), "definitions": definitions}
+def json_schema(
+    title: str, tables: Tables, rules: Mapping[str, Mapping[str, Any]], top: str
+) -> dict[str, Any]:
+    """The JSON Schema of a file.
 
-
-def reference_page() -> str:
-    """Every field of a scenario as Markdown, one table for each kind of table."""
-    parts = []
-    for kind, fields in TABLES.items():
-        rows = ["| field | value | unit | default | says |", "|---|---|---|---|---|"]
-        for name, one in fields.items():
-            cells = (f"`{name}`", _values(one), one.unit, _default(one), one.says)
-            rows.append(f"| {' | '.join(cells)} |")
-        parts.append("\n".join([f"## {_heading(kind)}", "", *rows]))
-    return "\n\n".join(parts) + "\n"
-
-
-def _heading(kind: str) -> str:
-    return f"`{kind}`" if kind[0] == "[" else kind[0].upper() + kind[1:]
+    Parameters
+    ----------
+    title : str
+        Of the schema.
+    tables : Tables
+    rules : mapping
+        JSON Schema that a kind of table has besides its fields.
+    top : str
+        The kind of the table that a whole file is.
+    """
+    every = {kind: _table(fields, rules.get(kind, {})) for kind, fields in tables.items()}
+    whole = every.pop(top)
+    definitions = {_key(kind): schema for kind, schema in every.items()}
+    return {"$schema": DRAFT, "title": title, **whole, "definitions": definitions}
 
 
 def _key(kind: str) -> str:
     return re.sub(r"\W+", "_", kind).strip("_")
 
 
-def _table(kind: str) -> dict[str, Any]:
-    fields = TABLES[kind]
+def _table(fields: Mapping[str, Field], rule: Mapping[str, Any]) -> dict[str, Any]:
     required = [name for name, one in fields.items() if one.default is REQUIRED]
     schema: dict[str, Any] = {
         "type": "object",
@@ -52,7 +48,7 @@ def _table(kind: str) -> dict[str, Any]:
         "additionalProperties": False,
         **({"required": required} if required else {}),
     }
-    return schema | dict(RULES.get(kind, {}))
+    return schema | dict(rule)
 
 
 def _field(one: Field) -> dict[str, Any]:
@@ -69,7 +65,7 @@ def _field(one: Field) -> dict[str, Any]:
 
 def _value(one: Field) -> dict[str, Any]:
     """The schema of a kind of value; nothing for a kind that brings its own."""
-    inner = {"$ref": f"#/definitions/{_key(one.of)}"}
+    inner = {"$ref": f"#/definitions/{_key(one.of)}"} if one.of else {"type": "object"}
     kinds: dict[str, dict[str, Any]] = {
         "number": NUMBER,
         "integer": NUMBER | {"type": "integer"},
@@ -85,24 +81,9 @@ def _value(one: Field) -> dict[str, Any]:
     if one.above is not None:
         schema |= {"minimum": one.above, "exclusiveMinimum": True}
     if one.least is not None:
-        schema["minimum"] = one.least
+        schema["minItems" if one.kind.startswith("list of ") else "minimum"] = one.least
     if one.most is not None:
         schema["maximum"] = one.most
     if one.choices is not None:
         schema["enum"] = list(one.choices)
     return schema
-
-
-def _values(one: Field) -> str:
-    """What a field may hold, in words."""
-    if one.choices is not None:
-        return ", ".join(f"`{json_text(choice)}`" for choice in one.choices)
-    bounds = [(one.above, "above"), (one.least, "from"), (one.most, "to")]
-    said = " ".join(f"{word} {bound:g}" for bound, word in bounds if bound is not None)
-    return f"{one.kind}{', ' if said else ''}{said}"
-
-
-def _default(one: Field) -> str:
-    if one.default is REQUIRED:
-        return "required"
-    return "" if one.default is None else f"`{json_text(one.default)}`"
