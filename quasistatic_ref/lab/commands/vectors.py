@@ -48,7 +48,7 @@ def _add_choices(action: argparse.ArgumentParser) -> None:
     """Which cases are checked, how strictly, and what is printed."""
     words = "only cases whose ids begin so, e.g. rows/cone"
     action.add_argument("--only", metavar="PREFIX", default="", help=words)
-    action.add_argument("--case", metavar="ID", help="one case alone, number beside number")
+    action.add_argument("--case", metavar="ID", help="one case alone, number by number")
 
 
 def _add_digits(action: argparse.ArgumentParser) -> None:
@@ -112,8 +112,8 @@ def _check(options: argparse.Namespace) -> int:
 def _show_case(options: argparse.Namespace, source: Path) -> None:
     """Expected and given of one case, in the package's conventions."""
     from quasistatic_ref.lab.vectors.check.answers import answers_read
-    from quasistatic_ref.lab.vectors.check.beside import beside
     from quasistatic_ref.lab.vectors.check.folder import answer_judged
+    from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
     from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 
     layer = options.case.partition("/")[0]
@@ -123,7 +123,7 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
             record, given = expected_read(source, layer)[case.id], answers.outputs[case.id]
             one = answer_judged(layer, case, record, given, answers, options.digits)
             print(f"{case.id}: {case.provenance}: {one.verdict.verdict} {one.verdict.reason}")
-            shared.print_rows(beside(record["output"], one.output))
+            shared.print_rows(side_by_side(record["output"], one.output))
 
 
 def _generate(options: argparse.Namespace) -> int:

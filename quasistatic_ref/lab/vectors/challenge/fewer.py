@@ -15,6 +15,10 @@ def fewer_parts(case: Json) -> Iterator[Json]:
         if len(case.get(name, [])) > (name in ("contacts", "second_order")):
             for part in _fewer(case[name]):
                 yield _used({**case, name: part})
+    for i, pair in enumerate(case.get("pairs", [])):
+        for k in range(1, pair["k"]):
+            pairs = [*case["pairs"][:i], {**pair, "k": k}, *case["pairs"][i + 1 :]]
+            yield {**case, "pairs": pairs}
     if "bodies" in case:  # of the layer wrench
         for name in case["bodies"]:
             rest = {key: value for key, value in case["bodies"].items() if key != name}

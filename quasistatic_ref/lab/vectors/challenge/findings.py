@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from quasistatic_ref.files import text_written
-from quasistatic_ref.lab.vectors.check.beside import beside
+from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.show import aligned
 
@@ -86,6 +86,6 @@ class Finding:
         lines += [*self.sentences, "", f"Seen: {self.reason}. Again:", "", f"    {again}", ""]
         lines += ["The input", "", f"    {json.dumps(self.case)}", ""]
         if self.expected is not None and self.given is not None:
-            table = aligned(beside(self.expected, self.given))
+            table = aligned(side_by_side(self.expected, self.given))
             lines += ["Expected, and given", "", *(f"    {row}" for row in table), ""]
         return text_written(place / "README.md", "\n".join(lines)).parent

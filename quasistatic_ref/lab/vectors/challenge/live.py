@@ -60,7 +60,7 @@ def challenge(
     first : bool
         Whether to end after the first round in which something is found.
     say : callable
-        Told what is being done.
+        Called with a line on what is being done.
 
     Returns
     -------

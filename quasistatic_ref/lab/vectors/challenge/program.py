@@ -150,15 +150,15 @@ class Program:
             strays.append(what)
             return None
         self._asked[id] = "answered"
-        told = tuple(strays)
+        others = tuple(strays)
         if record.get("unsupported") is True:
-            return Reply("unsupported", strays=told)
+            return Reply("unsupported", strays=others)
         if "error" in record:
-            return Reply("error", said=str(record["error"])[:200], strays=told)
+            return Reply("error", said=str(record["error"])[:200], strays=others)
         if "output" in record:
-            return Reply("output", output=record["output"], strays=told)
+            return Reply("output", output=record["output"], strays=others)
         said = "an answer has output, error or unsupported"
-        return Reply("garbage", said=said, strays=told)
+        return Reply("garbage", said=said, strays=others)
 
     def _greet(self, record: Json) -> None:
         """Read the line that declares what the program is."""

@@ -1,4 +1,4 @@
-"""How large the terms are that make g: where they cancel, their rounding is all that is left.
+"""How large the terms are that make H and g: where they cancel, their rounding is what is left.
 
 The committed steps have few that do; cases at random have all kinds.
 """
@@ -11,8 +11,8 @@ from quasistatic_ref.lab.vectors.exact.precision import numbers, rounded
 from quasistatic_ref.lab.vectors.expected import Json
 
 
-def terms_of_g(tree: Mechanism, case: Json) -> float:
-    """The largest sum of sizes of what an entry of g is made of [N s, N m s].
+def terms(tree: Mechanism, case: Json) -> tuple[float, float]:
+    """The largest sums of sizes of what an entry of H and one of g is made of, in their units.
 
     A lever is a difference of world coordinates, a difference of turns one of cosines and sines.
 
@@ -23,15 +23,18 @@ def terms_of_g(tree: Mechanism, case: Json) -> float:
         Input of the layer ``step``.
     """
     found = rounded(lambda: _moves(tree, case))[0]
-    size = np.zeros(tree.n_v)
+    size, inertia = np.zeros(tree.n_v), np.zeros(tree.n_v)
     for body, (centre, origin, columns) in zip(tree.bodies, found, strict=True):
         weight = body.table.get("mass", 0.0) * float(np.linalg.norm(case["gravity"]))
         loads = [w for w in case.get("wrenches", []) if w["body"] == body.name]
         force = sum(float(np.linalg.norm(w["force"])) for w in loads)
         torque = sum(float(np.linalg.norm(w["torque"])) for w in loads)
         lever = np.abs(centre).max() + np.abs(origin).max()
+        mass, arm = body.table.get("mass", 0.0), float(np.linalg.norm(np.subtract(centre, origin)))
         for v, velocity, turn in columns:
+            own = np.linalg.norm(velocity) + np.linalg.norm(turn) * arm
             reach = np.linalg.norm(velocity) + np.linalg.norm(turn) * lever
+            inertia[v] += mass * own * reach * (v >= tree.n_a)
             size[v] += (force + weight * (v >= tree.n_a)) * reach + torque * np.linalg.norm(turn)
     for body in tree.bodies:
         if body.actuated and body.mimic is None and body.kind != "fixed":
@@ -39,7 +42,8 @@ def terms_of_g(tree: Mechanism, case: Json) -> float:
             for i in range(tree.n_a):
                 stiff = [abs(x) for x in case["K_q"][i][body.v]]
                 size[i] += sum(stiff) * away
-    return float(case["h"] * size.max(initial=0.0))
+    h = case["h"]
+    return float(inertia.max(initial=0.0) / h), float(h * size.max(initial=0.0))
 
 
 def _moves(tree: Mechanism, case: Json) -> Json:

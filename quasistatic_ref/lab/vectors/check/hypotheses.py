@@ -148,7 +148,7 @@ HYPOTHESES: Final = (
         "a contact's rows are +d1, +d2, -d1, -d2, +spin, -spin; MuJoCo's are +d1, -d1, +d2, -d2",
         {
             **of_rows(wrong_contacts.interleaved),
-            "wrench": wrong_contacts.lam_in_order(wrong_contacts.MUJOCO_ORDER),
+            "wrench": wrong_contacts.lam_in_order(wrong_contacts.mujoco_order),
         },
     ),
     Hypothesis(
