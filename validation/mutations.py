@@ -94,7 +94,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
     "certify/gap.py": ("unit/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
-    "certify/judged.py": ("unit/test_bound.py", *FORGED),
+    "certify/judged.py": ("unit/test_judged.py", *FORGED),
     "certify/ellipsoid.py": FORGED,
     "certify/apex.py": FORGED,
     "certify/conic.py": FORGED,
