@@ -15,9 +15,11 @@ from docutils import nodes
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
+from quasistatic_ref import __version__  # noqa: E402 the same
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the same
-from quasistatic_ref.simulate.schema import reference_page  # noqa: E402 the same
+from quasistatic_ref.lab.study.spec_table import TABLES as STUDY  # noqa: E402 the same
+from quasistatic_ref.simulate.scenario_table import TABLES as SCENARIO  # noqa: E402 the same
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -129,7 +131,7 @@ def setup(app):
 def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
-    ``% fields of a scenario`` is the table that scenario files are read by, and
+    ``% fields of a scenario`` and ``% fields of a study`` are the tables by which these are read,
     ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
     """
     up = "../" * docname.count("/")
@@ -137,7 +139,8 @@ def _expanded(app, docname, source):
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
-    text = text.replace("\n% fields of a scenario\n", "\n" + reference_page())
+    text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
+    text = text.replace("\n% fields of a study\n", "\n" + reference_page(STUDY))
     text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
     if docname in CLOSED_FORMS:
         text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)

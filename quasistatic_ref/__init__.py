@@ -22,7 +22,8 @@ _HOMES = {
     "model.convex_mesh": "convex_hull",
     "contact.pairs": "ContactPair",
     # Steps in sequence.
-    "simulate.simulator": "Simulator StepResult",
+    "simulate.result": "StepResult",
+    "simulate.simulator": "Simulator",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",

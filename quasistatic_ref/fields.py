@@ -4,8 +4,6 @@ A reader takes each field once, checks it, and refuses in :meth:`Fields.close` w
 not asked for: a misspelt name is an error, never a default.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, Final, TypeVar
 
@@ -81,8 +79,9 @@ class Fields:
         *,
         above: float | None = None,
         least: float | None = None,
+        most: float | None = None,
     ) -> float:
-        """Return a finite number, greater than `above` and at least `least` [the field's unit]."""
+        """Return a finite number, above `above`, from `least` to `most` [the field's unit]."""
         value = self._typed(field, int | float, "a number", default)
         if value is None:
             return None  # type: ignore[return-value]  # the caller's own default
@@ -96,6 +95,8 @@ class Fields:
             raise self.fail(field, f"must be greater than {above:g}", value)
         if least is not None and not number >= least:
             raise self.fail(field, f"must be at least {least:g}", value)
+        if most is not None and not number <= most:
+            raise self.fail(field, f"must be at most {most:g}", value)
         return number
 
     def integer(
@@ -171,11 +172,11 @@ class Fields:
     def words(self, field: str, default: Any = REQUIRED) -> list[str]:
         """Return a list of strings."""
         value = self.sequence(field, default)
-        if not all(isinstance(word, str) for word in value):
+        if value is not default and not all(isinstance(word, str) for word in value):
             raise self.fail(field, "must be a list of strings", value)
         return value
 
-    def table(self, field: str, default: Any = REQUIRED) -> Fields:
+    def table(self, field: str, default: Any = REQUIRED) -> "Fields":
         """Return a nested table."""
         return Fields(self.take(field, default), self.name(field), self.error)
 

@@ -5,14 +5,13 @@ few kilobytes of ZIP can hold gigabytes of zeros. Here sizes are compared before
 unpacked.
 """
 
-from __future__ import annotations
-
 import io
+import json
 import math
 import tokenize
 import zipfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -21,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.files import bytes_read
+from quasistatic_ref.files import bytes_read, json_text, text_of, unique_fields
 
 LARGEST_UNPACKED = 2 * 2**30
 """Largest sum of all arrays [bytes]: 100,000 full steps of the paper's size."""
@@ -41,9 +40,7 @@ UNREADABLE: tuple[type[Exception], ...] = (
 """What zipfile and NumPy raise at a file that is something else, or spoilt."""
 
 
-def npz_arrays(
-    path: str | Path, what: str = "a trajectory written by this program"
-) -> dict[str, NDArray[Any]]:
+def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
     """Every array of the file by name, each of the shape and type that it has there.
 
     Parameters
@@ -62,6 +59,37 @@ def npz_arrays(
     with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
         members = _checked_sizes(archive)
         return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
+
+
+def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
+    """The JSON header of a .npz file, and its other arrays, as :func:`npz_arrays` reads them.
+
+    Returns
+    -------
+    header : object
+    arrays : dict of str to ndarray
+        Each of the shape that the file has.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or has no such header.
+    """
+    arrays = npz_arrays(path, what)
+    header = arrays.pop("header", None)
+    with about_file(path):
+        if header is None or header.dtype != np.uint8:
+            raise InputError(f"is not {what}: it has no header")
+        try:
+            text = text_of(header.tobytes(), path)
+            return json.loads(text, object_pairs_hook=unique_fields), arrays
+        except (ValueError, RecursionError):
+            raise InputError(f"is not {what}: its header is not JSON") from None
+
+
+def json_array(header: Mapping[str, Any]) -> NDArray[np.uint8]:
+    """A header as :func:`npz_record` reads it, shape (bytes,) [-]."""
+    return np.frombuffer(json_text(dict(header)).encode(), dtype=np.uint8)
 
 
 def npy_array(path: str | Path) -> NDArray[Any]:

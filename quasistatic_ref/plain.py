@@ -1,7 +1,5 @@
 """Plain data: fields that are compared bit for bit, copied and pickled."""
 
-from __future__ import annotations
-
 import hashlib
 import struct
 from collections.abc import Iterator, Mapping

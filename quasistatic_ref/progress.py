@@ -1,7 +1,5 @@
 """The progress of long work, on standard error where that is a terminal."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """What a sentence repeats of what was given: on one line, clipped, with the nearest known name."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Iterable

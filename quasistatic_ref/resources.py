@@ -1,7 +1,5 @@
 """Where the data that come with the package are: in the wheel, or next to it in a checkout."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -42,6 +42,13 @@ ROBOTS: Final = (
 )
 VIEW: Final = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
 ENGINES: Final = ("quasistatic-ref validate mujoco_rows",)
+FAST: Final = (
+    'python -c "import os, sys; '
+    "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "
+    'from quasistatic_ref.compiled import why_not; sys.exit(why_not())"',
+    "quasistatic-ref run sphere_spin --set steps=20 --json",
+)
+"""With the compiler that comes along, also where the system has one."""
 PARQUET: Final = ("quasistatic-ref vectors export --out bundle",)
 PANDAS: Final = (
     'python -c "from quasistatic_ref import load_scenario as load; '
@@ -79,6 +86,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
     ),
     "robots": ROBOTS,
     "view": VIEW,
+    "fast": FAST,
     "engines": ENGINES,
     "drake": ("quasistatic-ref validate drake",),
     "pandas": PANDAS,
@@ -95,7 +103,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:ruff check .",
         "checkout:mypy",
     ),
-    "all": (*ROBOTS, *VIEW, *ENGINES, *PARQUET, *PANDAS),
+    "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 

@@ -41,7 +41,10 @@ def notebook(name: str) -> nbformat.NotebookNode:
         nbformat.v4.new_markdown_cell(f"# {title}\n{body}".rstrip()),
         nbformat.v4.new_code_cell(code),
         nbformat.v4.new_code_cell("main()"),
-        nbformat.v4.new_code_cell("page = figure()"),
+        nbformat.v4.new_code_cell(
+            "from quasistatic_ref.figures import figure_style\n\nwith figure_style():\n"
+            "    page = figure()"
+        ),
     ]
     for k, cell in enumerate(made.cells):
         cell["id"] = f"cell-{k}"  # the same every time

@@ -63,6 +63,11 @@ class Result:
 
 RESULTS = (
     Result(
+        "compilers",
+        ("validation.compilers", "--out", "validation/results/compilers.md"),
+        ("validation/results/compilers.md",),
+    ),
+    Result(
         "memory_of_steps",
         ("validation.memory_of_steps",),
         ("validation/results/memory_of_steps.md",),

@@ -1,10 +1,13 @@
 """A block on a table, pushed at its side: what its two contacts carry, as the push grows."""
 
 import numpy as np
-from matplotlib import pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.figures import panels
+from quasistatic_ref.figures.style import scaled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 HALF_WIDTH, HALF_HEIGHT = 0.05, 0.04  # m
@@ -46,45 +49,49 @@ def block(push):
     )
 
 
-def main():
-    """For each push the friction and both normal forces, shape (3, 3) [N].
+def main(pushes=PUSHES):
+    """For each push the friction and both normal forces, shape (pushes, 3) [N].
 
     How the corners share the friction is not determined: only its sum is unique.
     """
-    answers = [solve_step(block(push)) for push in PUSHES]
+    answers = [solve_step(block(push)) for push in pushes]
     assert all(np.array_equal(answer.delta_q, np.zeros(3)) for answer in answers)
     return np.array([[a.wrench[:, 0].sum(), *a.wrench[:, 2]] for a in answers])
 
 
-@styled
-def figure():
+def figure(ax=None, *, pushes=PUSHES):
     """One panel a push: the block, its weight, the push and the forces of the table."""
-    metres = 0.008  # per newton
-    made, row = panels(6.3, 2.6, columns=3, sharey=True)
-    for axes, push, (friction, left, right) in zip(row, PUSHES, main(), strict=True):
-        corner, size = (-HALF_WIDTH, 0.0), (2 * HALF_WIDTH, 2 * HALF_HEIGHT)
-        axes.add_patch(plt.Rectangle(corner, *size, facecolor="0.88", edgecolor="0.3"))
-        axes.axhline(0.0, color="0.3", linewidth=1.2)
-        centre = (0.0, HALF_HEIGHT)
+    mm_per_newton = 8
+    made, row = panels(6.3, 3.0, columns=len(pushes), within=ax, narrow=12, sharey=True)
+    colours = {"weight": "0.3", "push": "#D55E00", "forces of the table": "#0072B2"}
+    left, top = -1e3 * HALF_WIDTH, 2e3 * HALF_HEIGHT
+    for axes, push, (friction, f_left, f_right) in zip(row, pushes, main(pushes), strict=True):
+        axes.add_patch(Rectangle((left, 0), -2 * left, top, facecolor="0.88", edgecolor="0.3"))
+        axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))
         arrows = [
-            (centre, (0.0, -MASS * GRAVITY), "0.3"),
-            (centre, (push, 0.0), "C1"),
-            ((0.0, 0.0), (friction, 0.0), "C0"),
-            ((-HALF_WIDTH, 0.0), (0.0, left), "C0"),
-            ((HALF_WIDTH, 0.0), (0.0, right), "C0"),
+            ((0.0, top / 2), (0.0, -MASS * GRAVITY), "weight"),
+            ((0.0, top / 2), (push, 0.0), "push"),
+            ((0.0, 0.0), (friction, 0.0), "forces of the table"),
+            ((left, 0.0), (0.0, f_left), "forces of the table"),
+            ((-left, 0.0), (0.0, f_right), "forces of the table"),
         ]
-        for start, force, colour in arrows:
+        for start, force, name in arrows:
             if np.hypot(*force) > 0:
-                tip = np.add(start, metres * np.array(force))
-                style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.6}
+                tip = np.add(start, mm_per_newton * np.array(force))
+                style = {"arrowstyle": "-|>", "color": colours[name], "linewidth": scaled(1.6)}
                 axes.annotate("", tip, start, arrowprops={**style, "shrinkA": 0, "shrinkB": 0})
-        for x, f in ((-HALF_WIDTH, left), (HALF_WIDTH, right)):
-            axes.text(x, -0.016, f"{f:.2f} N", ha="center", fontsize=8)
+        for x, f in ((left, f_left), (-left, f_right)):
+            axes.text(x, -16, f"{f:.2f} N", ha="center", va="center")
         axes.grid(visible=False)
-        axes.set(xlim=(-0.09, 0.09), ylim=(-0.045, 0.11), aspect="equal")
-        axes.set_title(f"push {push:g} N", fontsize=9)
-        axes.set_xlabel("x [m]")
-    row[0].set_ylabel("z [m]")
+        axes.set(xlim=(-95, 95), ylim=(-45, 110), aspect="equal")
+        axes.set_title(f"push {push:g} N")
+        labelled(axes, "x [mm]", "z [mm]")
+        axes.label_outer(remove_inner_ticks=True)
+    handles = [
+        Line2D([], [], color=colour, marker=">", markersize=scaled(4), label=name)
+        for name, colour in colours.items()
+    ]
+    legend_below(row, handles, f"1 N is {mm_per_newton} mm")
     return made
 
 

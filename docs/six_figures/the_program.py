@@ -3,22 +3,26 @@
 import numpy as np
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures import panels, styled
+from quasistatic_ref.figures import panels
+from quasistatic_ref.figures.style import scaled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 PUSHES = (3.0, 8.0)  # N: one that is held, one that is not
 
 
-def point(push):
+def point(push, mu_v=MU_V, h=H):
     """A point on the floor that moves by delta_q = (dx, dz).
 
     Parameters
     ----------
     push : float
         Horizontal force [N].
+    mu_v, h : float
+        [-], [s].
     """
     return StepData(
-        h=H,
+        h=h,
         K_q=np.zeros((0, 0)),
         M_u=MASS * np.eye(2),
         tau_a=[],
@@ -26,7 +30,7 @@ def point(push):
         delta_q_bar_a=[],
         contacts=Contacts(
             name=("floor",), phi=[0.0], n=[[0, 0, 1]], d1=[[1, 0, 0]], d2=[[0, 1, 0]],
-            J=[[[1, 0], [0, 0], [0, 1], [0, 0]]], mu_v=[MU_V], mu_omega=[0.0], rows=[4],
+            J=[[[1, 0], [0, 0], [0, 1], [0, 0]]], mu_v=[mu_v], mu_omega=[0.0], rows=[4],
         ),
     )  # fmt: skip
 
@@ -36,34 +40,36 @@ def main():
     return np.array([solve_step(point(push)).delta_q for push in PUSHES])
 
 
-@styled
-def figure():
-    """One panel a push: the rows, level lines of the objective, both minimisers."""
-    microns = 1e6
-    x, z = np.meshgrid(np.linspace(-0.7e-3, 1.2e-3, 200), np.linspace(-1.15e-3, 0.7e-3, 200))
-    made, row = panels(6.3, 2.9, columns=2, sharey=True)
-    for axes, push, (dx, dz) in zip(row, PUSHES, main(), strict=True):
-        value = MASS * (x**2 + z**2) / (2 * H) - H * (push * x - MASS * GRAVITY * z)
-        axes.contour(
-            microns * x, microns * z, value, 14, colors="0.75", linestyles="solid", linewidths=0.5
-        )
-        line = microns * x[0]
-        axes.fill_between(line, MU_V * np.abs(line), 700, color="C0", alpha=0.15)
-        axes.plot(line, MU_V * np.abs(line), color="C0")
-        free = microns * H**2 * np.array([push, -MASS * GRAVITY]) / MASS
-        axes.plot(*free, "o", color="0.3", markerfacecolor="white")
-        axes.plot(microns * dx, microns * dz, "s", color="C1")
-        axes.annotate(
-            "without contact", free, xytext=(-6, 6), textcoords="offset points", ha="right"
-        )
-        axes.annotate(
-            "answer", (microns * dx, microns * dz), xytext=(6, -12), textcoords="offset points"
-        )
-        axes.text(-600, 560, "allowed", color="C0", va="center")
-        axes.set_title(f"push {push:g} N", fontsize=9)
-        axes.set_xlabel("dx [µm]")
-        axes.set_ylim(-1150, 700)
-    row[0].set_ylabel("dz [µm]")
+def figure(ax=None, *, pushes=PUSHES, mu_v=MU_V, h=H):
+    """One panel a push: the rows, level lines of the objective, both minimisers.
+
+    M_u is the mass times the identity, so that level lines are circles on equal axes and the answer
+    is the point of the wedge that is nearest to where the point would go without contact.
+    """
+    free = 1e6 * h**2 * np.array([[push, -MASS * GRAVITY] for push in pushes]) / MASS
+    deep = 1e6 * h**2 * GRAVITY
+    x, z = np.meshgrid(np.linspace(-0.7, 1.3, 200) * deep, np.linspace(-1.2, 0.75, 200) * deep)
+    made, row = panels(6.3, 3.7, columns=len(pushes), within=ax, sharey=True)
+    for axes, push, (to_x, to_z) in zip(row, pushes, free, strict=True):
+        away = np.hypot(x - to_x, z - to_z) / deep
+        axes.contour(x, z, away, np.arange(0.1, 2.5, 0.15), colors="0.75", linestyles="solid",
+                     linewidths=scaled(0.5))  # fmt: skip
+        line = x[0]
+        axes.fill_between(line, mu_v * np.abs(line), z.max(), color="#0072B2", alpha=0.15)
+        axes.plot(line, mu_v * np.abs(line), color="#0072B2", label=r"rows: dz = $\mu_v$ |dx|")
+        answer = 1e6 * solve_step(point(push, mu_v, h)).delta_q
+        axes.plot(*np.stack([answer, (to_x, to_z)]).T, "k:", linewidth=scaled(1))
+        style = {"markersize": scaled(5), "linestyle": ""}
+        axes.plot(to_x, to_z, "o", color="black", markerfacecolor="white", label="without contact",
+                  **style)  # fmt: skip
+        axes.plot(*answer, "s", color="#D55E00", label="answer", **style)
+        axes.text(0, 0.6 * deep, "allowed", color="#0072B2", ha="center", va="center")
+        axes.set(xlim=(x.min(), x.max()), ylim=(z.min(), z.max()), aspect="equal")
+        axes.grid(visible=False)
+        labelled(axes, "dx [µm]", "dz [µm]", f"push {push:g} N", key=False)
+        axes.label_outer(remove_inner_ticks=True)
+    handles = [line for line in row[0].lines if not line.get_label().startswith("_")]
+    legend_below(row, handles)
     return made
 
 

@@ -18,8 +18,6 @@ and there are finitely many. This holds with exact signs only, and is why ties a
 before they are branched on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

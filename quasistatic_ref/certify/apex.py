@@ -10,8 +10,6 @@ exact. Whether x and that lam are inside of the cones, and lam'(A x - b) = 0, is
 rational numbers: by convexity nothing else has to be checked.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat, fmpz_mat

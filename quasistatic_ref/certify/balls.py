@@ -4,8 +4,6 @@ A sign that a ball shows is the true sign. What a ball around zero hides is left
 :mod:`~quasistatic_ref.certify.point`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

@@ -14,8 +14,6 @@ answer in float64, right to 1e-16 itself, leaves a gap of about 1e-16 and thus s
 digits. The exact method shows all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -85,16 +83,9 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> ErrorBound:
         moved = _feasible(step, form, balls, x)
         if moved is None:
             return UNKNOWN
-        H = arb_mat(form.H)
-        way, off = moved - x, moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
-        gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
-        length = square_root(_product(way, H * way)) + square_root(2 * gap)
-        free = square_root(_product(balls.x_free, H * balls.x_free))
+        length, error = _distance(form, balls, x, moved, y)
         energy = arb(form.net_unit * form.x_unit)
-        return ErrorBound(
-            gap=nearest_above(energy * length * length / 2),
-            error=nearest_above(length / free) if free > 0 else float("inf"),
-        )
+        return ErrorBound(nearest_above(energy * length * length / 2), error)
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,26 +128,30 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
     if solution is None:
         return None
     with ctx.workprec(PRECISION):
-        H = arb_mat(form.H)
-        n = form.n
-        x = arb_mat(n, 1, [v.mid() for v in solution.x])
+        x = arb_mat(form.n, 1, [v.mid() for v in solution.x])
         y = arb_mat(form.m, 1)
         for i, value in zip(active, solution.lam, strict=True):
             y[i, 0] = value.mid() if value > 0 else arb(0)
         moved = _feasible(step, form, balls, x)
         if moved is None:
             return None
-        push = balls.A.transpose() * y
-        off = moved - (balls.x_free + balls.H_inv * push)
-        gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
+        push = (balls.A.transpose() * y).entries()
         delta_q = np.array([float(v * form.x_unit) for v in x.entries()])
-        net = np.array([float(v * form.net_unit) for v in push.entries()])
-        way = moved - _column(delta_q, form.x_unit)
-        length = square_root(_product(way, H * way)) + square_root(2 * gap)
-        free = square_root(_product(balls.x_free, H * balls.x_free))
-        return EnclosedAnswer(
-            delta_q, net, nearest_above(length / free) if free > 0 else float("inf")
-        )
+        net = np.array([float(v * form.net_unit) for v in push])
+        _, error = _distance(form, balls, _column(delta_q, form.x_unit), moved, y)
+        return EnclosedAnswer(delta_q, net, error)
+
+
+def _distance(
+    form: ExactForm, balls: BallForm, x: arb_mat, moved: arb_mat, y: arb_mat
+) -> tuple[arb, float]:
+    """Bound of ||x - x*||_H from a feasible point and multipliers y >= 0, and of the error."""
+    H = arb_mat(form.H)
+    way, off = moved - x, moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
+    gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
+    length = square_root(_product(way, H * way)) + square_root(2 * gap)
+    free = square_root(_product(balls.x_free, H * balls.x_free))
+    return length, nearest_above(length / free) if free > 0 else float("inf")
 
 
 def _feasible(step: StepData, form: ExactForm, balls: BallForm, x: arb_mat) -> arb_mat | None:

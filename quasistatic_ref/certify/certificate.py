@@ -6,15 +6,13 @@ unique. Verification does that in rational numbers alone: it shares the formatio
 with the method that found the answer, not its balls or its walks.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from quasistatic_ref.certify.balls import positive_definite
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
-from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.dependence import idle_rows
 from quasistatic_ref.certify.ellipsoid import ellipsoid_verdict
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.judged import bound_verdict
@@ -160,10 +158,7 @@ def _wrong_claim(
     lam_w: Array,
     slack: Array,
 ) -> str:
-    idle = [i for i, s in enumerate(solution.slack) if not s and i not in working]
-    equations = [[*form.row(i), form.b[i, 0]] for i in idle]
-    spans = dict(zip(idle, implied(form, working, equations), strict=True))
-    spanned, free = [i for i in idle if spans[i]], [i for i in idle if not spans[i]]
+    spanned, free = idle_rows(form, working, solution.slack)
     smooth = differentiable(form, working, free)
     open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
     right = {

@@ -6,8 +6,6 @@ has the conditions P x + c + A'z = 0, s in K, z in the dual cone, s'z = 0 (by bl
 of {0}, s >= 0, second-order cones, and exponential cones cl{(u, v, w) : v exp(u / v) <= w, v > 0}.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -15,8 +15,6 @@ derivatives with respect to A and b: where Z has dependent rows, they exist alon
 keep the dependence (all numbers of one contact), not along those that break it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import fmpq, fmpz, fmpz_mat

@@ -1,7 +1,5 @@
 """What is claimed of an answer in the ellipsoid, and its verification without any solver."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ same bits whatever the warm start was. lam and the working set are one of severa
 choices where the multipliers are not unique.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction

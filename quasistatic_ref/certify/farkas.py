@@ -3,8 +3,6 @@
 If y >= 0, A'y = 0 and b'y > 0, then A delta_q >= b would give 0 = y'A delta_q >= y'b > 0.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -9,14 +9,12 @@ with equality at x = x*. The first term is what lam leaves unbalanced (Eq. :eq:`
 is complementarity (Eq. :eq:`eq-12`): a force where nothing touches cannot hide in it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat
 
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.rational import ExactForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import IMPULSES
@@ -31,7 +29,7 @@ def fractions(values: Array, unit: fmpq) -> list[fmpq]:
         Finite [those of the unit].
     unit : fmpq
     """
-    return [fmpq(*v.as_integer_ratio()) / unit for v in values.tolist()]
+    return [fraction(v) / unit for v in values.tolist()]
 
 
 def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq:
@@ -75,13 +73,13 @@ def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
 
 def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
     """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
-    return bool(gap <= fmpq(*IMPULSES.as_integer_ratio()) * (free_energy(form) + energy(form, x)))
+    return bool(gap <= fraction(IMPULSES) * (free_energy(form) + energy(form, x)))
 
 
 def _nearest_not_below(x: fmpq) -> float:
     """The smallest float64 that is not below a fraction [-]."""
     value = nearest_fraction(x)
-    below = math.isfinite(value) and fmpq(*value.as_integer_ratio()) < x
+    below = math.isfinite(value) and fraction(value) < x
     return math.nextafter(value, math.inf) if below else value
 
 

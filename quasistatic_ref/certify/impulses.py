@@ -1,7 +1,5 @@
 """Impulses in the ellipsoid, and whether they are inside of their cones as they stand."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from flint import arb, fmpq

@@ -10,8 +10,6 @@ regularisation. Nothing here is believed: what comes out is a guess, strictly in
 that :mod:`~quasistatic_ref.certify.enclosure` checks in balls.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

@@ -8,8 +8,6 @@ known: with a feasible x' at the distance w from x, f(x') - d >= f(x') - f(x*) +
 triangle inequality does the rest. Here all of it is rational, and compared without a root.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The KKT system of a working set, solved without rounding."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import cast
 

@@ -1,7 +1,5 @@
 """The norm that errors and lengths are measured in: ||v||_H, with ||v||_H^2 = v'Hv."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +26,10 @@ class EnergyNorm:
     def displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
         return float(_norms((self.L.T @ (v / self.unit))[:, None])[0])
+
+    def impulse(self, p: Array) -> float:
+        """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
+        return float(self.impulses(p[None])[0])
 
     def impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""

@@ -3,8 +3,6 @@
 Nothing here knows which solver gave the answer, or by which interface it was asked.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 
 import numpy as np

@@ -5,15 +5,13 @@ They are those of Eqs. :eq:`eq-1`, :eq:`eq-4`-:eq:`eq-8`, :eq:`eq-13`.
 Each derivative is a rational number in SI units; A and b are affine in every parameter.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.dyadic import Dyadic
-from quasistatic_ref.certify.rational import contact_motion
+from quasistatic_ref.certify.rational import contact_motion, fraction, two_to
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import cone_function, cone_matrix
 
@@ -56,8 +54,8 @@ def parameter_changes(step: StepData) -> list[Change]:
 
 
 def _loads(step: StepData) -> list[Change]:
-    n_a, n_v, h = step.n_a, step.n_v, _fraction(step.h)
-    K = [[_fraction(v) for v in row] for row in step.K_q.tolist()]
+    n_a, n_v, h = step.n_a, step.n_v, fraction(step.h)
+    K = [[fraction(v) for v in row] for row in step.K_q.tolist()]
     rest = [fmpq(0)] * step.n_u
     targets = [
         Change("delta_q_bar_a", f"delta_q_bar_a[{k}]", g=[h * K[i][k] for i in range(n_a)] + rest)
@@ -70,7 +68,7 @@ def _loads(step: StepData) -> list[Change]:
         for k in range(n_v)
     ]
     stiffness = [
-        Change("K_q", f"K_q[{k}, {k}]", H={(k, k): h}, g=_unit(k, n_v, h * _fraction(target)))
+        Change("K_q", f"K_q[{k}, {k}]", H={(k, k): h}, g=_unit(k, n_v, h * fraction(target)))
         for k, target in enumerate(step.delta_q_bar_a.tolist())
     ]
     return targets + forces + stiffness
@@ -104,26 +102,21 @@ def _coefficients(step: StepData) -> list[Change]:
 
 
 def _time_step(step: StepData) -> Change:
-    n_a, h = step.n_a, _fraction(step.h)
-    K = [[_fraction(v) for v in row] for row in step.K_q.tolist()]
-    M = [[_fraction(v) for v in row] for row in step.M_u.tolist()]
-    target = [_fraction(v) for v in step.delta_q_bar_a.tolist()]
+    n_a, h = step.n_a, fraction(step.h)
+    K = [[fraction(v) for v in row] for row in step.K_q.tolist()]
+    M = [[fraction(v) for v in row] for row in step.M_u.tolist()]
+    target = [fraction(v) for v in step.delta_q_bar_a.tolist()]
     H = {(i, j): v for i, row in enumerate(K) for j, v in enumerate(row)}
     H |= {(n_a + i, n_a + j): -v / h**2 for i, row in enumerate(M) for j, v in enumerate(row)}
     pull = [sum((v * t for v, t in zip(row, target, strict=True)), fmpq(0)) for row in K]
-    forces = [_fraction(v) for v in (*step.tau_a.tolist(), *step.tau_u.tolist())]
+    forces = [fraction(v) for v in (*step.tau_a.tolist(), *step.tau_u.tolist())]
     g = [f + (pull[i] if i < n_a else 0) for i, f in enumerate(forces)]
     return Change("h", "h", H=H, g=g)
 
 
 def _vector(exact: Dyadic) -> Vector:
-    unit = fmpq(1 << max(exact.e, 0), 1 << max(-exact.e, 0))
-    return [unit * m for m in exact.m.tolist()]
+    return [two_to(exact.e) * m for m in exact.m.tolist()]
 
 
 def _unit(k: int, n: int, value: fmpq) -> Vector:
     return [value if i == k else fmpq(0) for i in range(n)]
-
-
-def _fraction(x: float) -> fmpq:
-    return fmpq(*float(x).as_integer_ratio())

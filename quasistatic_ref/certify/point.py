@@ -1,10 +1,9 @@
 """The minimiser on a working set, with every sign that is asked of it decided exactly.
 
 A sign is read from balls where they show it, from an exact linear dependence where a row is one,
-and from the rational solution of the KKT system otherwise. The last is the dearest, and kept.
+and from the rational solution of the KKT system otherwise. That solution takes the
+longest to compute, and is kept for the next sign.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -75,7 +74,7 @@ class Point:
     def spanned(self, rows: Sequence[int]) -> list[int]:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
-        equations = [[*self.form.row(i), self.form.b[i, 0]] for i in new]
+        equations = [self.form.equation(i) for i in new]
         if new:
             self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
         return [i for i in rows if self._implied[i]]

@@ -12,8 +12,6 @@ the order of summation. All quantities are brought to integers by one positive f
 so that the exact problem is one in integers, and its answer is scaled back at the end.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -77,6 +75,10 @@ class ExactForm:
         """Return row i of A."""
         return [self.A[i, v] for v in range(self.n)]
 
+    def equation(self, i: int) -> list[fmpz]:
+        """Row i of A, and b_i after it: n + 1 numbers."""
+        return [*self.row(i), self.b[i, 0]]
+
 
 def exact_form(step: StepData) -> ExactForm:
     """H, g, A, b of a step, without rounding.
@@ -98,7 +100,7 @@ def exact_form(step: StepData) -> ExactForm:
     gaps = row_gaps(step.contacts, step.cone)[step.mask]
     A = joined([rows, dyadic(step.extra.A)])  # Eq. (8)
     b = joined([dyadic(-gaps), dyadic(step.extra.b)])
-    return _in_integers(H, g, A, b, _fraction(step.h))
+    return _in_integers(H, g, A, b, fraction(step.h))
 
 
 def h_times_hessian(step: StepData) -> Dyadic:
@@ -194,10 +196,10 @@ def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactFo
         g=matrix(g_m[:, None]),
         A=matrix(A.m),
         b=matrix(b_m[:, None]),
-        x_unit=_two_to(e_x),
-        slack_unit=_two_to(A.e + e_x),
-        lam_unit=_two_to(H.e + e_x - A.e) / h,
-        net_unit=_two_to(H.e + e_x) / h,
+        x_unit=two_to(e_x),
+        slack_unit=two_to(A.e + e_x),
+        lam_unit=two_to(H.e + e_x - A.e) / h,
+        net_unit=two_to(H.e + e_x) / h,
     )
 
 
@@ -206,9 +208,11 @@ def matrix(m: Integers) -> fmpz_mat:
     return fmpz_mat(m.shape[0], m.shape[1], m.ravel().tolist())
 
 
-def _two_to(e: int) -> fmpq:
+def two_to(e: int) -> fmpq:
+    """The power of two of a whole exponent [-]."""
     return fmpq(1 << max(e, 0), 1 << max(-e, 0))
 
 
-def _fraction(x: float) -> fmpq:
+def fraction(x: float) -> fmpq:
+    """A float64 number of any unit, without rounding [the same unit]."""
     return fmpq(*x.as_integer_ratio())

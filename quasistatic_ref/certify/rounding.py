@@ -1,7 +1,5 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from fractions import Fraction

@@ -3,8 +3,6 @@
 The rows of A are contact-major; the user's own rows come last, as if of one contact more.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -17,8 +17,6 @@ for independent rows W that span S. Whether they stay is decided for each parame
 - A friction coefficient that is zero cannot become smaller.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -26,7 +24,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.degeneracy import strictly_active
-from quasistatic_ref.certify.dependence import combination, implied, independent_rows
+from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.parameters import Change, parameter_changes
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -128,13 +126,9 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
 
 
 def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
-    solution = rational_solution(form, working)
-    rest = [i for i, s in enumerate(solution.slack) if not s and i not in working]
-    equations = [[*form.row(i), form.b[i, 0]] for i in rest]
-    spans = dict(zip(rest, implied(form, working, equations), strict=True)) if rest else {}
-    free = [i for i in rest if not spans[i]]
+    spanned, free = idle_rows(form, working, rational_solution(form, working).slack)
     also = strictly_active(form, working, free)
-    strict = (*working, *(i for i in rest if spans[i]), *also)
+    strict = (*working, *spanned, *also)
     idle = tuple(i for i in free if i not in also)
     return Active(independent_rows(form, strict), strict, idle)
 

@@ -1,7 +1,5 @@
 """Whether a claim holds, and why not."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@ moving lam along a dependence of the pressed rows changes neither A'lam nor the 
 move empties one of them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

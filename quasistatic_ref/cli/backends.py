@@ -1,7 +1,5 @@
 """``backends``: the solvers that can be chosen here."""
 
-from __future__ import annotations
-
 import argparse
 
 from quasistatic_ref.cli import options as shared

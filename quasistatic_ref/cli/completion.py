@@ -1,7 +1,5 @@
 """``completion SHELL``: a script by which a shell completes the arguments of this program."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path
@@ -25,7 +23,7 @@ def run(options: argparse.Namespace) -> int:
     """Print the script."""
     from quasistatic_ref.cli.main import COMMANDS, command_parser
 
-    parser, _ = command_parser(COMMANDS)
+    parser = command_parser(COMMANDS)
     _prepare(parser)
     print(shtab.complete(parser, options.shell))
     return 0

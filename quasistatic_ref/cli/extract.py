@@ -1,7 +1,5 @@
 """``extract TRAJECTORY.npz --step K -o STEP.json``: one step of a trajectory as a step file."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

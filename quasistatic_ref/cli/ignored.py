@@ -1,7 +1,5 @@
 """What the model ignores of the files it was given, in one line each."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 

@@ -1,9 +1,8 @@
 """``inspect URDF|SCENARIO``: coordinates in order, shapes, masses, and what the model ignores."""
 
-from __future__ import annotations
-
 import argparse
 import re
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.cli.shape_words import shape_words
+from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.resources import scenario_names
@@ -59,6 +59,7 @@ def system_record(system: System) -> dict[str, Any]:
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
         ],
+        "mimics": [asdict(mimic) for mimic in system.mimics],
         "n_a": system.n_a,
         "n_u": system.n_u,
         "links": [
@@ -92,11 +93,17 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record |= {"engine": scenario.engine, "cone": scenario.cone}
+    record |= {"engine": scenario.engine, "cone": scenario.cone, "steps_by": steps_by(scenario)}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["fields"] = named_fields(scenario.path)
     return record
+
+
+def steps_by(scenario: Scenario) -> str:
+    """What takes the steps of a scenario, in words."""
+    fast = compiled("step")
+    return f"NumPy: {why_not()}" if fast is None else fast.taken_by(scenario.simulator())
 
 
 def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
@@ -118,6 +125,8 @@ def _print(record: dict[str, Any]) -> None:
         stiffness = f"{c['K_q']:g} {'N/m' if c['unit'] == 'm' else 'N m/rad'}" if "K_q" in c else ""
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
+    for m in record["mimics"]:
+        print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()
     rows, notes = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]")], []
     for link in record["links"]:
@@ -137,6 +146,7 @@ def _print(record: dict[str, Any]) -> None:
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
         print(f"solved by {record['backend']}, engine {record['engine']}")
+        shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         shared.print_wrapped(sentence, "  ", "- ")
@@ -145,6 +155,6 @@ def _print(record: dict[str, Any]) -> None:
         for line in field_lines(record["fields"]):
             print(f"  {line}")
     if record["notes"]:
-        print("\nit takes otherwise than written:")
+        print("\nthe model differs from its files in:")
     for sentence in record["notes"]:
         shared.print_wrapped(sentence, "  ", "- ")

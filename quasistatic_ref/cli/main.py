@@ -3,14 +3,12 @@
 Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 130 interrupted.
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import os
 import re
 import sys
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -32,10 +30,10 @@ COMMANDS = {
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
-    "schema": "print the JSON Schema of scenario files, by which editors complete and check them",
+    "schema": "print the JSON Schema of scenario or study files, for editors",
     "completion": "print a script by which bash, zsh or fish complete these commands",
 }
-LABS = ("demo", "vectors", "validate", "study", "figures", "bench")
+LABS = ("demo", "vectors", "validate", "study", "figures", "bench", "schema")
 """Commands that do something with the core rather than are part of it."""
 
 
@@ -48,11 +46,20 @@ class Parser(argparse.ArgumentParser):
         hint = ""
         if unknown := re.search(r"invalid choice: '([^']*)'", message):
             hint = suggestion(unknown[1], re.findall(r"\w+", choices))
-        elif unknown := re.search(r"unrecognized arguments: (--[\w-]+)", message):
-            hint = nearest_name(unknown[1], self._option_string_actions)
+        elif unknown := re.search(r"unrecognized arguments: --([\w-]+)(?: ([^\s=]+)(?!\S))?", said):
+            hint = nearest_name(f"--{unknown[1]}", self._option_string_actions)
+            if "'--set'" in hint and unknown[2]:  # --steps 5
+                hint = f"; did you mean '--set {unknown[1]}={unknown[2]}'?"
         elif unknown := re.search(r"unrecognized arguments: ([\w.]+=\S+)", message):
             hint = f"; did you mean '--set {unknown[1]}'?"
         super().error(f"{said}{hint}")
+
+    def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # overloads
+        """Nothing is left over: the command or action that was given it prints its own usage."""
+        found, unknown = super().parse_known_args(*arguments)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return found, unknown
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -77,10 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     asked = next((argument for argument in given if not argument.startswith("-")), None)
     # Only the command that is used declares its options: their modules may be heavy.
-    parser, commands = command_parser([asked])
-    options, unknown = parser.parse_known_args(given)
-    if unknown:  # in the words of the command, whose usage is printed
-        commands[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
+    options = command_parser([asked]).parse_args(given)
     try:
         return _status(options)
     except InputError as error:
@@ -102,8 +106,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(f"standard output: cannot be written: {reason}", 2)
 
 
-def command_parser(asked: Container[str | None]) -> tuple[Parser, Mapping[str, Parser]]:
-    """The parser of all commands, and that of each; those that are asked for have options."""
+def command_parser(asked: Container[str | None]) -> Parser:
+    """The parser of all commands, of which those that are asked for have options."""
     parser = Parser(
         prog="quasistatic-ref",
         description="Convex quasi-dynamic simulation with torsional friction: the reference.",
@@ -114,7 +118,15 @@ def command_parser(asked: Container[str | None]) -> tuple[Parser, Mapping[str, P
         command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
         if name in asked:
             _module(name).add_options(command)
-    return parser, commands.choices
+            for last in _actions(command):
+                last.add_argument("--quiet", action="store_true", help="show no progress")
+    return parser
+
+
+def _actions(command: Parser) -> list[Parser]:
+    """The parsers of a command's actions; its own, if it has none."""
+    below = (a for a in command._actions if isinstance(a, argparse._SubParsersAction))
+    return [action for choice in below for action in choice.choices.values()] or [command]
 
 
 def _module(command: str) -> Any:

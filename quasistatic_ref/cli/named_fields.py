@@ -1,7 +1,5 @@
 """The fields of a scenario's file by the names that ``--set`` takes."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Iterator, Mapping

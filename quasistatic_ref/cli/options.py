@@ -1,7 +1,5 @@
 """Options and habits that several commands share."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import textwrap
@@ -34,7 +32,6 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
         "help": "change a field of the scenario, e.g. contacts.grip.mu_omega=0",
     },
     "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
-    "--quiet": {"action": "store_true", "help": "show no progress"},
 }
 SOLVER: Final = ("--backend", "--engine", "--cone", "--certify")
 

@@ -1,7 +1,5 @@
 """``run SCENARIO``: simulate a scenario and write its trajectory."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
@@ -31,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
-    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
+    shared.add(parser, *shared.SOLVER, "--set", "--json")
     shared.add_resume(parser)
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"

@@ -1,7 +1,5 @@
 """Shapes in words: kind and size."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.model import shapes

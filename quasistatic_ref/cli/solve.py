@@ -1,7 +1,5 @@
 """``solve STEP.json``: solve one step file."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``verify STEP.json SOLUTION.json``: re-check an answer, and its certificate, without a solver."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

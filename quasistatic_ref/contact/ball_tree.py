@@ -1,7 +1,5 @@
 """A tree of balls over a large cloud, built once, flat enough to be walked by whole levels."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Short lists of several clouds, measured by few NumPy calls, and the proof that they suffice."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from operator import methodcaller
 from typing import NamedTuple
@@ -43,7 +41,7 @@ class Nearest(NamedTuple):
     point: Indices
     proved: Mask
 
-    def chosen(self, order: Indices) -> Nearest:
+    def chosen(self, order: Indices) -> "Nearest":
         """The same contacts in another order, shape (k,)."""
         phi, normal, local, point = map(methodcaller("take", order, axis=-1), self[:-1])
         return Nearest(phi, normal, local, point, self.proved)
@@ -93,9 +91,9 @@ class Batch:
         self.start = np.repeat(np.arange(self.r) * W, n_c)
         self.ranked = self.start + np.concatenate([np.arange(n) for n in n_c])
         self.furthest = np.cumsum(n_c) - 1
-        bounds = [_bounds(made, box) for made, box in zip(lists, boxes, strict=True)]
-        self.slope = np.array([slope for slope, _ in bounds])
-        self.offset = np.array([offset for _, offset in bounds])
+        of_lists = [bounds(made, box) for made, box in zip(lists, boxes, strict=True)]
+        self.slope = np.array([slope for slope, _ in of_lists])
+        self.offset = np.array([offset for _, offset in of_lists])
 
     def nearest(self, poses: PairPoses) -> Nearest:
         """The closest points at the poses of all pairs."""
@@ -157,9 +155,21 @@ class Batch:
         return limit
 
 
-def _bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
-    """Functions of the pose, slope . [R, t] + offset, of which the least is the limit of a list.
+def bounds(made: Shortlist, box: Array) -> tuple[Array, Array]:
+    """Functions of the pose, slope . [R, t] + offset [m], of which the least is a list's limit.
 
+    Parameters
+    ----------
+    made : Shortlist
+    box : ndarray, shape (8, 3)
+        Corners of the box around the cloud, in its frame [m].
+
+    Returns
+    -------
+    ndarray, shape (48 + 48, 12), and ndarray, shape (48 + 48,)
+
+    Notes
+    -----
     A point that moves by u has its height changed by n . u, its distance by |u| at most, and what
     is rounded by UNSEEN |u|. All these are concave in u, and u is affine in the point: over the
     box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.

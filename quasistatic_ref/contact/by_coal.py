@@ -9,8 +9,6 @@ coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two
 nothing, until its size is about one; every number below is relative to that size.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple

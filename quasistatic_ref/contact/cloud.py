@@ -9,8 +9,6 @@ Closed forms throughout. (Coal is right for sphere, box, capsule and half-space,
 with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, ours is not.)
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.curved import distance_to_cone, distance_to_ellipsoid

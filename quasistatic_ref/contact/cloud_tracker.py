@@ -5,8 +5,6 @@ measured, with a proof at each step that no other point can be among the k close
 where the proof fails, the list is made anew. docs/distances.md derives the bounds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from weakref import WeakKeyDictionary
 

@@ -1,7 +1,5 @@
 """Corners: the points of a shape that can carry a load where it lies flat on another."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh

@@ -4,8 +4,6 @@ As in :mod:`~quasistatic_ref.contact.cloud`: points in the shape's own frame in,
 outward normals out.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.step.data import Array

@@ -7,8 +7,6 @@ distance of a point, which is a closed form, has its minimum. The candidate that
 support function proves is the answer. (coal's normals are off by 1e-6, near contact by 1e-4.)
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 

@@ -6,8 +6,6 @@ distance are kept, those that repeat an earlier one after all others, and so the
 k corners are as near. None is nearer than the closest pair, so k = 1 asks for that one alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from operator import itemgetter
 from typing import NamedTuple
@@ -48,11 +46,11 @@ class ClosestPoints(NamedTuple):
     n: Array
     point: Indices
 
-    def swapped(self) -> ClosestPoints:
+    def swapped(self) -> "ClosestPoints":
         """The same contacts with alpha's and beta's bodies exchanged."""
         return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
 
-    def chosen(self, index: Indices) -> ClosestPoints:
+    def chosen(self, index: Indices) -> "ClosestPoints":
         """The contacts of an `index` of shape (k,), in its order."""
         return ClosestPoints(*map(itemgetter(index), self))
 

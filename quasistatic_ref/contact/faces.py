@@ -5,8 +5,6 @@ that point, and Hessian D(n). It has a kink where more than one is: along the ci
 the normals of an edge, a side or a slant, and at the one normal of a flat face.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -39,7 +37,7 @@ class Kinks(NamedTuple):
     levels: Array
     normals: Array
 
-    def near(self, n: Array, within: float) -> Kinks:
+    def near(self, n: Array, within: float) -> "Kinks":
         """Those near a direction.
 
         Parameters

@@ -1,7 +1,5 @@
 """Signed distance of points to a convex polytope, vectorised over points and triangles."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh
@@ -95,7 +93,8 @@ def dot(a: Array, b: Array) -> Array:
         [the product of both units].
     """
     # Not `@` or einsum: the order of the sum must not depend on the number of points.
-    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
+    products = a * b
+    return np.asarray(products[..., 0] + products[..., 1] + products[..., 2])
 
 
 def norm(vectors: Array) -> Array:

@@ -1,7 +1,5 @@
 """Contact Jacobians, Eqs. :eq:`eq-2`-:eq:`eq-3`, and the contacts of a step."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """What may touch what, and how rough it is. The user's contact numbers live here, nowhere else."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

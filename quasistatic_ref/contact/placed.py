@@ -1,7 +1,5 @@
 """A shape with its pose in the world, and what a pair of them is asked for."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from quasistatic_ref.contact.support import support_point, support_value
@@ -33,6 +31,6 @@ class Witness(NamedTuple):
     beta: Array
     n: Array
 
-    def swapped(self) -> Witness:
+    def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, -self.n)

@@ -3,8 +3,6 @@
 A capsule is a segment with a margin, its radius. So box, convex mesh and capsule are one family.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -49,7 +47,7 @@ class Polytope:
     edges: Indices
     sides: Indices
 
-    def moved(self, R: Array, t: Array) -> Polytope:
+    def moved(self, R: Array, t: Array) -> "Polytope":
         """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""
         normals = self.normals @ R.T
         offsets = self.offsets + normals @ t

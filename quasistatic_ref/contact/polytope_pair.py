@@ -7,8 +7,6 @@ or at the common normal of an edge of each whose arcs on the Gauss sphere cross;
 between two corners, or a corner and an edge.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.placed import Witness

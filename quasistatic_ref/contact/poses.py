@@ -1,7 +1,5 @@
 """Where the two sides of many pairs are, all at once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -59,11 +57,12 @@ class Placements:
         pair's pose does not depend on the others.
         """
         world = R.take(self.link, axis=0) @ self.on_link
-        world[..., 3] += t.take(self.link, axis=0)
-        solids, points = world[: self.P], world[self.P :].copy()
-        points[..., 3] -= solids[..., 3]
-        relative = solids[..., :3].transpose(0, 2, 1) @ points
-        return PairPoses(world[..., :3], world[..., 3], relative)
+        rotation, origin = world[..., :3], world[..., 3]
+        origin += t.take(self.link, axis=0)
+        apart = world[self.P :].copy()  # the points' poses, from the origins of their solids
+        apart[..., 3] = origin[self.P :] - origin[: self.P]
+        relative = rotation[: self.P].transpose(0, 2, 1) @ apart
+        return PairPoses(rotation, origin, relative)
 
 
 def rotated(R: Array, points: Array) -> Array:

@@ -6,8 +6,6 @@ n is on no kink of the two reaches, on one circle, on the crossing of two, or th
 face; on each of these the gap is smooth, with first and second derivatives in closed form.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import combinations

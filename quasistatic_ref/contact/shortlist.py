@@ -3,8 +3,6 @@
 docs/distances.md derives the two bounds that keep all other points out.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

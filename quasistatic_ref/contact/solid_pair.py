@@ -6,8 +6,6 @@ ellipsoid that are apart. The others, curved solids that meet, and cones and ell
 themselves, start from coal's answer, which is refined and proved.
 """
 
-from __future__ import annotations
-
 from quasistatic_ref.contact.by_coal import coal_witness
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.curved_pair import curved_witness

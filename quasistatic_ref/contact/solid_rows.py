@@ -1,7 +1,5 @@
 """Signed distances of rows of points, each row to a solid of its own, by few NumPy calls."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,6 +10,7 @@ from quasistatic_ref.contact.cloud import (
     rounded_box,
     signed_distance,
 )
+from quasistatic_ref.contact.hull import dot
 from quasistatic_ref.model.shapes import HalfSpace, Shape
 from quasistatic_ref.step.data import Array
 
@@ -76,8 +75,7 @@ class SolidRows:
                 x[self.boxes], self.half_extents, self.ball
             )
         if len(self.n):
-            level = x[self.planes] * self.n
-            phi[self.planes] = level[:, 0] + level[:, 1] + level[:, 2] - self.offset
+            phi[self.planes] = dot(x[self.planes], self.n) - self.offset
         for row, shape in self.others:
             given = ~np.isnan(x[row, 0])
             phi[row], normal[row] = np.nan, np.nan

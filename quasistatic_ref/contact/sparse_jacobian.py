@@ -1,7 +1,5 @@
 """Contact Jacobians of many bodies: of each contact only the columns that move it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints

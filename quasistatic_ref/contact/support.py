@@ -1,7 +1,5 @@
 """The farthest point of each shape along a direction, and what it proves about a pair."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.cloud import Rounded, rounded_box

@@ -1,7 +1,5 @@
 """The contacts of all pairs, followed from step to step: the same bits as the brute force."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

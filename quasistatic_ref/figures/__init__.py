@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.figures.style import figure_written as figure_written
     from quasistatic_ref.figures.style import panels as panels
     from quasistatic_ref.figures.style import style_file as style_file
-    from quasistatic_ref.figures.style import styled as styled
 
 _HOMES = {
     "animation": "animate",
@@ -26,7 +25,7 @@ _HOMES = {
     "draw": "draw_scene",
     "legible": "faults",
     "moments": "moment",
-    "style": "Figure figure_style figure_written panels style_file styled",
+    "style": "Figure figure_style figure_written panels style_file",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

@@ -1,7 +1,5 @@
 """A trajectory as a film: an animated GIF, or MP4 where ffmpeg is there."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,7 +11,7 @@ from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.draw import draw_scene
+from quasistatic_ref.figures.draw import draw_scene, force_scale
 from quasistatic_ref.figures.moments import extent, frames
 from quasistatic_ref.figures.style import figure_style, sized
 from quasistatic_ref.files import bytes_written
@@ -32,10 +30,11 @@ def animate(
     path: str | Path,
     *,
     view: str | Camera = VIEW,
-    fps: int = FRAMES_PER_SECOND,
+    fps: float = FRAMES_PER_SECOND,
+    speed: float = 1.0,
     **options: Any,
 ) -> Path:
-    """Write a film of a run, in real time.
+    """Write a film of a run, in real time or slower or faster, with the scale of its forces.
 
     Parameters
     ----------
@@ -45,8 +44,10 @@ def animate(
     path : str or Path
         Ending in .gif or .mp4; without an ending, MP4 where ffmpeg is there and GIF elsewhere.
     view : str or Camera
-    fps : int
-        Frames per second, at least 1; no more than there are steps.
+    fps : float
+        Frames in a second of the film [1/s]; no more than there are steps.
+    speed : float
+        Seconds of the run in a second of the film [-]: 0.25 is slow motion.
     options
         Further arguments of :func:`~quasistatic_ref.figures.draw.draw_scene`.
 
@@ -58,27 +59,31 @@ def animate(
     Raises
     ------
     InputError
-        If the ending is another one, the run has no steps, or ffmpeg is not there for MP4.
+        If the ending is another one, the run has no steps, the speed is not positive, or ffmpeg is
+        not there for MP4.
     """
     path = _with_ending(Path(path))
-    moments, fps_shown = frames(scenario, run, fps)
+    if not 0 < speed < np.inf:
+        raise InputError("must be positive and finite", field="speed", value=speed)
+    moments, shown = frames(scenario, run, fps / speed)
     boxes = np.array([extent(m) for m in moments])
     centre = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
     half = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) / 2
-    most = max((float(np.linalg.norm(c.force)) for m in moments for c in m.contacts), default=0.0)
     fixed: dict[str, Any] = {
-        "view": view, "around": (centre, half), "legend": False, "parts": ("contacts", "forces"),
-        "metres_per_newton": 0.5 * half / most if most > 0 else 0.0,
+        "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
+        "metres_per_newton": force_scale(moments, view, half),
     } | options  # fmt: skip
-    writer: Any = WRITERS[path.suffix](fps=fps_shown)  # type: ignore[arg-type]  # of any number
+    writer: Any = WRITERS[path.suffix](fps=speed * shown)  # type: ignore[arg-type]  # of any number
+    pace = "" if speed == 1 else f", speed {speed:g}"
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
-        figure, axes = plt.subplots(figsize=sized(4.0, 4.0))
+        figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")
+        draw_scene(axes, moments[0], **fixed)  # before there is a film: a wrong option says so
         film = Path(folder) / path.name
         with writer.saving(figure, str(film), DOTS_PER_INCH):
             for m in moments:
                 axes.clear()
                 draw_scene(axes, m, **fixed)
-                axes.set_title(f"t = {m.t:.2f} s")
+                figure.suptitle(f"t = {m.t:.2f} s{pace}")
                 writer.grab_frame()
         plt.close(figure)
         return bytes_written(path, film.read_bytes())

@@ -1,7 +1,5 @@
 """An orthographic camera."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

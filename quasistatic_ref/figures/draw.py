@@ -1,8 +1,6 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
-from __future__ import annotations
-
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -10,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.moments import DrawnContact, Moment, extent
+from quasistatic_ref.figures.moments import BEARING, DrawnContact, Moment, extent
 from quasistatic_ref.figures.pens import (
     CONE_EDGE,
     CONE_FACE,
@@ -21,15 +19,18 @@ from quasistatic_ref.figures.pens import (
     Pen2D,
     Pen3D,
 )
-from quasistatic_ref.figures.style import figure_style, scaled
+from quasistatic_ref.figures.style import room, scaled
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
-LONGEST, FRAME = 0.3, 0.1
+LONGEST, FRAME = 0.4, 0.1
 """Of the scene's size: the longest force, where no scale is given; the axes of a contact frame."""
 
 MARGIN, PADDING = 1.1, 0.1
 """Around everything, as a factor; and on each side, as a share of half the scene's size."""
+
+BESIDE: Final = 0.85
+"""Share of a cell's width that is above the axes, not above the labels beside it [-]."""
 
 SIGNS: Final = np.array([[-1.0], [1.0]])
 FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
@@ -62,31 +63,40 @@ def draw_scene(
     parts : collection of str
         Of ``PARTS``.
     metres_per_newton : float, optional
-        Length of a force of 1 N [m/N]; by default the largest fits.
+        Length of a force of 1 N [m/N]; by default the largest in view fits.
     around : tuple of ndarray and float, optional
         Centre, shape (3,), and half the width [m] of what is shown; everything by default.
     legend : bool
-        Whether to write above the figure what is what, and the scale of forces.
+        Whether to write above the axes what is what, and the scale of forces.
     """
     box = extent(of)
     if around is not None:
         box = around[0] + around[1] * SIGNS
     centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
-    most = max((float(np.linalg.norm(c.force)) for c in of.contacts), default=0.0)
+    flat = axes.name != "3d"
     if metres_per_newton is None:
-        metres_per_newton = round_scale(2 * LONGEST * half / most) if most > 0 else 0.0
-    camera = PLANES[view] if isinstance(view, str) else view
-    pen: Pen = Pen3D(axes) if axes.name == "3d" else Pen2D(axes, camera)
+        metres_per_newton = force_scale([of], view if flat else None, half)
+    pen: Pen = Pen2D(axes, camera_of(view)) if flat else Pen3D(axes)
     pen.bodies(of, centre, half)
     for contact, bears in zip(of.contacts, of.bearing, strict=True):
         if "contacts" in parts:
             pen.dot(contact.beta, bool(bears))
         if bears:
             _draw_contact(pen, contact, parts, metres_per_newton, 2 * FRAME * half)
+    if around is None:
+        tips = [c.beta + metres_per_newton * at for c in of.contacts for at in _tips(c, parts)]
+        every = np.array([*box, *tips])
+        box = np.array([every.min(axis=0), every.max(axis=0)])
+        centre = box.mean(axis=0)
     pen.finish(centre + (box - centre) * MARGIN + PADDING * half * SIGNS, view)
     if legend and of.contacts:
-        with figure_style():
-            _legend(axes, of, parts, metres_per_newton)
+        _legend(axes, of, parts, metres_per_newton)
+
+
+def _tips(of: DrawnContact, parts: Collection[str]) -> list[Array]:
+    """Forces up to which a contact is drawn, each of shape (3,) [N]."""
+    rim = list(of.rim) if "cones" in parts and of.mu_v > 0 else []
+    return [*rim, of.force] if "forces" in parts else rim
 
 
 def _draw_contact(
@@ -107,6 +117,33 @@ def _draw_contact(
         pen.arrow(of.beta, scale * of.force)
 
 
+def camera_of(view: str | Camera) -> Camera:
+    """The camera of a view: one of ``PLANES`` by its name, or that which is given."""
+    return PLANES[view] if isinstance(view, str) else view
+
+
+def force_scale(moments: Sequence[Moment], view: str | Camera | None, half: float) -> float:
+    """Length at which a force of 1 N is drawn so that the largest in view fits [m/N].
+
+    Zero where there are no forces.
+
+    Parameters
+    ----------
+    moments : sequence of Moment
+    view : str, Camera or None
+        None in three dimensions. What of a force is along the view cannot be seen.
+    half : float
+        Half the scene's size [m].
+    """
+    forces = np.array([c.force for m in moments for c in m.contacts]).reshape(-1, 3)
+    most = seen = float(np.linalg.norm(forces, axis=1).max(initial=0.0))
+    if view is not None:
+        seen = float(np.linalg.norm(camera_of(view).seen(forces)[:, :2], axis=1).max(initial=0.0))
+    if seen < BEARING * most:  # every force is along the view
+        seen = most
+    return round_scale(2 * LONGEST * half / seen) if seen > 0 else 0.0
+
+
 def round_scale(scale: float) -> float:
     """Largest of 1, 2, 5 times a power of ten that is not above `scale` [of the same unit]."""
     power = 10.0 ** np.floor(np.log10(scale))
@@ -114,20 +151,37 @@ def round_scale(scale: float) -> float:
 
 
 def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None:
-    """One line above the figure."""
+    """What is what, above the axes, in as few lines as there is room for."""
     handles: list[Any] = []
     if "forces" in parts and scale > 0:
-        label = f"force: 1 N is {MILLI * scale:g} mm"
+        label = f"1 N is {MILLI * scale:g} mm"
         handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=scaled(4), label=label))
     rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
     if "cones" in parts and rough:
-        label = "what friction allows"
+        label = "friction cone"
         handles.append(Patch(facecolor=CONE_FACE, edgecolor=CONE_EDGE, alpha=0.5, label=label))
     if "frames" in parts and of.bearing.any():
         for label, dashes in FRAME_LINES:
             handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
-    if handles:
-        axes.get_figure().legend(
-            handles=handles, ncols=len(handles), loc="outside upper center",
-            columnspacing=1.0, handlelength=1.8,
+    legend_above(axes, handles)
+
+
+def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
+    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
+
+    Parameters
+    ----------
+    axes : Axes
+    handles : sequence of Artist
+        With their labels.
+    title : str
+        Above the entries.
+    """
+    for columns in range(len(handles), 0, -1):
+        legend = axes.legend(
+            handles=handles, title=title, ncols=columns,
+            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
+            handlelength=1.8, borderaxespad=0.2,
         )  # fmt: skip
+        if legend.get_window_extent().width <= BESIDE * room(axes)[0]:
+            return

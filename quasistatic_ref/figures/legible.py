@@ -1,13 +1,13 @@
-"""Whether a figure can be read on a page: units, size of text, lines told apart without colour."""
-
-from __future__ import annotations
+"""Whether a figure can be read on a page: units, text, lines told apart without colour."""
 
 import re
 from collections.abc import Iterator
 from itertools import combinations
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.colors import to_rgb
@@ -16,10 +16,16 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from quasistatic_ref.figures.style import PAGE, STYLES, figure_style
+from quasistatic_ref.figures.style import PAGE, figure_style
 
 LEAST: Final = 7.0
-"""Least size of text where the figure is printed [pt]."""
+"""Least size of text where the figure is printed on a page [pt]."""
+
+SLACK: Final = 1.0
+"""How far text may reach out of a figure [pixels]: boxes are rounded."""
+
+INNER: Final = 0.2
+"""Rim of a box of text in which there are no letters, over the size of the font [-]."""
 
 GREY: Final = 0.15
 """Least difference in luminance of two fills that grey can tell apart [-]; black to white is 1."""
@@ -33,26 +39,61 @@ NUMBER = re.compile(
 )
 
 
-def faults(figure: Figure, style: str = "paper") -> list[str]:
+def faults(figure: Figure, style: str | Path = "paper") -> list[str]:
     """What is wrong with a figure, a sentence each; none if it is legible.
 
     Parameters
     ----------
     figure : Figure
-    style : str
-        The one that it was drawn in: printed at no more than the width of a page, or of a slide
-        of ``STYLES[style]`` times that width.
+    style : str or Path
+        The one that it was drawn in. The figure is printed as wide as a page at most; where the
+        style's ``figure.figsize`` is wider, so is its page, and it is seen from farther away.
     """
     with figure_style(style):
         figure.canvas.draw()
-        width = figure.get_tightbbox().width
-        shrunk = min(1.0, PAGE * STYLES[style] / width)
-        found = list(_small_text(figure, shrunk, LEAST * STYLES[style]))
+        whole = max(PAGE, float(plt.rcParams["figure.figsize"][0]))
+        shrunk = min(1.0, whole / figure.get_tightbbox().width)
+        found = list(_small_text(figure, shrunk, LEAST * whole / PAGE))
+        found += _lost_text(figure)
         for k, axes in enumerate(figure.axes):
             where = axes.get_title() or axes.get_title("right") or axes.get_title("left")
             where = f"axes {k} ({where})" if where else f"axes {k}"
             found += [f"{where}: {fault}" for fault in (*_labels(axes), *_alike(axes))]
     return found
+
+
+def _drawn_texts(figure: Figure) -> list[Text]:
+    """Every text that is drawn: no empty one, none of a tick beyond the ends of its axis."""
+    beyond = set()
+    for axes in figure.axes:
+        for _, axis in _axis_map(axes):
+            low, high = sorted(axis.get_view_interval())
+            slack = 1e-9 * (high - low)
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                if not axes.axison or not low - slack <= tick.get_loc() <= high + slack:
+                    beyond |= {tick.label1, tick.label2}
+    texts = (t for t in figure.findobj(Text) if t.get_visible() and t not in beyond)
+    return [text for text in texts if text.get_text().strip()]
+
+
+def _lost_text(figure: Figure) -> Iterator[str]:
+    """Text that reaches out of the figure, and text upon text."""
+    width, height = figure.bbox.size
+    level = []
+    for text in _drawn_texts(figure):
+        box, name = text.get_window_extent(), repr(text.get_text())
+        for (low, high), most, way in (
+            (box.intervalx, width, "across"),
+            (box.intervaly, height, "up"),
+        ):
+            if low < -SLACK or high > most + SLACK:
+                yield f"{name} reaches from {low:.0f} to {high:.0f} of {most:.0f} pixels {way}"
+        if text.get_rotation() % 90 == 0:  # the box of slanted text is larger than the text
+            rim = INNER * float(text.get_fontsize()) * figure.dpi / 72
+            level.append((name, box.padded(-rim)))
+    for (one, here), (other, there) in combinations(level, 2):
+        if here.overlaps(there):
+            yield f"{one} and {other} lie on each other"
 
 
 def _axis_map(axes: Any) -> list[tuple[str, Any]]:
@@ -61,9 +102,9 @@ def _axis_map(axes: Any) -> list[tuple[str, Any]]:
 
 
 def _small_text(figure: Figure, shrunk: float, least: float) -> Iterator[str]:
-    for text in figure.findobj(Text):
+    for text in _drawn_texts(figure):
         size = float(text.get_fontsize()) * shrunk
-        if text.get_text().strip() and text.get_visible() and size < least - 0.01:
+        if size < least - 0.01:
             yield f"{text.get_text()!r} is printed at {size:.1f} pt, less than {least:g}"
 
 

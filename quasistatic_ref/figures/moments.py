@@ -1,7 +1,5 @@
 """One instant of a run as something that can be drawn: bodies placed, contacts, forces."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

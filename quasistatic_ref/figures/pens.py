@@ -1,7 +1,5 @@
 """Pens: world points drawn in millimetres, as a camera sees them or in three dimensions."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from contextlib import suppress
 from typing import Any, Final
@@ -241,6 +239,6 @@ class Pen3D(Pen):
         for k, name in enumerate("xyz"):
             self.axes.set(**{f"{name}lim": (low[k], high[k]), f"{name}label": f"{name} [mm]"})
             getattr(self.axes, f"{name}axis").set_major_locator(MaxNLocator(4))
-        self.axes.set_box_aspect((1, 1, 1))
+        self.axes.set_box_aspect((1, 1, 1), zoom=0.85)  # labels are not laid out: leave room
         camera = view if isinstance(view, Camera) else Camera(-60, 20)
         self.axes.view_init(elev=camera.elevation, azim=camera.azimuth)

@@ -1,7 +1,5 @@
 """Shapes as points whose hull looks like them, and hulls as polygons."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import ConvexHull
 

@@ -1,7 +1,5 @@
 """Objects, places and animations as three.js and meshcat's viewer read them, in plain JSON."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

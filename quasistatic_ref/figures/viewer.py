@@ -4,8 +4,6 @@ meshcat is needed for one file of JavaScript only, its viewer; what that file is
 as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
 """
 
-from __future__ import annotations
-
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The grasp of the bunny, the paper's section III-B: its two cases and what a run came to."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Runs of the scenarios that come along, each made once for all that look at it."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from quasistatic_ref.lab.grasp import CASES

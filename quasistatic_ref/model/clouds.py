@@ -4,8 +4,6 @@ Positions only; colours, normals and faces are not part of the model. Coordinate
 written, in metres. A line or a vertex that cannot be read is an error, never left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path

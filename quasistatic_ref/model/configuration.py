@@ -1,7 +1,5 @@
 """A configuration q from outside, checked before anything is computed from it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

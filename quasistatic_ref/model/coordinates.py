@@ -4,8 +4,6 @@ Within each block the order is pinocchio's. Nothing outside
 :class:`~quasistatic_ref.model.system.System` sees the other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -5,8 +5,6 @@ memory that it seems to need: one letter in a file of 920 bytes takes all of a m
 a triangle with a negative index without a word. So indices and counts are looked at first.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from quasistatic_ref.errors import ModelError, about_file

@@ -1,7 +1,5 @@
 """Fields of frozen dataclasses, checked and made read-only."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where every link is at one configuration, and how it moves."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Mesh files: which file an address means, and the convex hull of what it holds."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

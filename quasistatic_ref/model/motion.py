@@ -1,7 +1,5 @@
 """How links move with the coordinates: what of it is the same at every configuration."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -3,8 +3,6 @@
 The viewpoint is where the sensor stood; the points are taken as written.
 """
 
-from __future__ import annotations
-
 import math
 
 from quasistatic_ref.errors import ModelError

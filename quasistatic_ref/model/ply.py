@@ -1,7 +1,5 @@
 """Vertex positions of a PLY file, ascii or binary little endian."""
 
-from __future__ import annotations
-
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array

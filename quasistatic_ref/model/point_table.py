@@ -1,7 +1,5 @@
 """Points in the rows of a table, ascii or binary, under a header of lines: PLY and PCD."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count

@@ -1,7 +1,5 @@
 """Roll, pitch and yaw, as URDF and scenarios give them, and the angle of a rotation."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.step.data import Array

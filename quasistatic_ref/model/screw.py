@@ -7,8 +7,6 @@ of a planar or continuous joint's angle by less than 1e-8 it sometimes makes zer
 simulation are as small as that. Here nothing that cancels is divided by a small number.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
@@ -77,11 +75,6 @@ def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[floa
         return [*linear_part(moved, [0.0, 0.0, angle])[:2], angle]
     angular = delta_q[joint.v][3:]
     return [*linear_part(moved, angular), *angular]
-
-
-def place(joint: Joint) -> slice:
-    """Where a base's translation is in q: three entries, or two of a planar one."""
-    return slice(joint.q.start, joint.q.start + (3 if joint.kind == "floating" else 2))
 
 
 def translation(v: Vector, w: Vector) -> list[float]:

@@ -1,7 +1,5 @@
 """Collision shapes and point clouds, each with its coal object, and where they are placed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

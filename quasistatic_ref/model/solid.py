@@ -1,7 +1,5 @@
 """Homogeneous solids as URDF: their moments of inertia, and a text of one link."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.errors import ModelError

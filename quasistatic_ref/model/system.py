@@ -6,8 +6,6 @@ twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(de
 base has x, y and the angle of the same twist, in the plane.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,7 +67,7 @@ class System:
     ignored : tuple of str
         What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
     notes : tuple of str
-        What was taken otherwise than written, e.g. ``arm: tool#0: mesh replaced by its hull``.
+        Where the model differs from its files, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
     Raises
     ------
@@ -134,6 +132,11 @@ class System:
         """Whether M_u is the same array at every q."""
         return self._M_u is not None
 
+    def workspace(self) -> Workspace:
+        """A workspace of the caller's own."""
+        _, parts, frames = self._world.models
+        return Workspace(parts, frames)
+
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""
         for joint in self.joints:
@@ -163,19 +166,25 @@ class System:
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        order = self._order
-        after = pin.integrate(self._model, order.model_q(q), order.model_v(delta_q))
-        q_next = order.paper_q(after)
-        at, change = q.tolist(), delta_q.tolist()
+        q_next, at, change = self.pinocchio_sum(q, delta_q).tolist(), q.tolist(), delta_q.tolist()
         for joint in self._bases:
-            q_next[screw.place(joint)] = screw.position(joint, at, change)
-        return q_next
+            position, start = screw.position(joint, at, change), joint.q.start
+            q_next[start : start + len(position)] = position
+        return np.array(q_next)
+
+    def pinocchio_sum(self, q: Array, delta_q: Array) -> Array:
+        """Configuration q (+) delta_q, shape (n_q,), whose bases lack digits of their places."""
+        order = self._order
+        return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
+
+    def pinocchio_difference(self, q: Array, q_next: Array) -> Array:
+        """Change q_next (-) q, shape (n_v,), of which only rotations of floating bases count."""
+        at, there = self._order.model_q(q), self._order.model_q(q_next)
+        return self._order.paper_v(pin.difference(self._model, at, there))
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        at, there = self._order.model_q(q), self._order.model_q(q_next)
-        change = self._order.paper_v(pin.difference(self._model, at, there))
-        return screw.changes(self._screws, q, q_next, change)
+        return screw.changes(self._screws, q, q_next, self.pinocchio_difference(q, q_next))
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
@@ -185,9 +194,9 @@ class System:
         ModelError
             Unless q_a has shape (n_q_a,).
         """
-        order, q_next = self._order, self.with_actuated(q, q_a)
-        change = pin.difference(self._model, order.model_q(q), order.model_q(q_next))
-        return screw.changes(self._screws, q, q_next, change.take(order.v[: self.n_a]))
+        q_next = self.with_actuated(q, q_a)
+        change = self.pinocchio_difference(q, q_next)[: self.n_a]
+        return screw.changes(self._screws, q, q_next, change)
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""

@@ -1,7 +1,5 @@
 """Numbers as text: what URDF files and point clouds have in common."""
 
-from __future__ import annotations
-
 import math
 import re
 

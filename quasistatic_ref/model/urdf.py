@@ -5,8 +5,6 @@ inertia or the joint that it could not read. So every link's pose, every mass an
 is worked out twice, from the file alone and from what was loaded; a difference is an error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,7 +45,7 @@ class Urdf:
     shapes : tuple of PlacedShape
         Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
     notes : tuple of str
-        What was taken otherwise than written: meshes as hulls, inertias that do not matter.
+        Where the model differs from its file: meshes as hulls, inertias that do not matter.
     """
 
     file: UrdfFile

@@ -1,7 +1,5 @@
 """What a URDF file says, checked on its own, before any library has read it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree.ElementTree import Element

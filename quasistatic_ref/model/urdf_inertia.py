@@ -5,8 +5,6 @@ un-actuated joint moves it, and there the whole that fixed joints weld together 
 frames that robots give a mass of zero are then harmless.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The collision shapes of a URDF as pinocchio loaded them, compared with what its file says."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The tree of links and joints in a URDF file: one root, one parent each, mimics that can be."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Every reader here refuses what urdfdom would pass over: a repeated element, a mi
 attribute, a number with a tail.
 """
 
-from __future__ import annotations
-
 import difflib
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -141,7 +139,7 @@ class Tag:
                 field = f"{self.where}.{name}"
                 raise ModelError(f"is unknown{suggestion(name, known)}", field=field)
 
-    def perhaps(self, tag: str, *attributes: str) -> Tag | None:
+    def perhaps(self, tag: str, *attributes: str) -> "Tag | None":
         """The child of that name, with no other `attributes` where some are given; or None.
 
         Two are a ModelError, since urdfdom reads the first only.
@@ -154,7 +152,7 @@ class Tag:
             child.only(*attributes)
         return child
 
-    def child(self, tag: str, *attributes: str) -> Tag:
+    def child(self, tag: str, *attributes: str) -> "Tag":
         """The only child of that name; a missing one is a ModelError."""
         found = self.perhaps(tag, *attributes)
         if found is None:

@@ -1,7 +1,5 @@
 """Bodies in words: what ``repr`` and a notebook show of a system."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.step.show import Page, Row, counted, number
@@ -12,7 +10,7 @@ if TYPE_CHECKING:
 BODY = ("body", "base", "actuated", "not actuated", "links", "shapes", "mass [kg]")
 
 
-def system_page(system: System) -> Page:
+def system_page(system: "System") -> Page:
     """A system: of each body, its base, coordinates, links, shapes and mass."""
     names = [body.name for body in system.bodies]
     title = (

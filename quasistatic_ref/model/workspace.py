@@ -4,8 +4,6 @@ Bodies move on their own (all of them hang from the world), so what pinocchio sa
 of them at once is what it says about each.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -65,15 +63,20 @@ class Workspace:
         self.n_v, self._none = v, np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
+    def move(self, q: Array) -> None:
+        """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
+        for part in self.parts:
+            pin.computeJointJacobians(part.model, part.data, q[part.q])
+            pin.updateFramePlacements(part.model, part.data)
+
     def poses(self, q: Array) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
 
         Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
+        self.move(q)
         R, t, columns = [WORLD], [ORIGIN], []
         for part in self.parts:
-            pin.computeJointJacobians(part.model, part.data, q[part.q])
-            pin.updateFramePlacements(part.model, part.data)
             R += part.R
             t += part.t
             columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector

@@ -1,7 +1,5 @@
 """All URDFs in one pinocchio model, named, placed and numbered; what `System` is made from."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

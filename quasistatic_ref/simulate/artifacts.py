@@ -1,7 +1,5 @@
 """How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any

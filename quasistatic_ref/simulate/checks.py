@@ -1,7 +1,5 @@
 """Scenarios that cannot be meant: numbers out of this world, pairs that never act, or act twice."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The ``[shapes.NAME]`` and ``[contacts.NAME]`` tables of a scenario."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
 from pathlib import Path

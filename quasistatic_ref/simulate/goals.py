@@ -1,7 +1,5 @@
 """Targets and forces in any form that a user may give them, as checked functions of (t, q)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from inspect import Parameter, signature
 from typing import Any

@@ -1,7 +1,5 @@
 """Ctrl-C while a run goes on: answered between two steps, so that what was done is whole."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from types import FrameType, TracebackType
@@ -20,7 +18,7 @@ class Interrupt:
         self.noted = False
         self._before: Any = None
 
-    def __enter__(self) -> Interrupt:
+    def __enter__(self) -> "Interrupt":
         here = threading.current_thread() is threading.main_thread()
         if here and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             self._before = signal.signal(signal.SIGINT, self._note)

@@ -1,7 +1,5 @@
 """How far a run may go before it is stopped: what lies beyond is a mistake, not a motion."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

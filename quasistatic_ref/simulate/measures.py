@@ -1,7 +1,5 @@
 """What a trajectory came to: how far a body turned, how high it rose."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -8,8 +8,6 @@ links followed: a scenario from somebody else reads nothing but what came with i
 PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the modules of Python.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What a record of a run holds, and whether a header and arrays are one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

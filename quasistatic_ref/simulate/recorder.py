@@ -1,7 +1,5 @@
 """Steps as they are taken, collected into a trajectory."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +22,8 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import Simulator, StepResult
+    from quasistatic_ref.simulate.result import StepResult
+    from quasistatic_ref.simulate.simulator import Simulator
 
 PACKED = 1000
 """Steps that are kept one by one before they become arrays, which take less memory."""
@@ -62,7 +61,7 @@ class Recorder:
         If there is no such record, or q is no configuration.
     """
 
-    def __init__(self, simulator: Simulator, q: Array, record: str = "full") -> None:
+    def __init__(self, simulator: "Simulator", q: Array, record: str = "full") -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.scene = Scene(simulator.system, simulator.pairs)
@@ -79,7 +78,7 @@ class Recorder:
         """End of the step that comes next [s]."""
         return (self.steps + 1) * self.h
 
-    def add(self, q_bar_a: Array, result: StepResult) -> None:
+    def add(self, q_bar_a: Array, result: "StepResult") -> None:
         """Record one step that succeeded.
 
         Parameters
@@ -179,11 +178,11 @@ class Recorder:
         q = np.concatenate([self.start[None], all_of.get("q", np.zeros((0, len(self.start))))])
         arrays = {"q": q + 0.0, **arrays, **constant}
         drags = warning(header)
-        header["warnings"] = [] if drags is None else [drags]
         if self.steps:
-            header["warnings"] += watched(self.scene, arrays, all_of["gap"])
+            header["warnings"] = watched(self.scene, arrays, all_of["gap"])
         else:  # it failed in its first step, for which a unit may be the reason
-            header["warnings"] += doubtful_units(self.scene)
+            header["warnings"] = list(doubtful_units(self.scene))
+        header["warnings"] += [] if drags is None else [drags]
         seconds = {k.removeprefix(SECONDS): all_of[k] for k in all_of if k.startswith(SECONDS)}
         return Trajectory(header, arrays, seconds, self.scene)
 

@@ -1,7 +1,5 @@
 """Steps in sequence: where a step becomes a trajectory."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -27,7 +25,7 @@ multipliers, and of answers that are not certified, and a run that is resumed ha
 
 
 def rollout(
-    simulator: Simulator,
+    simulator: "Simulator",
     q: Array,
     target: Target,
     steps: int,

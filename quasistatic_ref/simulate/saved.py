@@ -7,7 +7,6 @@ it: it is a function of q, and made again. docs/guides/file_formats.md describes
 
 from __future__ import annotations
 
-import json
 import shutil
 import sys
 import time
@@ -19,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from quasistatic_ref import __version__
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
-from quasistatic_ref.npz import npz_arrays
+from quasistatic_ref.files import written_whole
+from quasistatic_ref.npz import json_array, npz_record
 from quasistatic_ref.plain import fingerprint
 from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
 from quasistatic_ref.solve.backends import QPSOLVERS
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
 FORMAT, VERSION = "quasistatic-ref/saved-steps", 1
+WHAT = "a file of saved steps"
 EVERY = 60.0
 """Time between two saves [s]."""
 HASHED = "sha256 "
@@ -141,18 +141,15 @@ class SavedRun:
         """
         expected = 0
         for path in _files(self.folder):
-            part: Part = npz_arrays(path, "a file of saved steps")
-            try:
-                extra = self._checked(part, expected)
-            except InputError as error:
-                raise error.in_file(path) from None
+            header, part = npz_record(path, WHAT)
+            with about_file(path):
+                extra = self._checked(Fields(header), part, expected)
             expected += len(part["t"])
             yield part, extra
             self._saved += 1
 
-    def _checked(self, part: Part, expected: int) -> tuple[str, ...]:
+    def _checked(self, top: Fields, part: Part, expected: int) -> tuple[str, ...]:
         """Names of an extension's rows, of a part that begins with the expected step."""
-        top = Fields(_header(part))
         top.text("format", choices=(FORMAT,))
         fits = top.integer("version") == VERSION and top.integer("first") == expected
         self._check_settings(top.take("settings"))
@@ -202,10 +199,10 @@ class SavedRun:
                 "extra": list(recorder.extra),
                 "settings": self.settings,
             }
-            said = np.frombuffer(json_text(header).encode(), dtype=np.uint8)
+            arrays["header"] = json_array(header)
             path = self.folder / f"{recorder.steps - steps:09d}.npz"
             try:
-                written_whole(path, lambda file: np.savez(file, header=said, **arrays))
+                written_whole(path, lambda file: np.savez(file, **arrays))
                 self._saved, self._failing = len(parts), False
             except InputError as error:
                 if not self._failing:
@@ -236,22 +233,11 @@ def saved_steps(path: str | Path) -> int:
     files = _files(saved_folder(path))
     if not files:
         return 0
-    try:
-        top = Fields(_header(npz_arrays(files[-1], "a file of saved steps")))
+    header, _ = npz_record(files[-1], WHAT)
+    with about_file(files[-1]):
+        top = Fields(header)
         return top.integer("first", least=0) + top.integer("steps", least=0)
-    except InputError as error:
-        raise error.in_file(files[-1]) from None
 
 
 def _files(folder: Path) -> list[Path]:
     return sorted(folder.glob("[0-9]*.npz"))
-
-
-def _header(part: Part) -> Any:
-    array = part.pop("header", None)
-    if array is None or array.dtype != np.uint8:
-        raise InputError("is not a file of saved steps: it has no header")
-    try:
-        return json.loads(text_of(array.tobytes(), "header"), object_pairs_hook=unique_fields)
-    except (ValueError, RecursionError):
-        raise InputError("is not a file of saved steps: its header is not JSON") from None

@@ -1,7 +1,5 @@
 """A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

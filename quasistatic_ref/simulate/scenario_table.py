@@ -1,20 +1,15 @@
 """Every field of a scenario, said once: the loader, the JSON Schema and the reference page read it.
 
-A field has a kind of value, bounds, a unit, a default and a sentence. What goes beyond one field,
-such as that rows = 6 needs mu_omega, the loader checks by hand; ``RULES`` says as much of that as
-a schema can.
+What goes beyond one field, such as that rows = 6 needs mu_omega, the loader checks by hand;
+``RULES`` says as much of that as a schema can.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
-from quasistatic_ref.fields import REQUIRED, Fields
+from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.model.body import BASES
+from quasistatic_ref.schema import json_schema
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
@@ -34,63 +29,6 @@ LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
 
 
-@dataclass(frozen=True)
-class Field:
-    """One field of a table.
-
-    Parameters
-    ----------
-    kind : str
-        ``"number"``, ``"integer"``, ``"text"``, ``"boolean"``, ``"three numbers"``, ``"table"``,
-        ``"tables by name"``, ``"list of tables"``, ``"list of words"``, or words for another kind.
-    says : str
-    unit : str
-    default : object
-        ``REQUIRED``; or None where leaving the field out is not the same as any value.
-    above, least, most : float or int, optional
-        Bounds of a number [the field's unit].
-    choices : tuple, optional
-    of : str
-        Kind of the tables within.
-    schema : mapping
-        JSON Schema of another kind; of a kind above, what it adds.
-    """
-
-    kind: str
-    says: str
-    unit: str = ""
-    default: Any = REQUIRED
-    above: float | None = None
-    least: float | None = None
-    most: float | None = None
-    choices: tuple[Any, ...] | None = None
-    of: str = ""
-    schema: Mapping[str, Any] = field(default_factory=dict)
-
-    def read(self, table: Fields, name: str, default: Any = ...) -> Any:
-        """The value in a table; `default` in place of the field's own."""
-        default = self.default if default is ... else default
-        if self.kind == "number":
-            return table.number(name, default, above=self.above, least=self.least)
-        if self.kind == "integer":
-            bounds: dict[str, Any] = {"least": self.least, "most": self.most}
-            return table.integer(name, default, **bounds, choices=self.choices)
-        if self.kind == "text":
-            return table.text(name, default, self.choices)
-        if self.kind == "boolean":
-            return table.boolean(name, default)
-        if self.kind == "three numbers":
-            default = default if default is REQUIRED else np.array(default, dtype=np.float64)
-            return table.array(name, (3,), default)
-        if self.kind == "list of words":
-            return table.words(name, default)
-        if self.kind == "list of tables":
-            return table.sequence(name, default)
-        if self.kind in ("table", "tables by name"):
-            return table.table(name, default)
-        return table.take(name, default)
-
-
 def _length(says: str) -> Field:
     return Field("number", says, "m", above=0.0)
 
@@ -104,7 +42,7 @@ _NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of 
 _STIFF = {"anyOf": [{"type": "number", "minimum": 0, "exclusiveMinimum": True}, LIST, MATRIX]}
 _TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
 
-TABLES: dict[str, dict[str, Field]] = {
+TABLES = Tables({
     TOP: {
         "format": Field("text", "what the file is", choices=(FORMAT,)),
         "version": Field("integer", "of the format", choices=(VERSION,)),
@@ -216,7 +154,7 @@ TABLES: dict[str, dict[str, Field]] = {
         "hull": Field("boolean", "whether a mesh that is not convex counts as its hull",
                       default=False),
     },
-}  # fmt: skip
+})  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""
 
 RULES: dict[str, Mapping[str, Any]] = {
@@ -232,13 +170,9 @@ RULES: dict[str, Mapping[str, Any]] = {
 }
 """What a kind of table asks for beyond its fields, in JSON Schema."""
 
+value = TABLES.value
 
-def value(table: Fields, kind: str, name: str, default: Any = ...) -> Any:
-    """The value of a field in a table of some kind; `default` in place of the field's own.
 
-    Raises
-    ------
-    InputError
-        If it is missing and has no default, or is not of its kind.
-    """
-    return TABLES[kind][name].read(table, name, default)
+def scenario_schema() -> dict[str, Any]:
+    """The JSON Schema of a scenario file."""
+    return json_schema("A scenario", TABLES, RULES, TOP)

@@ -1,7 +1,5 @@
 """Changes of a scenario's tables before they are read: from the command line, or from Python."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,24 +1,22 @@
 """The simulator: one step as the algorithm of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.compiled import compiled
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.result import CompiledStep, StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page, simulator_page
+from quasistatic_ref.simulate.words import simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import (
     CVXPY,
@@ -28,11 +26,10 @@ from quasistatic_ref.solve.engines import (
     may_be_sparse,
     solver_for,
 )
-from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Contacts, SparseContacts, StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.posed import PosedStep, constants
 from quasistatic_ref.step.show import shown
@@ -40,32 +37,6 @@ from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
-
-
-@dataclass(frozen=True, eq=False)
-class StepResult(Plain):
-    """Everything that one step came to.
-
-    Parameters
-    ----------
-    q : ndarray, shape (n_q,)
-        Configuration after the step.
-    step : StepData
-        The problem of the step.
-    solution : StepSolution
-    points : ClosestPoints
-        Where the contacts were, before the step.
-    seconds : dict of str to float
-        Wall time of the parts: distances, rows, solve, integrate [s]; not compared.
-    """
-
-    q: Array
-    step: StepData
-    solution: StepSolution
-    points: ClosestPoints
-    seconds: dict[str, float] = field(compare=False)
-
-    __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
 
 
 class Simulator:
@@ -105,6 +76,8 @@ class Simulator:
     ----------
     backend : str
         Name of the backend.
+    fast : callable or None
+        What takes its steps in compiled code, to the same bits; None where nothing does.
     solver : Solver or None
         What solved the last step; it takes the next one if that fits.
 
@@ -149,24 +122,17 @@ class Simulator:
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = may_be_sparse(self.engine, self.backend, certify)
+        blocks = may_be_sparse(self.engine, self.backend, certify, cone)
         blocks = blocks and extension is None and system.rigid
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
+        fast = compiled("step")
+        self.fast: CompiledStep | None = None if fast is None else fast.compiled_step(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        settings: dict[str, Any] = {
-            "h": self.h,
-            "K_q": self.K_q,
-            "gravity": self.gravity,
-            "feels_gravity": self.weighs[: self.system.n_a],
-            "solver": self.named,
-            "engine": self.asked,
-            "accuracy": self.accuracy,
-            "certify": self.certify,
-            "cone": self.cone,
-            "extension": self.extension,
-            "limits": self.limits,
-        }
+        same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
+        settings: dict[str, Any] = {name: getattr(self, name) for name in same}
+        settings |= {"solver": self.named, "engine": self.asked}
+        settings["feels_gravity"] = self.weighs[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -192,6 +158,8 @@ class Simulator:
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
         """
+        if self.fast is not None and (taken := self.fast(self, q, q_bar_a, force)) is not None:
+            return taken  # the same numbers, by compiled code
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
         points = self.tracker.closest_points(kinematics.R, kinematics.t)
@@ -221,29 +189,47 @@ class Simulator:
         StepDataError
             If the force has another shape.
         """
+        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
+        delta_q_bar_a = self.system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
+        return self.posed(q, force, delta_q_bar_a, contacts)
+
+    def posed(
+        self,
+        q: Array,
+        force: Array | float,
+        delta_q_bar_a: Array,
+        contacts: Contacts | SparseContacts,
+    ) -> StepData:
+        """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
         tau = self.weighs * system.gravity_force(q, self.gravity) + force
         if tau.shape != self.weighs.shape:
             problem = f"must have shape {self.weighs.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
-        delta_q_bar_a = system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
-        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
-        own = None if self.extension is None else self.extension(q)
-        if own is not None and (rows := extension_rows(step, own)) is not None:
-            return with_rows(step, rows), None
-        return step, own
+        if self.extension is None:
+            return step, None
+        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+
+        own = self.extension(q)
+        rows = extended.extension_rows(step, own)
+        return (step, own) if rows is None else (extended.with_rows(step, rows), None)
+
+    def fitting(self, step: StepData) -> Solver:
+        """The solver: another one, if the last does not fit the step."""
+        if self.solver is None or not self.solver.fits(step):
+            self.solver = solver_for(step, self.backend, self.engine)
+        return self.solver
 
     def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
         """A step solved, perhaps with an extension that is more than rows."""
-        if self.solver is None or not self.solver.fits(step):
-            self.solver = solver_for(step, self.backend, self.engine)
+        own = self.fitting(step)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
-        solver = (self.named or DEFAULT) if by_name else self.solver
+        solver = (self.named or DEFAULT) if by_name else own
         return solve_step(
             step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
         )

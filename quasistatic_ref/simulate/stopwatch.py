@@ -1,7 +1,5 @@
 """Wall time of the parts of a step."""
 
-from __future__ import annotations
-
 import time
 
 

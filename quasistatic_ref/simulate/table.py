@@ -6,8 +6,6 @@ of the coordinate, ``q.0`` by its entry (after the step), ``phi.3`` by the conta
 quadratic programs stay arrays.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -28,7 +26,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def data_frame(trajectory: Trajectory) -> DataFrame:
+def data_frame(trajectory: "Trajectory") -> "DataFrame":
     """The trajectory as a pandas.DataFrame, its index being t [s].
 
     Raises

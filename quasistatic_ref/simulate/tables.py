@@ -3,8 +3,6 @@
 So a misspelt name is reported as what it is, and not as the absence of the right one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Functions of time made of waypoints: targets of actuated joints, and external wrenches."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,8 +12,8 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_text, text_of, unique_fields, written_whole
-from quasistatic_ref.npz import npz_arrays
+from quasistatic_ref.files import written_whole
+from quasistatic_ref.npz import json_array, npz_record
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.quoting import nearest_name
 from quasistatic_ref.simulate import wrenches
@@ -212,8 +211,7 @@ class Trajectory(Plain):
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""
-        header = np.frombuffer(json_text(dict(self.header)).encode(), dtype=np.uint8)
-        arrays: dict[str, Any] = {"header": header, **self.arrays}
+        arrays: dict[str, Any] = {"header": json_array(self.header), **self.arrays}
         return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
@@ -225,23 +223,12 @@ def trajectory_read(path: str | Path) -> Trajectory:
     InputError
         If it is not one, is of another version, or its header and arrays do not fit together.
     """
-    arrays = npz_arrays(path)
+    header, arrays = npz_record(path, "a trajectory written by this program")
     with about_file(path):
-        header = _header(arrays.pop("header", None), path)
         top = Fields(header)
         top.check_format(FORMAT, VERSION)
         check_arrays(top, arrays)
     return Trajectory(header, arrays)
-
-
-def _header(array: NDArray[Any] | None, path: str | Path) -> Any:
-    problem = "is not a trajectory written by this program"
-    if array is None or array.dtype != np.uint8:
-        raise InputError(f"{problem}: it has no header")
-    try:
-        return json.loads(text_of(array.tobytes(), path), object_pairs_hook=unique_fields)
-    except (ValueError, RecursionError):
-        raise InputError(f"{problem}: its header is not JSON") from None
 
 
 def certified(trajectory: Trajectory) -> str:

@@ -4,8 +4,6 @@ A step knows k contacts of each pair, to first order. All is read from the recor
 end, over all steps at once. Steps are counted from 0, as everywhere.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
@@ -49,14 +47,14 @@ def watched(scene: Scene, run: Mapping[str, NDArray[np.generic]], gap: Array) ->
     Returns
     -------
     list of str
-        At most one for each table of contacts, one for the fastest motion, one for each joint's
-        targets, one for meshes and clouds, one for each table's mu_omega.
+        At most one for meshes and clouds, one for each table's mu_omega, one for each table of
+        contacts, one for the fastest motion, one for each joint's targets.
     """
     system, pairs = scene
     sunk = _sunk(pairs, np.asarray(run["phi"]), np.asarray(run["point"]), gap)
     leaps = _leaps(system, pairs, np.asarray(run["delta_q"]))
     targets = _targets(system, np.asarray(run["q_bar_a"]))
-    return [*sunk, *leaps, *targets, *doubtful_units(scene)]
+    return [*doubtful_units(scene), *sunk, *leaps, *targets]  # causes before what comes of them
 
 
 def _table(pair: ContactPair) -> str:

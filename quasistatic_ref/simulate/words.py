@@ -12,8 +12,9 @@ from quasistatic_ref.step.words import CONTACT, FORCE, certificate_facts, contac
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
+    from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.scenario import Scenario
-    from quasistatic_ref.simulate.simulator import Simulator, StepResult
+    from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 NOT_IN_TEXT = (CONTACT[2], *FORCE[:2])

@@ -1,7 +1,5 @@
 """The ``[shapes.NAME]`` tables of a scenario: solids that stand still."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

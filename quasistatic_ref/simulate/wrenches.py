@@ -1,7 +1,5 @@
 """Contact forces of a trajectory, summed over bodies and over pairs, in the world frame."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
@@ -40,7 +38,7 @@ class HasScene(Protocol):
         """What may touch."""
 
 
-def wrench_on(trajectory: Trajectory, scene: HasScene, name: str) -> Array:
+def wrench_on(trajectory: "Trajectory", scene: HasScene, name: str) -> Array:
     """Sum of the contact wrenches on a body or a link, in each step.
 
     A contact pushes beta's body with the force f = f_d1 d1 + f_d2 d2 + f_n n at the point beta
@@ -87,7 +85,7 @@ def wrench_on(trajectory: Trajectory, scene: HasScene, name: str) -> Array:
     return total
 
 
-def pair_forces(trajectory: Trajectory, scene: HasScene) -> dict[str, Array]:
+def pair_forces(trajectory: "Trajectory", scene: HasScene) -> dict[str, Array]:
     """Force of each pair on its beta's body, by the pair's name.
 
     Parameters
@@ -111,7 +109,7 @@ def pair_forces(trajectory: Trajectory, scene: HasScene) -> dict[str, Array]:
     return {pair.name: forces[:, names == pair.name].sum(axis=1) for pair in scene.pairs}
 
 
-def _forces(trajectory: Trajectory, scene: HasScene) -> Array:
+def _forces(trajectory: "Trajectory", scene: HasScene) -> Array:
     """Force of each contact on beta's body, shape (steps, n_c, 3) [N], world frame."""
     n_c = len(contact_layout(scene.pairs).names)
     if not len(trajectory):

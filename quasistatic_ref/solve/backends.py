@@ -5,8 +5,6 @@ name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands
 form; and natively, where ``solve/adapters/`` has a file of its name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """The CVXPY problem of a step in whatever cone it says."""
 
-from __future__ import annotations
-
 import cvxpy as cp
 import numpy as np
 

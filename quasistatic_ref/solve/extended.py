@@ -5,8 +5,6 @@ step: they are then certified like any others, and travel in the step's file. An
 curved constraints, further variables) is solved as a conic program whose residuals are reported.
 """
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import asdict
 from functools import cache

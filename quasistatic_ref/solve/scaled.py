@@ -1,7 +1,5 @@
 """A step with its natural units."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cached_property
@@ -10,12 +8,12 @@ from typing import Protocol
 import numpy as np
 
 from quasistatic_ref.certify.bound import error_bound
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.units import Metric, Units, metric, to_natural, units_of
+from quasistatic_ref.solve.units import Metric, Units, metric, natural_form, to_natural, units_of
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
 class NaturalStep(Protocol):
@@ -40,6 +38,8 @@ class Scaled:
         SI units.
     like : Metric, optional
         Of an earlier step: taken over if H is the same array.
+    form : StandardForm, optional
+        That of the step, where it is known.
 
     Raises
     ------
@@ -47,8 +47,10 @@ class Scaled:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, step: StepData, like: Metric | None = None) -> None:
-        self.step, self.form = step, standard_form(step)
+    def __init__(
+        self, step: StepData, like: Metric | None = None, form: StandardForm | None = None
+    ) -> None:
+        self.step, self.form = step, standard_form(step) if form is None else form
         try:
             kept = like if like is not None and like.H is self.form.H else None
             self.metric = metric(self.form.H) if kept is None else kept
@@ -65,6 +67,11 @@ class Scaled:
         except StepDataError:
             raise out_of_range(self.step) from None
 
+    @cached_property
+    def natural_form(self) -> StandardForm:
+        """Its standard form in natural units."""
+        return natural_form(self.form, self.units)
+
     @property
     def unlike(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
@@ -74,8 +81,12 @@ class Scaled:
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        judge = ellipsoid_residuals if self.step.cone == ELLIPSOID else optimality_residuals
-        return judge(self.natural, delta_q, lam)
+        if self.step.cone == ELLIPSOID:
+            return ellipsoid_residuals(self.natural, delta_q, lam)
+        form = self.natural_form
+        balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), as (13) has it
+        slack = form.A @ delta_q - form.b
+        return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:
         """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""

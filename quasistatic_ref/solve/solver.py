@@ -6,8 +6,6 @@ It knows its backend (``name``), the interface by which it reaches that
 :func:`~quasistatic_ref.solve.engines.solver_for` chooses among them.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +22,7 @@ from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -99,6 +98,8 @@ class Solver(ABC):
     ----------
     hessian : BallHessian or None
         Of the step that was certified last, for those of the same H.
+    prover : Prover or None
+        The same in compiled code.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -119,6 +120,7 @@ class Solver(ABC):
         self._attempts: dict[float, list[Attempt]] = {}
         self._fitting: StepData | None = None
         self.hessian: BallHessian | None = None
+        self.prover: Any = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.like, self.name)
@@ -153,9 +155,9 @@ class Solver(ABC):
         """Whether the numbers of a step can be written into the problem."""
         return not self.differences(step)
 
-    def scaled(self, step: StepData) -> NaturalStep:
-        """The step in natural units."""
-        return Scaled(step)
+    def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
+        """The step in natural units; with its matrices, where these are known."""
+        return Scaled(step, form=form)
 
     @abstractmethod
     def write(self, scaled: Any) -> Mask | None:

@@ -4,8 +4,6 @@ As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the e
 there. Nothing here is certified exactly: residuals are what can be computed at this size.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -22,6 +20,7 @@ from quasistatic_ref.solve.solver import Attempt
 from quasistatic_ref.solve.units import coordinate_units, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -94,11 +93,11 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(self, step: StepData) -> SparseStep:
+    def scaled(self, step: StepData, form: StandardForm | None = None) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 
-    def write(self, scaled: SparseStep) -> Mask:
+    def write(self, scaled: "SparseStep") -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
         squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))

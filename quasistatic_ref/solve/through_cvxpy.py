@@ -1,7 +1,5 @@
 """Through CVXPY: the step as the problem of the paper's page, and plain programs of studies."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections import OrderedDict
@@ -73,7 +71,7 @@ class CvxpySolver(Solver):
 
 
 def cvxpy_reply(
-    compiled: StepProblem | PlainProgram, name: str, options: Options, warm: bool
+    compiled: "StepProblem | PlainProgram", name: str, options: Options, warm: bool
 ) -> Reply:
     """The reply of a backend to a problem as its parameters stand.
 

@@ -1,7 +1,5 @@
 """Through qpsolvers: the standard form handed over, without CVXPY."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from typing import Any

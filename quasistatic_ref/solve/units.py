@@ -11,8 +11,6 @@ homogeneous in (g, phi). All units are powers of two, so the conversion loses no
 underflow).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -49,7 +47,7 @@ class Units(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Metric:
-    """What units take from H alone, kept by whoever asks again with the same H.
+    """What natural units take from H alone; a solver keeps it while H is the same.
 
     Parameters
     ----------

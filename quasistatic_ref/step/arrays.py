@@ -1,7 +1,5 @@
 """Arrays of a step, checked: real numbers of the right shape, read-only."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from contextvars import copy_context

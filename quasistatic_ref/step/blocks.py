@@ -1,7 +1,5 @@
 """J of Eq. :eq:`eq-3` without its zeros, for steps of many bodies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

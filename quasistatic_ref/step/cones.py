@@ -5,8 +5,6 @@ where ``rows`` is 4, mu_omega is not used. The ellipsoid is no polyhedron; a con
 multipliers.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import cache

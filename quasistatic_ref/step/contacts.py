@@ -1,7 +1,5 @@
 """The contact points of one step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -135,7 +133,7 @@ class Contacts(Points):
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.J @ delta_q
 
-    def dense(self) -> Contacts:
+    def dense(self) -> "Contacts":
         """Themselves; see :class:`SparseContacts`."""
         return self
 

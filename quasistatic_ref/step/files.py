@@ -3,8 +3,6 @@
 Numbers are written in shortest round-trip decimal, so a step read back is the same bits.
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import asdict
 from pathlib import Path

@@ -17,8 +17,6 @@ surface. A term whose coefficient is zero means that its force is zero. A contac
 not used has the leading rows only, and a spin of zero.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any, TypeAlias
@@ -146,8 +144,10 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     tuple of ndarray, each of shape (n_c, w)
         The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
     """
+    # Not `@`: BLAS sums in another order on another processor, and these three would differ.
     axes = np.array([contacts.n, contacts.d1, contacts.d2])
-    J_n, J_1, J_2 = (axes[:, :, None] @ J[:, :3])[:, :, 0]
+    parts = axes[..., None] * J[:, :3]
+    J_n, J_1, J_2 = parts[:, :, 0] + parts[:, :, 1] + parts[:, :, 2]
     return J_n, J_1, J_2, J[:, 3]
 
 

@@ -4,8 +4,6 @@ To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, 
 same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
 """
 
-from __future__ import annotations
-
 from dataclasses import InitVar, dataclass
 from typing import NamedTuple
 
@@ -48,7 +46,7 @@ class Constants(NamedTuple):
     H: Array
     layout: RowLayout
 
-    def at(self, M_u: Array) -> Constants:
+    def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
         if M_u is self.M_u:
             return self
@@ -117,9 +115,8 @@ class PosedStep(StepData):
     ) -> None:
         for array in (tau_a, tau_u, delta_q_bar_a):
             array.setflags(write=False)
-        own, put = (tau_a, tau_u, delta_q_bar_a, contacts), object.__setattr__
-        for key, value in zip(NAMES, (*constant, *own), strict=True):
-            put(self, key, value)
+        own = tau_a, tau_u, delta_q_bar_a, contacts
+        vars(self).update(zip(NAMES, (*constant, *own), strict=True))
 
     @classmethod
     def compared_as(cls) -> type:

@@ -3,8 +3,6 @@
 A bare symbol is a CVXPY object, except h, mu_v and mu_omega: numbers, constants of the problem.
 """
 
-from __future__ import annotations
-
 import cvxpy as cp
 import numpy as np
 

@@ -1,7 +1,5 @@
 """Contact wrenches of files, each number rounded once."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

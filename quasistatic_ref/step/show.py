@@ -1,7 +1,5 @@
 """Objects shown in a terminal and in a notebook: few lines, no line too long, names escaped."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from numbers import Real

@@ -4,8 +4,6 @@ Nothing stands in it that `verify` does not prove; neither timings nor the name 
 Files of version 1 are read too; what cannot be proved of them is listed by name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
@@ -208,5 +206,5 @@ def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
             if not (good and all(type(i) is int for i in pair)):
                 raise table.fail(name, "must be a list of [contact, row]", pair)
         return tuple((j, i) for j, i in pairs)
-    (written,) = (field.type for field in fields(Certificate) if field.name == name)
-    return table.boolean(name) if str(written).startswith("bool") else table.number(name)
+    (kind,) = (field.type for field in fields(Certificate) if field.name == name)
+    return table.boolean(name) if kind == bool | None else table.number(name)

@@ -1,7 +1,5 @@
 """Eq. :eq:`eq-13` as sparse matrices, for steps whose contacts are in blocks."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

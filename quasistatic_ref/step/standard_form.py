@@ -4,8 +4,6 @@ r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
           \quad\text{s.t.}\quad A\,\delta q \ge b
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -45,10 +43,15 @@ def standard_form(step: StepData) -> StandardForm:
     -------
     StandardForm
     """
-    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
     b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)
     if step.extra.names:
         A, b = np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b])
-    return StandardForm(step.H, g, A, b)
+    return StandardForm(step.H, load(step), A, b)
+
+
+def load(step: StepData) -> Array:
+    """The load g of Eq. :eq:`eq-13`, shape (n_v,) [N m s]."""
+    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
+    return g

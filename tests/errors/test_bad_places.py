@@ -131,6 +131,9 @@ def test_a_scenario_that_does_not_exist_is_refused(refused, name):
         (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
         (["--set", "h=1", "run", "x.toml"], "invalid choice: 'h=1'; known: backends, bench"),
         (["run", "x.toml", "--fast"], "usage: quasistatic-ref run "),
+        (["run", "x.toml", "--steps", "5"], "did you mean '--set steps=5'?"),
+        (["study", "run", "x.toml", "--fast"], "usage: quasistatic-ref study run "),
+        (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
         (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
     ],
 )

@@ -14,6 +14,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.figures import faults
 from quasistatic_ref.lab.examples import (
+    flat_patch,
     grasp,
     grasp_against_mu_omega,
     grasp_rotation,
@@ -40,6 +41,8 @@ def runs_of_the_demo(demo, monkeypatch):
     for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
+    monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
+    monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
     monkeypatch.setattr(step_time, "STEPS", 20)
 
 
@@ -62,7 +65,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 19
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 24
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -117,6 +120,29 @@ def test_a_slider_turns_as_lynch_says_when_it_is_slow():
     slow, fast, law = found.T
     np.testing.assert_allclose(slow, 1.0, atol=2e-3)  # Pi (1 - (rho / c)^2), Pi = 1e-3
     np.testing.assert_allclose(fast, law, rtol=ROUNDING)
+
+
+def test_finger_and_block_go_where_the_two_equations_say():
+    pairs("finger_spring_block", atol=0.0, rtol=ROUNDING)
+
+
+def test_the_finger_lags_by_the_drag_and_stops_with_its_target():
+    # The lag approaches its limit by 1 / (1 + h^2 K_q / m) = 1 / 1.4 a step, 58 steps: 3e-9.
+    pairs("the_step_loop", atol=1e-8)
+
+
+def test_the_cloud_is_as_high_as_its_lowest_point_and_phi_is_predicted_to_first_order():
+    least, lowest, exponent, order = numbers("phi_and_j_of_a_cloud").values()
+    np.testing.assert_allclose(least, lowest, rtol=ROUNDING)
+    np.testing.assert_allclose(exponent, order, atol=FITTED)
+
+
+def test_a_twist_leads_along_an_arc():
+    pairs("a_screw", atol=0.0, rtol=ROUNDING)
+
+
+def test_a_square_patch_holds_mu_a_times_the_cosine_of_its_tangents_angle():
+    pairs("flat_patch", atol=2 * flat_patch.PRECISION)
 
 
 def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():

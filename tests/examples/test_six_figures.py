@@ -5,6 +5,7 @@ import pytest
 from matplotlib import pyplot as plt
 
 from docs.six_figures import corner_loads, the_program
+from quasistatic_ref.figures import faults, figure_style
 from tests.tolerances import ROUNDING
 
 
@@ -25,8 +26,23 @@ def test_the_point_is_held_at_3_N_and_slides_along_its_row_at_8_N():
 
 
 @pytest.mark.parametrize("module", [corner_loads, the_program])
-def test_the_figure_has_a_panel_for_each_push_and_units_on_its_axes(module):
-    made = module.figure()
+def test_the_figure_has_a_panel_for_each_push_and_is_legible(module):
+    with figure_style():
+        made = module.figure()
     assert len(made.axes) == len(module.PUSHES)
-    assert all("m]" in axes.get_xlabel() for axes in made.axes)
+    assert faults(made) == []
+    plt.close(made)
+
+
+def test_the_nearest_point_can_be_read_off_the_figure():
+    made = the_program.figure()
+    for axes, answer, push in zip(made.axes, the_program.main(), the_program.PUSHES, strict=True):
+        assert axes.get_aspect() == 1.0
+        marks = {line.get_label(): np.array(line.get_xydata()) for line in axes.lines}
+        free = 1e6 * 0.01**2 * np.array([push, -9.81])
+        np.testing.assert_allclose(marks["without contact"][0], free, rtol=ROUNDING)
+        np.testing.assert_allclose(marks["answer"][0], 1e6 * answer, rtol=ROUNDING, atol=ROUNDING)
+        wedge = marks["rows: dz = $\\mu_v$ |dx|"]
+        distances = np.hypot(*(wedge - free).T)
+        assert np.hypot(*(1e6 * answer - free)) <= distances.min() + ROUNDING
     plt.close(made)

@@ -13,18 +13,23 @@ ROOMS = (
     "fields",
     "files",
     "resources",
+    "declared",
+    "schema",
     "npz",
+    "compiled",
     "step",
     "certify",
     "solve",
     "model",
     "contact",
     "simulate",
+    "fast",
     "figures",
     "cli",
     "__main__",
     "lab/grasp",
     "lab/runs",
+    "lab/figures",
     "lab/scenes",
     "lab/vectors",
     "lab/study",
@@ -36,6 +41,10 @@ ROOMS = (
 # The only file of the core that may name the lab, as a string: it imports a command when asked.
 DOOR = "cli/main.py"
 
+# The only file that may name compiled code, as a string: it gives nothing where there is no
+# compiler. Whatever else is in the house comes to it through that door.
+COMPILED, COMPILED_DOOR = "fast", "compiled.py"
+
 # Where each third-party package may be imported: a room, or one file.
 WALLS = {
     "cvxpy": ("step/problem.py", "solve"),
@@ -44,15 +53,16 @@ WALLS = {
     "qpsolvers": ("solve", "lab/validate/engines/by_hand.py", "lab/study/bench/by_hand.py"),
     "pinocchio": ("model",),
     "coal": ("model", "contact"),
-    "matplotlib": ("figures",),
+    "matplotlib": ("figures", "lab/figures"),
     "meshcat": ("figures",),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
     "flint": ("certify", "lab/vectors"),
 }
 
 # What a room may not import although it comes before: figures draw what they are given.
-CLOSED = {
-    "figures": (
+CLOSED = dict.fromkeys(
+    ("figures", "lab/figures"),
+    (
         "solve",
         "certify",
         "contact",
@@ -60,7 +70,7 @@ CLOSED = {
         "step/data/StepData",
         "step/data/Contacts",
     ),
-}
+)
 
 DYNAMIC = ("import_module", "__import__")
 
@@ -103,13 +113,13 @@ def room_of(parts):
     return parts[0].removesuffix(".py")
 
 
-def names_of_the_lab(tree):
-    """Lines on which a string names the lab."""
+def names_of(room, tree):
+    """Lines on which a string names a room."""
     for node in ast.walk(tree):
         if (
             isinstance(node, ast.Constant)
             and isinstance(node.value, str)
-            and ("quasistatic_ref.lab" in node.value or node.value.startswith(".lab"))
+            and (f"quasistatic_ref.{room}" in node.value or node.value.startswith(f".{room}"))
         ):
             yield node.lineno
 
@@ -138,14 +148,18 @@ def violations(root: Path, rooms=ROOMS, walls=WALLS):
         module = (package, *inside.with_suffix("").parts)
         tree = ast.parse(path.read_text())
         if inside.parts[0] != "lab" and inside.as_posix() != DOOR:
-            found += [f"{inside}:{line}: names the lab" for line in names_of_the_lab(tree)]
+            found += [f"{inside}:{line}: names the lab" for line in names_of("lab", tree)]
+        if own != COMPILED and inside.as_posix() != COMPILED_DOOR:
+            found += [f"{inside}:{line}: names {COMPILED}" for line in names_of(COMPILED, tree)]
         for line, name in imports(tree, package, module):
             top, *rest = name.split(".")
             if top == package:
                 if not rest or rest[0].startswith("__"):
                     continue
                 room = room_of(rest)
-                if room not in rooms:
+                if room == COMPILED and own != COMPILED:
+                    found.append(f"{inside}:{line}: imports {name}, past {COMPILED_DOOR}")
+                elif room not in rooms:
                     found.append(f"{inside}:{line}: imports {name}, which is no room")
                 elif own is None or rooms.index(room) > rooms.index(own):
                     found.append(f"{inside}:{line}: imports {name} from a later room")

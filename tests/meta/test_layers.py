@@ -35,6 +35,17 @@ PLANTED = {
         "later room",
     ),
     "the lab as a string": ("cli/run.py", "x = 'quasistatic_ref.lab.commands'", "names the lab"),
+    "compiled code, past its door": (
+        "simulate/a.py",
+        "from quasistatic_ref.fast import step",
+        "past compiled.py",
+    ),
+    "compiled code in a later room": (
+        "cli/a.py",
+        "from quasistatic_ref.fast import step",
+        "past compiled.py",
+    ),
+    "compiled code as a string": ("cli/run.py", "x = 'quasistatic_ref.fast'", "names fast"),
     "a later room of the lab": (
         "lab/vectors/a.py",
         "from quasistatic_ref.lab.validate import claim",
@@ -69,6 +80,11 @@ PLANTED = {
         "figures/a.py",
         "from quasistatic_ref.step.data import StepData",
         "closed to figures",
+    ),
+    "a solver in the lab's figures": (
+        "lab/figures/a.py",
+        "from quasistatic_ref.solve.solve import solve_step",
+        "closed to lab/figures",
     ),
     "flint in solve": ("solve/a.py", "from flint import fmpq", "imports flint"),
 }

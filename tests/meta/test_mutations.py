@@ -33,7 +33,7 @@ SAMPLE = (
     f"{CONES} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
     "row_gaps(step.contacts, step.cone)[step.mask]",
-    f"{FORM} standard_form: tau_k + step.tau_a -> tau_k - step.tau_a",
+    f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{JUDGE} optimality_residuals: -slack -> slack",
     f"{JUDGE} ellipsoid_residuals: mu * s[:, 1:] -> mu / s[:, 1:]",
@@ -43,7 +43,7 @@ SAMPLE = (
     f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
     "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
-    f"{RATIONAL} _in_integers: _two_to(H.e + e_x) / h -> _two_to(H.e + e_x) * h",
+    f"{RATIONAL} _in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
     f"{KKT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
     f"{BALLS} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
@@ -61,7 +61,7 @@ SAMPLE = (
     f"{FARKAS} farkas_refutation: (row * form.b)[0, 0] > 0 -> (row * form.b)[0, 0] >= 0",
     f"{CLAIMS} _wrong_sign: slack_i < 0 -> slack_i > 0",
     f"{CLAIMS} _wrong_sign: lam_i <= 0 -> lam_i < 0",
-    f"{CLAIMS} _wrong_claim: i not in working -> i in working",
+    f"{DEPENDENCE} idle_rows: i not in working -> i in working",
 )
 UNCHANGED = (PAGE, CONES, JUDGE, FARKAS)
 

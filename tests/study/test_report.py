@@ -10,8 +10,8 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.figures import faults
-from quasistatic_ref.figures.study import profile
-from quasistatic_ref.figures.study_images import KINDS, drawn, images
+from quasistatic_ref.lab.figures.study import profile
+from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
 from quasistatic_ref.lab.study.page_html import html_page
 from quasistatic_ref.lab.study.page_markdown import markdown_page
 from quasistatic_ref.lab.study.report import study_report

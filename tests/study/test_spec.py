@@ -8,12 +8,14 @@ from quasistatic_ref.lab.study.plan import plan
 from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path, study_tables
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
+HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'
 RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
 MINE = '[solvers.mine]\ncallable = "planted_solvers:honest"\n'
 
 BAD = {
     "an unknown field": ("tim_limit = 1", "tim_limit: is unknown; did you mean 'time_limit'?"),
     "no time": ("time_limit = 0", "time_limit: must be greater than 0"),
+    "more time than there is": ("time_limit = 1e7", "time_limit: must be at most 1e+06"),
     "an unknown family": ("problems.families.contact = 3", "did you mean 'contacts'?"),
     "no problems": ("problems.families.contacts = 0", "problems.families: must name at least one"),
     "an unknown scenario": ('problems.scenarios = ["bunny"]', "did you mean 'bunny_grasp'?"),
@@ -29,20 +31,24 @@ BAD = {
     "a number for a scenario": ("problems.scenarios = [1]", "scenarios: must be a list of strings"),
     "a key of very many parts": (f"{'a.' * 40_000}b = 1", "holds a key of more than 32 parts"),
     "an unknown setting": (RUN + 'settings = ["hihg"]', "did you mean 'high'?"),
-    "unknown units": (RUN + 'units = ["si"]', "runs[0].units: must be among raw, natural"),
+    "unknown units": (
+        RUN + 'units = ["si"]',
+        "runs[0].units: holds an unknown one;",
+    ),
+    "no tables of runs": ("runs = []", "runs: must not be empty"),
     "warm that is no choice": (RUN + "warm = [1]", "runs[0].warm: must be a list of true and"),
     "no repetition": (RUN + "repetitions = 0", "runs[0].repetitions: must be at least 1"),
     "two roads": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
     "no road": ("[solvers.mine]\n", "solvers.mine: must say one of"),
     "no function": ('[solvers.mine]\ncallable = "module"', "must read module:function"),
-    "no command": ("[solvers.mine]\nexecutable = []", "must be a list of words"),
+    "no command": ("[solvers.mine]\nexecutable = []", "must not be empty"),
     "options of no setting": (MINE + "options.higher.a = 1", "solvers.mine.options.higher"),
     "a setting without accuracy": ("[settings.mine]\n", "settings.mine.accuracy: is missing"),
     "a setting that says nothing to a solver": (
         MINE + '[[runs]]\nsolvers = ["mine"]\nsettings = ["high"]',
         "hold nothing that callable:mine can be set to",
     ),
-    "another kind": ('kind = "race"', "kind: is not a choice"),
+    "another kind": ('kind = "race"', "kind: must be 'solvers'"),
 }
 
 
@@ -61,6 +67,9 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
         ("a.toml", "x = ", "is not TOML"),
         ("b.toml", "format = 3", "format"),
         ("c.toml", None, "no such file"),
+        ("d.toml", HEAD + 'kind = "swep"', "kind: is not a choice; did you mean 'sweep'?"),
+        ("e.toml", HEAD.replace("version", "vesrion"), "vesrion: is unknown; did you mean"),
+        ("f.toml", HEAD.replace("study", "scenario") + "h = 1", "format: must be 'quasis"),
     ):
         path = tmp_path / name
         if content is not None:

@@ -107,10 +107,10 @@ def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
 
 BAD = {
     "a duration without end": (
-        SLIDE.replace("duration = 0.02", "duration = 1e308"),
+        SLIDE.replace("duration = 0.02", "duration = 1e14"),
         "duration: mak",
     ),
-    "no sweep": ("sweeps = []", "sweeps: must hold at least one table"),
+    "no sweep": ("sweeps = []", "sweeps: must not be empty"),
     "no axes": (SLIDE.partition("[sweeps.axes.mu]")[0], "sweeps[0].axes: is missing"),
     "a value that is no number": (
         SLIDE.replace("values = [0.01, 0.02]", "values = [nan, 0.02]"),
@@ -122,6 +122,8 @@ BAD = {
         SLIDE.replace("contacts.smooth.mu_v", "contacts.smooth.mu"),
         "contacts.smooth.mu",
     ),
+    "a misspelt field": (SLIDE.replace("link", "lnik"), "sweeps[0].lnik: is unknown; did you"),
+    "no axis": (SLIDE.partition("[sweeps.axes.mu]")[0] + "axes = {}", "axes: must hold at least"),
     "an unknown scenario": (SLIDE.replace("block_incline", "block_inclne"), "block_incline"),
     "an unknown link": (SLIDE.replace('"smooth"', '"smoth"', 1), "smooth"),
     "a name twice": (SLIDE + SLIDE, "is given twice"),

@@ -20,7 +20,7 @@ from quasistatic_ref.step.files import step_read, step_sha256, step_written
 from tests.helpers import point_on_floor
 from tests.scenes import PUSH, RAIL, SWING, written_scenario
 from tests.tolerances import EXACT, MULTIPLIERS, ROUNDING
-from tests.unit.urdf_texts import written
+from tests.unit.urdf_texts import CHAIN, written
 
 
 @pytest.fixture
@@ -113,7 +113,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
-    honest, calls = simulator.solve_step, []
+    honest, calls = simulator.Simulator.step, []
 
     def interrupted(*arguments, **options):
         calls.append(1)
@@ -121,7 +121,7 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
             raise KeyboardInterrupt
         return honest(*arguments, **options)
 
-    monkeypatch.setattr(simulator, "solve_step", interrupted)
+    monkeypatch.setattr(simulator.Simulator, "step", interrupted)
     assert main(["run", scene, "--out", str(out)]) == 130
     assert one_sentence(capsys.readouterr().err).startswith(
         "step 2: interrupted; the first 2 steps"
@@ -212,6 +212,15 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     text = capsys.readouterr().out
     assert "rail/slide" in text
     assert "the model ignores:" in text
+
+
+def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):
+    path = str(written(tmp_path, CHAIN, "arm.urdf"))
+    assert main(["inspect", path]) == 0
+    assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in capsys.readouterr().out
+    assert main(["inspect", path, "--json"]) == 0
+    follows = {"name": "arm/swing_mimic", "of": "arm/swing", "multiplier": -0.7, "offset": 0.2}
+    assert json.loads(capsys.readouterr().out)["mimics"] == [follows]
 
 
 def test_inspect_shows_a_scenario(scene, capsys):
@@ -424,6 +433,18 @@ def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
     (trajectory,) = tmp_path.glob("*.npz")
     assert main(["extract", str(trajectory), "--step", "1", "-o", str(path)]) == 0
     assert capsys.readouterr().out == f"wrote {path}\n"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [[name] for name in COMMANDS if name not in ("study", "vectors")]
+    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
+    ids=" ".join,
+)
+def test_every_command_takes_quiet(words, capsys):
+    with pytest.raises(SystemExit):
+        main([*words, "--help"])
+    assert "--quiet" in capsys.readouterr().out
 
 
 def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):

@@ -75,8 +75,8 @@ def test_values_of_options_are_offered(offered):
 
 
 def test_every_option_of_every_command_is_offered(offered):
-    _, commands = command_parser(COMMANDS)
-    for name, command in commands.items():
+    (commands,) = (a for a in command_parser(COMMANDS)._actions if a.dest == "command")
+    for name, command in commands.choices.items():
         long = {word for action in command._actions for word in action.option_strings}
         assert offered(name, "--") == {word for word in long if word.startswith("--")}
 

@@ -7,8 +7,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.figures.cones import limit_surfaces
 from quasistatic_ref.lab.examples import pinch_threshold
+from quasistatic_ref.lab.figures.cones import limit_surfaces
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_written
@@ -91,22 +91,30 @@ def test_the_figure_of_limit_surfaces_shows_each_with_its_name():
     plt.close(figure)
 
 
-def test_the_figure_of_the_pinch_draws_the_thresholds_and_no_step_against_them():
-    figure = pinch_threshold.figure(offsets=4)
+def test_the_figure_of_the_pinch_draws_the_formulas_and_no_step_against_them():
+    figure = pinch_threshold.figure(levers=4)
     (axes,) = figure.axes
     lines = [line for line in axes.lines if line.get_linestyle() != "None"]
-    d, slide = np.linspace(0, 0.06, 4), 0.2 * 9.81 / (2 * 0.5)
-    spin = 0.2 * 9.81 * d / (2 * 0.02)
-    expected = {
-        "pyramid": slide + spin,
-        "ellipsoid": np.sqrt(slide**2 + spin**2),
-        "product": np.maximum(slide, spin),
-    }
     for line in lines:
-        np.testing.assert_allclose(
-            line.get_ydata(), expected[line.get_label()], rtol=ROUNDING, atol=0.0
-        )
-    marks = [line for line in axes.lines if line.get_linestyle() == "None"]
-    # Two kinds of mark for each cone, and a mark only where the step does what the line says.
-    assert [len(mark.get_ydata()) for mark in marks] == [4] * 6
+        d, drawn = line.get_data()  # mm, N
+        slide, spin = 0.2 * 9.81 / (2 * 0.5), 0.2 * 9.81 * 1e-3 * d / (2 * 0.02)
+        expected = {
+            "pyramid": slide + spin,
+            "ellipsoid": np.sqrt(slide**2 + spin**2),
+            "product": np.maximum(slide, spin),
+        }[line.get_label()]
+        np.testing.assert_allclose(drawn, expected, rtol=ROUNDING, atol=0.0)
+        if line.get_label() == "product":  # the corner, where both are 1.962 N
+            assert np.diff(d).max() < 0.2
+            np.testing.assert_allclose(np.interp(40.0, d, drawn), 1.962, rtol=1e-3)
+    tried = np.linspace(0, 60, 4)
+    marks = [
+        line for line in axes.lines if line.get_linestyle() == "None" and len(line.get_xdata())
+    ]
+    assert sorted(mark.get_marker() for mark in marks) == [*"^^^vvv"]  # of three cones
+    for mark, line in zip(marks, np.repeat(lines, 2), strict=True):
+        share = 1.03 if mark.get_marker() == "^" else 0.97
+        np.testing.assert_allclose(mark.get_xdata(), tried, rtol=ROUNDING)
+        held = share * np.interp(tried, *line.get_data())
+        np.testing.assert_allclose(mark.get_ydata(), held, rtol=1e-3)
     plt.close(figure)

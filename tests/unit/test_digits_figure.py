@@ -7,7 +7,7 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
-from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from tests.quoted import filled, stale
 from validation.digits_of_backends import (
     ACCURACIES,
@@ -37,7 +37,8 @@ def drawn():
 
 def words(figure):
     figure.canvas.draw()
-    return [t.get_text() for t in figure.findobj(Text) if t.get_text().strip()]
+    texts = [t.get_text() for t in figure.findobj(Text)]
+    return [text.replace("\n", " ") for text in texts if text.strip()]
 
 
 def test_the_committed_results_are_all_steps_of_every_backend_and_setting():

@@ -9,8 +9,8 @@ from PIL import Image
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.figures import animate, draw_scene, faults, moment, panels
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.draw import round_scale
-from quasistatic_ref.figures.moments import extent
+from quasistatic_ref.figures.draw import LONGEST, force_scale, round_scale
+from quasistatic_ref.figures.moments import DrawnContact, Moment, extent
 from quasistatic_ref.figures.surfaces import faces, patch, surface_points, triangles
 from quasistatic_ref.model.shapes import (
     Box,
@@ -203,6 +203,53 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
+
+
+def test_slow_motion_has_a_frame_for_every_step_and_shows_each_four_times_as_long(
+    incline, tmp_path
+):
+    path = animate(*incline, tmp_path / "slow.gif", fps=20, speed=0.25)
+    with Image.open(path) as film:
+        assert film.n_frames == 30  # 20 / 0.25 frames in a second of the run: of 10 ms, each one
+        assert film.info["duration"] == 40
+    with pytest.raises(InputError, match="must be positive and finite"):
+        animate(*incline, tmp_path / "never.gif", speed=0)
+
+
+def test_a_wrong_option_of_a_film_is_named(incline, tmp_path):
+    with pytest.raises(TypeError, match="colour"):
+        animate(*incline, tmp_path / "blocks.gif", colour="red")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_forces_are_scaled_by_what_of_them_is_in_view():
+    # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
+    frame, rim = np.eye(3), np.zeros((0, 3))
+    contacts = [
+        DrawnContact(np.zeros(3), np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
+        for force in ([0, 12.0, 0], [0, 0, 1.5])
+    ]
+    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts))
+    half = 0.1
+    expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
+    for view, scale in expected.items():
+        found = force_scale([of], view, half)
+        np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
+    # What is only along the view is scaled as in space.
+    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]))
+    assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
+
+
+def test_cones_and_forces_are_whole_in_the_picture(incline, page):
+    of = moment(*incline, -1)
+    draw_scene(page, of, metres_per_newton=0.2)
+    (left, right), (low, high) = page.get_xlim(), page.get_ylim()
+    for contact in of.contacts:
+        tips = 1e3 * (contact.beta + 0.2 * np.vstack([contact.rim, contact.force]))
+        assert (left < tips[:, 0]).all()
+        assert (tips[:, 0] < right).all()
+        assert (low < tips[:, 2]).all()
+        assert (tips[:, 2] < high).all()
 
 
 def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):

@@ -7,11 +7,11 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
-from quasistatic_ref.figures.boundary_layer import boundary_layer
 from quasistatic_ref.figures.camera import Camera
-from quasistatic_ref.figures.grasp import CAMERA, grasp_strip, rotation_plot
 from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.figures.surfaces import surface_points
+from quasistatic_ref.lab.examples import boundary_layer
+from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
 from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.model.shapes import (
     Box,
@@ -43,21 +43,11 @@ def grasp():
 
 
 @pytest.fixture(scope="module")
-def spin():
-    return load_scenario("sphere_spin")
-
-
-@pytest.fixture(scope="module")
-def spun(spin):
-    return spin.run(progress=False)
-
-
-@pytest.fixture(scope="module")
-def figures(grasp, runs, spin, spun):
+def figures(grasp, runs):
     made = {
         "strip": grasp_strip(grasp, runs, INSTANTS),
         "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
-        "boundary layer": boundary_layer(spin, spun, 0.05),
+        "boundary layer": boundary_layer.figure(),
     }
     yield made
     for figure in made.values():
@@ -95,7 +85,7 @@ def test_every_figure_says_its_time_step_and_cone(figures, name):
 def test_the_strip_has_a_run_in_each_row_and_an_instant_in_each_column(figures):
     axes = figures["strip"].axes
     assert len(axes) == 2 * len(INSTANTS)
-    assert [a.get_title() for a in axes[:3]] == [f"t = {t:g} s" for t in INSTANTS]
+    assert [a.get_title() for a in axes[:3]] == [f"{t:g} s" for t in INSTANTS]
     assert [axes[0].get_ylabel(), axes[3].get_ylabel()] == ["with_torsion", "without_torsion"]
 
 
@@ -145,9 +135,19 @@ def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
     )
 
 
-def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path, spin, spun):
+@pytest.mark.parametrize("h", [0.002, 0.005])
+def test_a_smaller_step_spins_the_sphere_to_the_same_torque(h):
+    figure = boundary_layer.figure(h=h)
+    torque, spin = figure.axes[0].lines[0].get_data()
+    np.testing.assert_allclose(torque[-1], 147.15, rtol=ROUNDING)  # at t = 2 s, whatever h
+    assert len(torque) == round(2 / h)
+    assert spin[-1] > 1
+    plt.close(figure)
+
+
+def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path):
     before = plt.get_fignums()
-    figure = boundary_layer(spin, spun, 0.05)
+    figure = boundary_layer.figure()
     paths = figure_written(figure, tmp_path / "new", "layer")
     assert [p.name for p in paths] == ["layer.png", "layer.pdf"]
     assert paths[0].read_bytes().startswith(b"\x89PNG")
@@ -156,16 +156,16 @@ def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path, spin, spun):
     assert plt.get_fignums() == before
 
 
-def test_equal_runs_draw_equal_files(tmp_path, spin, spun):
+def test_equal_runs_draw_equal_files(tmp_path):
     for folder in ("a", "b"):
-        figure_written(boundary_layer(spin, spun, 0.05), tmp_path / folder, "layer")
+        figure_written(boundary_layer.figure(), tmp_path / folder, "layer")
     for name in ("layer.png", "layer.pdf"):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
-def test_drawing_leaves_the_settings_of_matplotlib_alone(spin, spun):
+def test_drawing_leaves_the_settings_of_matplotlib_alone():
     before = dict(plt.rcParams)
-    plt.close(boundary_layer(spin, spun, 0.05))
+    plt.close(boundary_layer.figure())
     assert dict(plt.rcParams) == before
 
 

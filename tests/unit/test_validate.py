@@ -10,8 +10,8 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.figures.validation import PICTURES
 from quasistatic_ref.lab.commands import validate as command
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.claim import (
     FAILS,
     HOLDS,
@@ -201,7 +201,8 @@ def test_a_figure_says_its_quantities_its_time_step_and_the_cone(name, cone):
     figure = PICTURES[name](BY_NAME[name].measure().picture)
     titles = [axes.get_title(loc="right") for axes in figure.axes]
     labels = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]
-    said = " ".join(titles + labels)
+    keys = [axes.get_legend().get_title().get_text() for axes in figure.axes if axes.get_legend()]
+    said = " ".join(titles + labels + keys)
     plt.close(figure)
     assert "h = " in said
     assert cone in said

@@ -155,3 +155,10 @@ CORNERS = np.array([[0.0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]])
 ])  # fmt: skip
 def test_the_extent_of_a_shape_is_the_longest_edge_of_its_box(shape, expected):
     np.testing.assert_allclose(extent(shape), expected, rtol=ROUNDING)
+
+
+def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):
+    phi = np.zeros((3, 2))
+    phi[2, 0] = -2 * SUNK * 0.1
+    said = made(load_scenario(scene, {"contacts.floor.mu_omega": 20.0}), phi=phi)
+    assert [sentence[:18] for sentence in said] == ["check the unit of ", "take a smaller h o"]

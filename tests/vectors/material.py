@@ -3,6 +3,7 @@
 import functools
 import importlib
 import sys
+import tomllib
 from pathlib import Path
 
 from quasistatic_ref.lab.vectors.check.answers import Answers
@@ -64,3 +65,10 @@ def runner_answers(layer, change=lambda case: case):
     module = runner()
     solve = getattr(module, layer)
     return {case.id: module.plain(solve(change(case.input))) for case in small_cases(layer)}
+
+
+@functools.cache
+def planted_bugs():
+    """The mistakes that are put into the runners; not to be changed."""
+    text = (ROOT / "validation" / "planted" / "bugs.toml").read_text(encoding="utf-8")
+    return {bug["name"]: bug for bug in tomllib.loads(text)["bug"]}

@@ -29,7 +29,7 @@ def test_quaternions_in_the_other_order_are_converted_if_the_answers_say_so(laye
             answers[case.id] = {**answer, field: q}
     assert report_on(layer, answers, quaternion="wxyz").ok
     assert report_on(layer, answers).count("failed") > 0
-    assert report_on(layer, answers).mistakes[0].name == "quaternion order"
+    assert report_on(layer, answers).mistakes[0].name == "quaternions written as wxyz"
 
 
 def in_tangent(output, B):

@@ -63,4 +63,4 @@ def test_the_numpy_runner_shares_no_code_with_the_package():
 def test_the_javascript_runner_needs_node_alone():
     for path in RUNNERS.glob("*.js"):
         needs = set(re.findall(r'require\("([^"]*)"\)', path.read_text()))
-        assert needs <= {"fs", "path", "./runner_qp.js"}
+        assert needs <= {"fs", "path", "readline", "./runner_qp.js", "./runner_step.js"}

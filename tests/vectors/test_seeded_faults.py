@@ -6,11 +6,23 @@ inputs, its functions or its outputs, written without a look at how mistakes are
 
 import copy
 import functools
+import sys
+import types
 
 import numpy as np
 import pytest
 
-from tests.vectors.material import report_on, right_answers, runner, runner_answers
+from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES
+from tests.vectors.material import (
+    RUNNERS,
+    cases,
+    planted_bugs,
+    report_on,
+    right_answers,
+    runner,
+    runner_answers,
+    small_cases,
+)
 
 
 def each_contact(case, **changes):
@@ -152,7 +164,7 @@ FAULTS = {
     "distance: wxyz read": (
         "distance",
         patched("numpy_runner", "rotation", wrong_order),
-        "quaternion order",
+        "quaternions read as wxyz",
     ),
     "selection: nearest by |phi|": (
         "selection",
@@ -173,7 +185,7 @@ FAULTS = {
     "jacobian: spin about -n": (
         "jacobian",
         inputs_changed(lambda c: each_contact(c, n=lambda k: [-x for x in k["n"]])),
-        "normals reversed",
+        "spin sign",
     ),
     "jacobian: no spin": (
         "jacobian",
@@ -183,7 +195,7 @@ FAULTS = {
     "jacobian: wxyz read": (
         "jacobian",
         patched("runner_mechanism", "rotation", wrong_order),
-        "quaternion order",
+        "quaternions read as wxyz",
     ),
     "rows: mu_omega without a length": (
         "rows",
@@ -286,6 +298,47 @@ def test_a_planted_bug_fails_in_its_layer_and_is_named(layer, fault, mistake, mo
     assert report.count("failed") > 0
     names = [named.name for named in report.mistakes]
     assert mistake in names, (names, report.trouble)
+
+
+MODULES = ("runner_mechanism", "runner_curved", "runner_distance", "runner_qp", "numpy_runner")
+"""Each after those that it imports from."""
+SEEDED = {mistake for _, _, mistake in FAULTS.values()}
+FURTHER = {name: bug for name, bug in planted_bugs().items() if bug["mistake"] not in SEEDED}
+
+
+def runner_with(changes, monkeypatch):
+    """The NumPy runner with texts of its files replaced."""
+    runner()
+    for name in MODULES:
+        text = (RUNNERS / f"{name}.py").read_text()
+        for file, old, new in changes:
+            if file == f"{name}.py":
+                assert text.count(old.replace("\\n", "\n")) == 1
+                text = text.replace(old.replace("\\n", "\n"), new.replace("\\n", "\n"))
+        module = types.ModuleType(name)
+        monkeypatch.setitem(sys.modules, name, module)
+        exec(text, module.__dict__)
+    return module
+
+
+@pytest.mark.parametrize("name", FURTHER)
+def test_a_planted_bug_of_the_table_is_named_too(name, monkeypatch):
+    bug = FURTHER[name]
+    module, layer = runner_with(bug["numpy"], monkeypatch), bug["layer"]
+    families = [case for case in small_cases(layer) if "of the scenario" not in case.provenance]
+    if layer == "step":
+        families = [case for case in cases("step") if "of the scenario" not in case.provenance]
+    outputs = {c.id: module.plain(getattr(module, layer)(c.input)) for c in families}
+    report = report_on(layer, outputs)
+    assert report.count("failed") > 0
+    named = [bug["mistake"]] if bug["mistake"] else []  # some have no name
+    assert [mistake.name for mistake in report.mistakes] == named
+
+
+def test_every_mistake_that_is_recognised_is_planted():
+    known = {hypothesis.name for hypothesis in HYPOTHESES}
+    assert known == {bug["mistake"] for bug in planted_bugs().values()} - {""}
+    assert len(known) == 36
 
 
 def test_answers_that_are_right_have_no_mistake():

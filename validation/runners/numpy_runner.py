@@ -1,6 +1,7 @@
 """Every layer of the reference vectors in plain NumPy, from their README alone.
 
-Usage: python numpy_runner.py VECTORS ANSWERS [LAYER ...]. Shares no code with quasistatic_ref.
+Usage: python numpy_runner.py VECTORS ANSWERS [LAYER ...]; without arguments it answers a challenge,
+line by line. Shares no code with quasistatic_ref.
 Beside it: runner_mechanism.py (coordinates), runner_distance.py and runner_qp.py.
 """
 
@@ -257,6 +258,20 @@ def answers(layer, inputs):
             "implementation": "numpy_runner", "answers": found}  # fmt: skip
 
 
+def challenged():
+    """Answer the cases of a challenge: one a line in, one a line out."""
+    print(
+        json.dumps({"protocol": 1, "implementation": "numpy_runner", "layers": LAYERS}), flush=True
+    )
+    for text in sys.stdin:
+        case = json.loads(text)
+        try:
+            answer = {"output": plain(globals()[case["layer"]](case["input"]))}
+        except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+            answer = {"error": f"{type(error).__name__}: {error}"}
+        print(json.dumps({"id": case["id"], **answer}), flush=True)
+
+
 def main(vectors, out, *layers):
     """Answer every layer that has inputs."""
     Path(out).mkdir(parents=True, exist_ok=True)
@@ -268,4 +283,4 @@ def main(vectors, out, *layers):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*sys.argv[1:]) if sys.argv[1:] else challenged()

@@ -1,5 +1,6 @@
 // Layers 2 to 7 of the reference vectors in plain JavaScript, from their README alone.
-// Usage: node runner.js VECTORS ANSWERS [LAYER ...]. Quadratic programs are in runner_qp.js.
+// Usage: node runner.js VECTORS ANSWERS [LAYER ...]; without arguments it answers a challenge, line by line.
+// Quadratic programs are in runner_qp.js, whole steps (of simple shapes, in challenges alone) in runner_step.js.
 "use strict";
 const fs = require("fs");
 const path = require("path");
@@ -228,12 +229,39 @@ function integrate(input) {
   return { q };
 }
 
-const LAYERS = { selection, jacobian, rows, qp, wrench, integrate };
-const [vectors, out, ...asked] = process.argv.slice(2);
-fs.mkdirSync(out, { recursive: true });
-for (const layer of asked.length ? asked : Object.keys(LAYERS)) {
-  const { cases } = JSON.parse(fs.readFileSync(path.join(vectors, "inputs", `${layer}.json`), "utf8"));
-  const answers = cases.map(({ id, input }) => ({ id, output: LAYERS[layer](input) }));
-  const head = { format: "quasistatic-ref/vectors-answers", version: 1, layer, implementation: "runner.js" };
-  fs.writeFileSync(path.join(out, `${layer}.json`), `${JSON.stringify({ ...head, answers })}\n`);
+const step = require("./runner_step.js")({ add, column, coefficients, cross, dot, integrate, jacobian, kinematics,
+  places, product, qpAnswer, range, rotation, rows, scale, sub, times, unit, coneTable, wrench, zeros });
+
+const LAYERS = { selection, jacobian, rows, qp, wrench, integrate, step };
+const IMPLEMENTATION = "runner.js";
+
+// Answer one case of a challenge, a line in and a line out.
+function answered(text) {
+  const { id, layer, input } = JSON.parse(text);
+  if (!(layer in LAYERS)) return { id, unsupported: true };
+  try {
+    return { id, output: LAYERS[layer](input) };
+  } catch (error) {
+    return error.message.startsWith("unsupported") ? { id, unsupported: true } : { id, error: error.message };
+  }
 }
+
+function challenged() {
+  const say = (record) => process.stdout.write(`${JSON.stringify(record)}\n`);
+  say({ protocol: 1, implementation: IMPLEMENTATION, layers: Object.keys(LAYERS) });
+  const lines = require("readline").createInterface({ input: process.stdin });
+  lines.on("line", (text) => say(answered(text)));
+}
+
+function files(vectors, out, ...asked) {
+  fs.mkdirSync(out, { recursive: true });
+  for (const layer of asked.length ? asked : Object.keys(LAYERS).slice(0, -1)) {
+    const { cases } = JSON.parse(fs.readFileSync(path.join(vectors, "inputs", `${layer}.json`), "utf8"));
+    const answers = cases.map(({ id, input }) => ({ id, output: LAYERS[layer](input) }));
+    const head = { format: "quasistatic-ref/vectors-answers", version: 1, layer, implementation: IMPLEMENTATION };
+    fs.writeFileSync(path.join(out, `${layer}.json`), `${JSON.stringify({ ...head, answers })}\n`);
+  }
+}
+
+if (process.argv.length > 2) files(...process.argv.slice(2));
+else challenged();

@@ -1,7 +1,5 @@
 """``bench``: what a step costs, beside the solver alone and what else one might run."""
 
-from __future__ import annotations
-
 import argparse
 
 from quasistatic_ref.cli import options as shared
@@ -17,7 +15,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--quick", action="store_true", help="a little of everything, to see that it runs"
     )
     shared.add(parser, "--out", default="validation/benchmarks")
-    shared.add(parser, "--json", "--quiet")
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -42,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _figure(found: dict[str, object], options: argparse.Namespace) -> None:
-    from quasistatic_ref.figures.bench import step_times
     from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.lab.figures.bench import step_times
 
     figure_written(step_times(found, PAPER), options.out, "step_times")

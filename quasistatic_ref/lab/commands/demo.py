@@ -1,7 +1,5 @@
 """``demo``: the bunny grasped and lifted, with and without torsional friction."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 
@@ -16,7 +14,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     shared.add(parser, "--out", default="demo")
-    shared.add(parser, *shared.SOLVER, "--set", "--json", "--quiet")
+    shared.add(parser, *shared.SOLVER, "--set", "--json")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -53,11 +51,12 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.grasp import grasp_strip, rotation_plot
-    from quasistatic_ref.figures.style import figure_written
+    from quasistatic_ref.figures.style import figure_style, figure_written
+    from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
 
-    strip = grasp_strip(scenario, runs, INSTANTS)
-    rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
+    with figure_style():
+        strip = grasp_strip(scenario, runs, INSTANTS)
+        rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
     return [path.name for path in paths]

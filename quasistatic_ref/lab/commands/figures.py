@@ -1,7 +1,5 @@
 """``figures [NAME...]``: make the figures of the examples, as PNG and PDF."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence
@@ -18,10 +16,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(names, _examples)
     parser.add_argument(
-        "--style", default="paper", metavar="STYLE", help="paper (default) or slides: larger text"
+        "--style",
+        default="paper",
+        metavar="STYLE",
+        help="paper (default), slides, poster, one of matplotlib's, or a file such as my.mplstyle",
     )
     shared.add(parser, "--out", default="figures")
-    shared.add(parser, "--quiet")
 
 
 def _examples() -> Sequence[str]:

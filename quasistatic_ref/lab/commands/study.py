@@ -1,7 +1,5 @@
 """``study``: compare solvers, sweep the parameters of scenarios, report what was found."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections import Counter
@@ -40,7 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
-    shared.add(run_, "--json", "--quiet")
+    shared.add(run_, "--json")
     for name in ("export", "report", "pack"):
         words = "of a study that was run"
         parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)

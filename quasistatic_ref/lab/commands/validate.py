@@ -1,7 +1,5 @@
 """``validate [NAME...]``: measure the claims about the model."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path
@@ -27,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
     shared.completed(names, lambda: BY_NAME)
     shared.add(parser, "--out", default="validation")
-    shared.add(parser, "--json", "--quiet")
+    shared.add(parser, "--json")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -85,12 +83,14 @@ def _why(found: Finding) -> str:
 
 
 def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
-    from quasistatic_ref.figures.style import figure_written
-    from quasistatic_ref.figures.validation import PICTURES
+    from quasistatic_ref.figures.style import figure_style, figure_written
+    from quasistatic_ref.lab.figures.validation import PICTURES
 
     drawn = []
     for name, found in findings.items():
         if found.evidence is not None and name in PICTURES:
-            figure_written(PICTURES[name](found.evidence.picture), folder / "figures", name)
+            with figure_style():
+                figure = PICTURES[name](found.evidence.picture)
+            figure_written(figure, folder / "figures", name)
             drawn.append(name)
     return drawn

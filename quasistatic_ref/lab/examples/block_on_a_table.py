@@ -7,12 +7,14 @@ that nothing moves until the pull is mu_v m g. At rest, many forces inside the c
 ones that are drawn are those of one optimum.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
+from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
@@ -30,21 +32,23 @@ PULLS = np.linspace(0.0, 2.0, 21)
 """Over mu_v m g [-]."""
 
 
-def slips(pulls: Array) -> Array:
+def slips(pulls: Array, mu_v: float = MU_V, h: float = H) -> Array:
     """How far the block slides in one step, shape (N,) [m].
 
     Parameters
     ----------
     pulls : ndarray, shape (N,)
         At the height of the table, over mu_v m g [-].
+    mu_v, h : float
+        [-], [s].
     """
     corners = HALF * np.array([[x, y, -1.0] for x in (-1, 1) for y in (-1, 1)])
     frames = np.tile([[1.0, 0, 0], [0, 1.0, 0], Z], (4, 1, 1))
     inertia = M * (2 * HALF) ** 2 / 6
     found = []
-    for pull in pulls * MU_V * M * GRAVITY:
+    for pull in pulls * mu_v * M * GRAVITY:
         wrench = (pull, 0, -M * GRAVITY, 0, -HALF * pull, 0)  # it acts at the bottom: no tipping
-        step = rigid_step(M, inertia, wrench, corners, frames, mu_v=MU_V, h=H)
+        step = rigid_step(M, inertia, wrench, corners, frames, mu_v=mu_v, h=h)
         found.append(solve_step(step).delta_q[0])
     return np.array(found)
 
@@ -61,15 +65,21 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The block at rest with its forces; slip against pull."""
-    page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("block_push", *SETTINGS)
+def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
+    """The block at rest with its forces; slip against pull.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_v, h : float
+        [-], [s].
+    """
+    page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    scenario, run = ran("block_push", *SETTINGS, f"h={h}", f"contacts.floor.mu_v={mu_v}")
     draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.3 * HALF))
-    right.plot(PULLS, 1e3 * slips(PULLS), marker="o", markersize=3, clip_on=False)
-    right.set(xlabel=r"pull / ($\mu_v m g$) [-]", ylabel="slip in one step [mm]")
-    right.set_title(f"h = {1e3 * H:g} ms, friction pyramid", loc="right")
+    right.plot(PULLS, 1e3 * slips(PULLS, mu_v, h), marker="o", markersize=scaled(3), clip_on=False)
+    labelled(right, r"pull / ($\mu_v m g$) [-]", "slip in one step [mm]", caption(h))
     return page
 
 

@@ -5,51 +5,75 @@ balances what friction leaves of the weight, v = h g (sin a - mu_v cos a): no ve
 from step to step.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
+from quasistatic_ref.lab.examples.runs import Numbers, only, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 SLOPE, MU_V, G = np.radians(25), {"rough": 0.6, "smooth": 0.3}, 9.81
+H, TIME = 0.01, 0.4
+"""Time step and length of the run [s]."""
 
 
-def travels() -> tuple[Array, dict[str, Array]]:
-    """Times [s], and how far each block has gone down the slope [m]; shapes (41,)."""
-    scenario, run = ran("block_incline", "steps=40")
+def slid(h: float = H, **mu_v: float) -> tuple[Scenario, Trajectory, dict[str, Array]]:
+    """The scene, its run, and how far each block has gone down the slope, shapes (steps + 1,) [m].
+
+    Parameters
+    ----------
+    h : float
+        [s].
+    mu_v : float
+        Of ``rough`` and of ``smooth`` [-].
+    """
+    own = [f"contacts.{name}.mu_v={mu}" for name, mu in mu_v.items()]
+    scenario, run = ran("block_incline", f"h={h}", f"steps={round(TIME / h)}", *own)
     down = np.array([np.cos(SLOPE), 0, -np.sin(SLOPE)])
     bases = {name: scenario.system.joint(f"{name}/base").q for name in MU_V}
     gone = {name: (run["q"][:, q][:, :3] - run["q"][0, q][:3]) @ down for name, q in bases.items()}
-    return np.append(0.0, run["t"]), gone
+    return scenario, run, gone
 
 
 def main() -> Numbers:
     """Speeds at the end, and that of the formula."""
-    times, gone = travels()
-    h = times[1] - times[0]
+    _, _, gone = slid()
     return {
-        "speed of the rough block [mm/s]": 1e3 * (gone["rough"][-1] - gone["rough"][-2]) / h,
-        "speed of the smooth block [mm/s]": 1e3 * (gone["smooth"][-1] - gone["smooth"][-2]) / h,
+        "speed of the rough block [mm/s]": 1e3 * (gone["rough"][-1] - gone["rough"][-2]) / H,
+        "speed of the smooth block [mm/s]": 1e3 * (gone["smooth"][-1] - gone["smooth"][-2]) / H,
         "h g (sin a - mu_v cos a) [mm/s]": 1e3
-        * float(h * G * (np.sin(SLOPE) - MU_V["smooth"] * np.cos(SLOPE))),
+        * float(H * G * (np.sin(SLOPE) - MU_V["smooth"] * np.cos(SLOPE))),
     }
 
 
-@styled
-def figure() -> Figure:
-    """The blocks at the end, from the side; the way of each."""
-    page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("block_incline", "steps=40")
-    draw_scene(left, moment(scenario, run, -1), view="xz", parts=("contacts", "cones", "forces"))
-    times, gone = travels()
-    for name, way in gone.items():
-        right.plot(times, 1e3 * way, label=rf"$\mu_v$ = {MU_V[name]:g}")
-    right.set(xlabel="time t [s]", ylabel="way down the slope [mm]")
-    right.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-    right.legend()
+def figure(ax: Any = None, *, rough: float = 0.6, smooth: float = 0.3, h: float = H) -> Figure:
+    """Each block at the end, from the side; the way of both.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    rough, smooth : float
+        mu_v of the two blocks [-].
+    h : float
+        [s].
+    """
+    page, (*sides, right) = panels(6.3, 2.8, columns=3, within=ax)
+    scenario, run, gone = slid(h, rough=rough, smooth=smooth)
+    end = moment(scenario, run, -1)
+    for k, (axes, name, mu) in enumerate(zip(sides, MU_V, (rough, smooth), strict=True)):
+        own = only(end, (name, "slope"), range(4 * k, 4 * k + 4))  # its four corners
+        draw_scene(axes, own, view="xz", parts=("contacts", "cones", "forces"))
+        axes.get_legend().set_title(rf"{name}, $\mu_v$ = {mu:g}")
+    for (name, way), mu in zip(gone.items(), (rough, smooth), strict=True):
+        times = np.linspace(0.0, h * run.steps, len(way))
+        right.plot(times, 1e3 * way, label=rf"{name}, $\mu_v$ = {mu:g}")
+    labelled(right, "time t [s]", "way down the slope [mm]", caption(h))
     return page
 
 

@@ -1,26 +1,46 @@
-"""Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
+"""After Figure 3 of the paper: a sphere on the floor, spun by a torque that grows.
 
 Up to mu_omega m g it does not move at all. Beyond, it turns, and lifts off: a turn of theta needs
 a rise of mu_omega theta. This boundary layer is the price of convexity.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures import boundary_layer as drawing
+from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array
 
-RADIUS, MU_OMEGA, M, G = 0.05, 0.01, 0.3, 9.81
+RADIUS, MU_OMEGA, M, G, H = 0.05, 0.01, 0.3, 9.81, 0.01
+
+
+def spun(mu_omega: float = MU_OMEGA, h: float = H) -> tuple[Scenario, Trajectory, Array]:
+    """The scene, its run until the torque has its last value, whatever h is, and that torque.
+
+    Parameters
+    ----------
+    mu_omega, h : float
+        [m], [s].
+
+    Returns
+    -------
+    tuple of Scenario, Trajectory and ndarray, shape (steps,)
+        The torque of each step [N m].
+    """
+    scenario, run = ran("sphere_spin", f"h={h}", f"steps={round(2 / h)}",
+                        f"contacts.floor.mu_omega={mu_omega}")  # fmt: skip
+    (wrenches,) = scenario.wrenches
+    return scenario, run, np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
 
 
 def main() -> Numbers:
     """Where it begins to move, and how high it has risen at five times that torque."""
-    scenario, run = ran("sphere_spin")
-    (wrenches,) = scenario.wrenches
-    torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
+    scenario, run, torque = spun()
     moves = np.abs(run["delta_q"]).max(axis=1) > 1e-12
     return {
         "largest torque without motion [mN m]": 1e3 * torque[~moves].max(),
@@ -30,11 +50,26 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """Spin and lift-off against the torque."""
-    scenario, run = ran("sphere_spin")
-    return drawing.boundary_layer(scenario, run, height_at_rest=RADIUS)
+def figure(ax: Any = None, *, mu_omega: float = MU_OMEGA, h: float = H) -> Figure:
+    """Spin and lift-off against the torque.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_omega, h : float
+        [m], [s].
+    """
+    page, (top, bottom) = panels(4.6, 3.8, rows=2, within=ax, sharex=True)
+    scenario, run, torque = spun(mu_omega, h)
+    limit = 1e3 * mu_omega * M * G
+    top.plot(1e3 * torque, run["delta_q"][:, 5] / h)
+    bottom.plot(1e3 * torque, 1e3 * (run["q"][1:, 2] - RADIUS))
+    for axes in (top, bottom):
+        axes.axvline(limit, color="black", linestyle=":", label=r"$\mu_\omega\,m g$")
+    labelled(top, y="spin rate [rad/s]", title=caption(h, scenario.cone))
+    labelled(bottom, "applied torque [mN m]", "lift-off [mm]", key=False)
+    return page
 
 
 if __name__ == "__main__":

@@ -5,14 +5,15 @@ and the torque about n. The ellipsoid is what experiments suggest; the product l
 its limit whatever the tangential force. How much they hold is a matter of their volumes.
 """
 
-from __future__ import annotations
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.cones import limit_surfaces
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.step.friction import cone_matrix
 
 
@@ -23,10 +24,17 @@ def main() -> Numbers:
     return {f"volume of the {name} [-]": volume for name, volume in volumes.items()}
 
 
-@styled
-def figure() -> Figure:
-    """The three surfaces."""
-    return limit_surfaces()
+def figure(ax: Any = None, *, cones: Sequence[str] = SHOWN) -> Figure:
+    """The surfaces of some cones, side by side.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    cones : sequence of str
+        As ``cone`` of a step.
+    """
+    return limit_surfaces(cones, within=ax)
 
 
 if __name__ == "__main__":

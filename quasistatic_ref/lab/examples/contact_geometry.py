@@ -1,18 +1,17 @@
-"""Figure 2 of the paper, from data: alpha, beta, phi and the frame {d1, d2, n} of a contact.
+"""After Figure 2 of the paper, from data: alpha, beta, phi and the frame {d1, d2, n} of a contact.
 
 A capsule and a box, their closest points and the normal from the one to the other. The derivative
 of the signed distance phi with respect to q is n'J, which is what makes a row of Eq. (4) linear.
 """
 
-from __future__ import annotations
-
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.claim import Evidence
 from quasistatic_ref.lab.validate.paper.contact_geometry import evidence
 
@@ -36,10 +35,15 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The pair, seen along d1."""
-    return PICTURES["contact_geometry"](measured().picture)
+def figure(ax: Any = None) -> Figure:
+    """The pair, seen along d1.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    return PICTURES["contact_geometry"](measured().picture, ax)
 
 
 if __name__ == "__main__":

@@ -4,19 +4,23 @@ The hinge is a coordinate that nothing drives: M_u is one number, its inertia. T
 tip puts it, and stays there when the tip stops, since no velocity is carried from step to step.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 R, W = 0.6, 0.045
 """The tip's distance beside the hinge; its radius and half of the door's thickness [m]."""
 
-SETTINGS = ("h=0.04", "steps=120")
+H, TIME = 0.04, 4.8
+"""Time step and length of the run [s]."""
 
 
 def place(theta: Array) -> Array:
@@ -24,9 +28,14 @@ def place(theta: Array) -> Array:
     return np.asarray(R * np.tan(theta) - W / np.cos(theta))
 
 
+def opened(h: float = H) -> tuple[Scenario, Trajectory]:
+    """The scene and its run at a time step h [s]."""
+    return ran("door", f"h={h}", f"steps={round(TIME / h)}")
+
+
 def main() -> Numbers:
     """The angle at the end, how far the tip is from where geometry has it, and the last motion."""
-    _, run = ran("door", *SETTINGS)
+    _, run = opened()
     x, theta = run["q"][1:].T
     return {
         "angle at the end [deg]": np.degrees(theta[-1]),
@@ -35,20 +44,26 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The door from above, and its angle against the place of the tip."""
-    page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("door", *SETTINGS)
-    draw_scene(left, moment(scenario, run, 75), view="xy")
+def figure(ax: Any = None, *, h: float = H, t: float = 3.0) -> Figure:
+    """The door from above, and its angle against the place of the tip.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    h, t : float
+        Time step; when the door is drawn [s].
+    """
+    page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    scenario, run = opened(h)
+    draw_scene(left, moment(scenario, run, round(t / h)), view="xy")
     x, theta = run["q"][1:].T
     right.plot(1e3 * x, np.degrees(theta), label="steps")
     touching = np.linspace(theta.min(), theta.max(), 50)
     label = r"$x = r \tan\theta - w / \cos\theta$"
     right.plot(1e3 * place(touching), np.degrees(touching), "k:", label=label)
-    right.set(xlabel="place x of the tip [mm]", ylabel=r"angle $\theta$ of the door [deg]")
-    right.set_title(f"h = {1e3 * scenario.h:g} ms, frictionless", loc="right")
-    right.legend()
+    labelled(right, "place x of the tip [mm]", r"angle $\theta$ of the door [deg]",
+             caption(h, "frictionless"))  # fmt: skip
     return page
 
 

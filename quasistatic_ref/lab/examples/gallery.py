@@ -1,20 +1,23 @@
 """Every example by name, in the order in which they are best read."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any, Final
 
-from quasistatic_ref.figures import Figure
+from quasistatic_ref.figures import Figure, figure_style
 
 EXAMPLES: Final = (
     "block_on_a_table",
     "six_rows_of_a_contact",
     "cone_surfaces",
     "contact_geometry",
+    "finger_spring_block",
+    "the_step_loop",
+    "phi_and_j_of_a_cloud",
+    "a_screw",
     "block_on_an_incline",
     "pushed_block",
     "planar_pushing",
+    "flat_patch",
     "boundary_layer",
     "boundary_layer_laws",
     "pinch_threshold",
@@ -35,7 +38,17 @@ def example(name: str) -> Any:
     return import_module(f"quasistatic_ref.lab.examples.{name}")
 
 
-def figure_of(name: str) -> Figure:
-    """The figure of an example, in the style of the enclosing block."""
-    figure: Figure = example(name).figure()
+def figure_of(name: str, ax: Any = None, **parameters: Any) -> Figure:
+    """The figure of an example, in the style of the enclosing block, or of paper.
+
+    Parameters
+    ----------
+    name : str
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    parameters
+        Those of the example's ``figure``.
+    """
+    with figure_style():
+        figure: Figure = example(name).figure(ax, **parameters)
     return figure

@@ -1,14 +1,15 @@
-"""Figure 1 of the paper: a 992-point bunny, grasped behind its centre of mass and lifted.
+"""After Figure 1 of the paper: a 992-point bunny, here held behind its centre of mass and lifted.
 
 The only difference between the rows is mu_omega of the fingers. Without it, nothing resists turning
 about the points by which the two fingers hold it, and the bunny hangs down.
 """
 
-from __future__ import annotations
+from collections.abc import Sequence
+from typing import Any
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.grasp import grasp_strip
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion
@@ -27,11 +28,18 @@ def main() -> Numbers:
     return found | {"variables of a step [-]": variables, "rows of a step [-]": rows}
 
 
-@styled
-def figure() -> Figure:
-    """Instants in columns, with and without torsion in rows."""
+def figure(ax: Any = None, *, instants: Sequence[float] = INSTANTS) -> Figure:
+    """Instants in columns, with and without torsion in rows.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    instants : sequence of float
+        [s].
+    """
     runs = {case: grasp(case)[1] for case in CASES}
-    return grasp_strip(grasp("with torsion")[0], runs, INSTANTS)
+    return grasp_strip(grasp("with torsion")[0], runs, instants, ax)
 
 
 if __name__ == "__main__":

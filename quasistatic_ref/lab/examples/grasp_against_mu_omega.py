@@ -1,18 +1,20 @@
 """How far the bunny of Figure 1 turns in the grip, against mu_omega of the fingers.
 
-It is a threshold: from about 1.8 mm on the contacts stick, and more changes nothing. A finger can
-have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as wide as the
-finger under Hertz's pressure, (R15). The scene's value lies between the two.
+It is a threshold: from about 1.8 mm on the contacts stick, and more changes next to nothing. A
+finger can have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as
+wide as the finger under Hertz's pressure, (R15). The scene's value lies between the two.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels, styled
+from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp, ran
 from quasistatic_ref.model.shapes import Box
@@ -28,14 +30,19 @@ LIFTING = 137
 
 
 @cache
-def rotations() -> tuple[Array, Array]:
+def rotations(values: tuple[float, ...] = VALUES) -> tuple[Array, Array]:
     """mu_omega [m], ascending, and the largest rotation during the lift [deg], each shape (N,).
 
     Two of the runs are those of Figure 1. The others are not certified: without certificates the
     angle of the scene differs by 3e-8 degrees, and a picture needs 1e-1.
+
+    Parameters
+    ----------
+    values : tuple of float
+        mu_omega of the others [m].
     """
     own = ("solver.certify=off", f"steps={round(TOP / 0.01)}")
-    runs = [ran("bunny_grasp", f"contacts.grip.mu_omega={x}", *own) for x in VALUES]
+    runs = [ran("bunny_grasp", f"contacts.grip.mu_omega={x}", *own) for x in values]
     runs += [grasp(case) for case in CASES]
     mu_omega = np.array([run["mu_omega"].max() for _, run in runs])
     turned = np.array([float(str(grasp_report(*run)["rotation_deg"])) for run in runs])
@@ -76,30 +83,32 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """Rotation against mu_omega."""
+def figure(ax: Any = None, *, mu_omega: Sequence[float] = VALUES) -> Figure:
+    """Rotation against mu_omega.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_omega : sequence of float
+        Apart from the two of Figure 1 [m].
+    """
     scenario, run = grasp("with torsion")
-    mu_omega, turned = rotations()
+    at, turned = rotations(tuple(mu_omega))
     used, limit = run["mu_omega"].max(), physical_limit()
-    page, (axes,) = panels(4.6, 2.8)
-    axes.plot(1e3 * mu_omega, turned, marker="o", clip_on=False)
+    page, (axes,) = panels(4.6, 2.8, within=ax)
+    axes.plot(1e3 * at, turned, marker="o", markersize=scaled(4), clip_on=False)
     for x, line, label in (
         (needed(run), ":", "begins to hold, (R9)"),
         (used, "-", "value of the scene"),
-        (limit, "--", r"limit of a finger: $3\pi\,\mu_v r\,/\,16$"),
+        (limit, "--", r"$3\pi\,\mu_v r\,/\,16$ of a finger"),
     ):
-        axes.axvline(1e3 * x, color="black", linestyle=line, linewidth=1)
-        axes.annotate(
-            label, (1e3 * x, 57), xytext=(-3, 0), textcoords="offset points", rotation=90,
-            ha="right", va="top",
-        )  # fmt: skip
-    axes.set(
-        xlabel=r"$\mu_\omega$ of the fingers [mm]",
-        ylabel=f"rotation, t = {CLOSED:g} to {TOP:g} s [deg]",
-        ylim=(-1, 60),
-    )
-    axes.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
+        axes.axvline(1e3 * x, color="black", linestyle=line, linewidth=scaled(1), label=label)
+    axes.set_ylim(-1, 60)
+    labelled(
+        axes, r"$\mu_\omega$ of the fingers [mm]",
+        f"rotation, t = {CLOSED:g} to {TOP:g} s [deg]", caption(scenario.h, scenario.cone),
+    )  # fmt: skip
     return page
 
 

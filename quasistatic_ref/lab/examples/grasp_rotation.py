@@ -1,12 +1,12 @@
 """How far the bunny of Figure 1 turns in the grip, with and without torsional friction."""
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.grasp import rotation_plot
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.grasp import rotation_plot
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion
@@ -24,11 +24,18 @@ def main() -> Numbers:
     return found
 
 
-@styled
-def figure() -> Figure:
-    """Rotation against time."""
+def figure(ax: Any = None, *, since: float = CLOSED) -> Figure:
+    """Rotation against time.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    since : float
+        From when on [s].
+    """
     runs = {case: grasp(case)[1] for case in CASES}
-    return rotation_plot(grasp("with torsion")[0], runs, "bunny", CLOSED)
+    return rotation_plot(grasp("with torsion")[0], runs, "bunny", since, ax)
 
 
 if __name__ == "__main__":

@@ -4,23 +4,33 @@ The gantry's springs give way until the peg is in. Inside, they press it on the 
 K (e - c + b), b being the boundary layer, and friction on both walls holds it back.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 
 K = np.array([500.0, 500.0, 2000.0])
 MISS, CLEARANCE, MU_V, V = np.array([0.003, 0.002]), 0.0005, 0.2, 0.01
-SETTINGS = ("h=0.02", "steps=200")
+H, TIME = 0.02, 4.0
+"""Time step and length of the run [s]."""
 WALLS = ("east", "west", "north", "south")
+
+
+def inserted(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
+    """The scene and its run, at mu_v [-] and a time step h [s]."""
+    settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.walls.mu_v={mu_v}"
+    return ran("peg_in_hole", *settings)
 
 
 def main() -> Numbers:
     """Forces of the walls that the peg slides along, and its lag in depth, with their formulas."""
-    scenario, run = ran("peg_in_hole", *SETTINGS)
+    scenario, run = inserted()
     layer = MU_V * scenario.h * V
     east, _, north, _ = run["wrench"][-1, :, 2]
     N_x, N_y = K[:2] * (MISS - CLEARANCE + layer)
@@ -34,18 +44,23 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The peg on its way in, and the forces of the walls."""
-    page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("peg_in_hole", *SETTINGS)
+def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
+    """The peg on its way in, and the forces of the walls.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_v, h : float
+        [-], [s].
+    """
+    page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    scenario, run = inserted(mu_v, h)
     tip = np.array([0.0, 0.0, -0.005])
-    draw_scene(left, moment(scenario, run, 120), view="xz", around=(tip, 0.03))
+    draw_scene(left, moment(scenario, run, round(2.4 / h)), view="xz", around=(tip, 0.03))
     for wall, force in zip(WALLS, run["wrench"][:, :, 2].T, strict=True):
         right.plot(run["t"], force, label=wall)
-    right.set(xlabel="time t [s]", ylabel="normal force of a wall [N]")
-    right.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-    right.legend(loc="center right")
+    labelled(right, "time t [s]", "normal force of a wall [N]", caption(h))
     return page
 
 

@@ -4,15 +4,15 @@ With torsional friction the bar's weight m g has a lever d that the fingers can 
 paper's pyramid the normal force is shared: N = m g / (2 mu_v) + m g d / (2 mu_omega), (R21).
 """
 
-from __future__ import annotations
-
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.cones import pinch_thresholds
+from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.validate.measures import threshold
@@ -28,16 +28,21 @@ SHARES = (0.97, 1.03)
 """Of the least squeeze: one slips, the other holds."""
 
 
-def holds(cone: str, squeeze: float, d: float = D) -> bool:
+def holds(
+    cone: str, squeeze: float, d: float = D, m: float = M, mu_v: float = MU_V,
+    mu_omega: float = MU_OMEGA,
+) -> bool:  # fmt: skip
     """Whether one exact step leaves the bar where it is, at a squeeze [N] and a lever [m]."""
-    step = pinch_step(squeeze, d, MU_V, MU_OMEGA, m=M, cone=cone)
+    step = pinch_step(squeeze, d, mu_v, mu_omega, m=m, cone=cone)
     motion = step.contacts.J @ solve_step(step).delta_q
     return bool(np.abs(motion).max() < STILL)
 
 
-def least_squeezes(d: Array) -> dict[str, Array]:
+def least_squeezes(
+    d: Array, m: float = M, mu_v: float = MU_V, mu_omega: float = MU_OMEGA
+) -> dict[str, Array]:
     """Cone -> the least squeeze that holds the bar [N], at levers [m]; shapes (N,)."""
-    slide, spin = M * GRAVITY / (2 * MU_V), M * GRAVITY * d / (2 * MU_OMEGA)
+    slide, spin = m * GRAVITY / (2 * mu_v), m * GRAVITY * d / (2 * mu_omega)
     return {
         "pyramid": slide + spin,  # (R21)
         "ellipsoid": np.hypot(slide, spin),  # (R22)
@@ -56,25 +61,40 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure(offsets: int = 5) -> Figure:
-    """The least squeeze against the lever, in three cones.
+def figure(
+    ax: Any = None, *, m: float = M, mu_v: float = MU_V, mu_omega: float = MU_OMEGA,
+    levers: int = 5,
+) -> Figure:  # fmt: skip
+    """The least squeeze against the lever, in three cones: formulas, and steps as marks.
 
     Parameters
     ----------
-    offsets : int
-        Number of levers.
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    m, mu_v, mu_omega : float
+        [kg], [-], [m].
+    levers : int
+        Number of levers at which steps are tried.
     """
-    d = np.linspace(0.0, 0.06, offsets)
-    least = least_squeezes(d)
-    slips = {
-        cone: {
-            share: ~np.array([holds(cone, share * N, x) for N, x in zip(squeezes, d, strict=True)])
-            for share in SHARES
-        }
-        for cone, squeezes in least.items()
-    }
-    return pinch_thresholds(d, least, slips)
+    page, (axes,) = panels(4.8, 3.4, within=ax)
+    numbers = m, mu_v, mu_omega
+    longest = 1.5 * mu_omega / mu_v
+    dense, d = np.linspace(0.0, longest, 400), np.linspace(0.0, longest, levers)
+    tried = least_squeezes(d, *numbers)
+    marks: dict[str, Any] = {"color": "black", "markersize": scaled(4), "linestyle": ""}
+    for name, least in least_squeezes(dense, *numbers).items():
+        axes.plot(1e3 * dense, least, label=name)
+        for share in SHARES:
+            held = np.array([holds(name, share * N, x, *numbers) for N, x in
+                             zip(tried[name], d, strict=True)])  # fmt: skip
+            for said, mark, face in ((held, "^", "black"), (~held, "v", "none")):
+                axes.plot(
+                    1e3 * d[said], share * tried[name][said], mark, markerfacecolor=face, **marks
+                )
+    axes.plot([], [], "^", label="a step holds", **marks)
+    axes.plot([], [], "v", markerfacecolor="none", label="a step slips", **marks)
+    labelled(axes, "lever d of the weight [mm]", "squeeze N [N]", "lines: (R21)-(R23)")
+    return page
 
 
 if __name__ == "__main__":

@@ -5,24 +5,24 @@ slowly. Under the ellipsoid a step agrees with it while the quasi-dynamic number
 when the slider's radius of gyration rho is c = mu_omega / mu_v, at any speed.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.slider import GYRATION, H
 from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
 from quasistatic_ref.step.data import Array
 
 
 @cache
-def ratios() -> dict[float, Array]:
-    """Turn over that of Lynch's law at each speed, shape (N,), for three c = mu_omega / mu_v."""
-    return {c: np.array(turns(c)) for c in RADII}
+def ratios(radii: tuple[float, ...] = RADII) -> dict[float, Array]:
+    """Turn over that of Lynch's law at each speed, shape (N,), for `radii` mu_omega / mu_v [m]."""
+    return {c: np.array(turns(c)) for c in radii}
 
 
 def main() -> Numbers:
@@ -36,11 +36,18 @@ def main() -> Numbers:
     return found
 
 
-@styled
-def figure() -> Figure:
-    """Steps as marks, (R28) as lines."""
-    picture = {"Pi": SPEEDS, "turns": ratios(), "rho": GYRATION, "h": H}
-    return PICTURES["planar_push"](picture)
+def figure(ax: Any = None, *, radii: Sequence[float] = RADII) -> Figure:
+    """Steps as marks, (R28) as lines.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    radii : sequence of float
+        Up to four c = mu_omega / mu_v [m].
+    """
+    picture = {"Pi": SPEEDS, "turns": ratios(tuple(radii)), "rho": GYRATION, "h": H}
+    return PICTURES["planar_push"](picture, ax)
 
 
 if __name__ == "__main__":

@@ -5,28 +5,33 @@ block starts every step from rest. The drag is small where the quasi-dynamic num
 is; here it is a quarter of friction, on purpose.
 """
 
-from __future__ import annotations
+from typing import Any
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 M, MU_V, K_Q, V, G = 0.5, 0.4, 1000.0, 0.01, 9.81
+H, TIME = 0.01, 1.2
+"""Time step and length of the run [s]."""
 
 
-def forces() -> Array:
-    """Force of the spring after each step, shape (120,) [N]."""
-    _, run = ran("block_push", "steps=120")
-    force: Array = K_Q * (run["q_bar_a"][:, 0] - run["q"][1:, 0])
-    return force
+def pushed(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory, Array]:
+    """The scene, its run of 1.2 s, and the force of the spring after each step, shape (N,) [N]."""
+    settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.floor.mu_v={mu_v}"
+    scenario, run = ran("block_push", *settings)
+    return scenario, run, K_Q * (run["q_bar_a"][:, 0] - run["q"][1:, 0])
 
 
 def main() -> Numbers:
     """The push at the end, and what it should be."""
-    scenario, run = ran("block_push", "steps=120")
+    scenario, run, force = pushed()
     return {
-        "push [N]": forces()[-1],
+        "push [N]": force[-1],
         "friction mu_v m g [N]": MU_V * M * G,
         "drag m v / h [N]": M * V / scenario.h,
         "quasi-dynamic number [-]": run.header["quasi_dynamic_number"],
@@ -34,19 +39,24 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The block under way, and the push against time."""
-    page, (left, right) = panels(6.3, 3.0, columns=2)
-    scenario, run = ran("block_push", "steps=120")
+def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
+    """The block under way, and the push against time.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_v, h : float
+        [-], [s].
+    """
+    page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    scenario, run, force = pushed(mu_v, h)
     draw_scene(left, moment(scenario, run, -1), view="xz", parts=("contacts", "cones", "forces"))
-    right.plot(run["t"], forces(), label="spring")
-    friction, drag = MU_V * M * G, M * V / scenario.h
+    right.plot(run["t"], force, label="spring")
+    friction, drag = mu_v * M * G, M * V / h
     right.axhline(friction, color="black", linestyle=":", label=r"$\mu_v m g$")
     right.axhline(friction + drag, color="black", linestyle="--", label=r"$\mu_v m g + m v / h$")
-    right.set(xlabel="time t [s]", ylabel="push [N]")
-    right.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-    right.legend(loc="lower right")
+    labelled(right, "time t [s]", "push [N]", caption(h))
     return page
 
 

@@ -6,34 +6,44 @@ F = mu_v m g + m v / h, and the sum of two joints' torques is F times the differ
 heights.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, draw_scene, moment, panels, styled
+from quasistatic_ref.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 M, MU_V, K_Q, G = 0.4, 0.4, 7000.0, 9.81
-SETTINGS = ("h=0.02", "steps=60")
+H, TIME = 0.02, 1.2
+"""Time step and length of the run [s]."""
 
 
-def torques() -> tuple[Array, Array]:
+def pushed(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
+    """The scene and its run, at mu_v of the floor [-] and a time step h [s]."""
+    settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.floor.mu_v={mu_v}"
+    return ran("panda_push", *settings)
+
+
+def torques(mu_v: float = MU_V, h: float = H) -> tuple[Array, Array]:
     """tau_2 + tau_4 after each step, and F (z_4 - z_2) [N m], shapes (N,)."""
-    scenario, run = ran("panda_push", *SETTINGS)
+    scenario, run = pushed(mu_v, h)
     system = scenario.system
     axes = [system.link(f"panda/panda_link{i}") for i in (2, 4)]
     z_2, z_4 = np.array([system.kinematics(q).t[axes, 2] for q in run["q"][:-1]]).T
-    speed = run["delta_q"][:, system.joint("block/base").v][:, 0] / scenario.h
-    force = np.where(speed > 0, MU_V * M * G, 0.0) + M * speed / scenario.h
+    speed = run["delta_q"][:, system.joint("block/base").v][:, 0] / h
+    force = np.where(speed > 0, mu_v * M * G, 0.0) + M * speed / h
     tau = K_Q * (run["q_bar_a"] - run["q"][1:, : system.n_q_a])[:, :7]
     return tau[:, 1] + tau[:, 3], force * (z_4 - z_2)
 
 
 def main() -> Numbers:
     """The torques at the end, and how far the block went."""
-    scenario, run = ran("panda_push", *SETTINGS)
+    scenario, run = pushed()
     measured, formula = torques()
     x = run["q"][:, scenario.system.joint("block/base").q][:, 0]
     return {
@@ -43,18 +53,23 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The robot from the side, and the torques of two joints."""
-    page, (left, right) = panels(6.3, 3.2, columns=2)
-    scenario, run = ran("panda_push", *SETTINGS)
+def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
+    """The robot from the side, and the torques of two joints.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_v, h : float
+        Of the floor [-], [s].
+    """
+    page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
+    scenario, run = pushed(mu_v, h)
     draw_scene(left, moment(scenario, run, -1), view="xz", parts=("contacts", "forces"))
-    measured, formula = torques()
+    measured, formula = torques(mu_v, h)
     right.plot(run["t"], measured, label=r"$\tau_2 + \tau_4$")
     right.plot(run["t"], formula, color="black", linestyle=":", label=r"$F\,(z_4 - z_2)$")
-    right.set(xlabel="time t [s]", ylabel="torque [N m]")
-    right.set_title(f"h = {1e3 * scenario.h:g} ms, friction {scenario.cone}", loc="right")
-    right.legend()
+    labelled(right, "time t [s]", "torque [N m]", caption(h))
     return page
 
 

@@ -7,12 +7,14 @@ A ball that only slides along d1 stands on one of the six; one that slides and s
 cost the same stands on two. The rows that it stands on push back, all others are open.
 """
 
-from __future__ import annotations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels, styled
+from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.figures.pens import CONTACT
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.solve.solve import solve_step
@@ -25,36 +27,33 @@ LOADS = {"at rest": (0.0, 0.0), "pushed along d1": (2.0, 0.0), "turned about n":
 """Push over mu_v m g, torque over mu_omega m g [-]."""
 
 
-def loaded(push: float, turn: float) -> StepData:
+def loaded(
+    push: float, turn: float, mu_v: float = MU_V, mu_omega: float = MU_OMEGA, h: float = H
+) -> StepData:
     """A ball on the floor, with a push where it touches and a turn about the vertical.
 
     Parameters
     ----------
     push, turn : float
         Over what friction holds, mu_v m g and mu_omega m g [-].
+    mu_v, mu_omega, h : float
+        [-], [m], [s].
     """
-    force, torque = push * MU_V * M * GRAVITY, turn * MU_OMEGA * M * GRAVITY
+    force, torque = push * mu_v * M * GRAVITY, turn * mu_omega * M * GRAVITY
     wrench = (force, 0, -M * GRAVITY, 0, -RADIUS * force, torque)
     inertia = 0.4 * M * RADIUS**2
-    return sphere_step(M, inertia, RADIUS, wrench, mu_v=MU_V, mu_omega=MU_OMEGA, phi=0.0, h=H)
+    return sphere_step(M, inertia, RADIUS, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=0.0, h=h)
 
 
-def rows(push: float, turn: float) -> tuple[Array, Array]:
-    """Opening A delta_q - b of the six rows [m], and their forces lam / h [N], shapes (6,).
-
-    Parameters
-    ----------
-    push, turn : float
-        As for :func:`loaded` [-].
-    """
-    step = loaded(push, turn)
+def rows(step: StepData) -> tuple[Array, Array]:
+    """Opening A delta_q - b of the six rows [m], and their forces lam / h [N], shapes (6,)."""
     solution, form = solve_step(step), standard_form(step)
-    return form.A @ solution.delta_q - form.b, solution.lam / H
+    return form.A @ solution.delta_q - form.b, solution.lam / step.h
 
 
 def main() -> Numbers:
     """How many rows are closed under each load; their forces add up to the normal force."""
-    found = {name: rows(*load) for name, load in LOADS.items()}
+    found = {name: rows(loaded(*load)) for name, load in LOADS.items()}
     closed = {
         f"closed rows, {name} [-]": float(np.sum(np.abs(opening) < 1e-12))
         for name, (opening, _) in found.items()
@@ -65,19 +64,32 @@ def main() -> Numbers:
     }
 
 
-@styled
-def figure() -> Figure:
-    """The opening of each row under each load."""
-    page, grid = panels(6.3, 2.4, columns=len(LOADS), sharey=True)
+def figure(
+    ax: Any = None, *, mu_v: float = MU_V, mu_omega: float = MU_OMEGA, h: float = H
+) -> Figure:
+    """The opening of each row under each load.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    mu_v, mu_omega, h : float
+        [-], [m], [s].
+    """
+    columns = len(LOADS)
+    page, grid = panels(6.3, 2.6, columns=columns, within=ax, narrow=12, sharey=True)
     for axes, (name, load) in zip(grid, LOADS.items(), strict=True):
-        opening, force = rows(*load)
+        opening, force = rows(loaded(*load, mu_v, mu_omega, h))
+        axes.grid(visible=False)
         axes.bar(ROWS, 1e6 * opening, color="white", edgecolor="black")
-        for k in np.flatnonzero(force > 1e-9):
-            axes.plot(k, 0, marker="^", color="#D55E00", clip_on=False, zorder=5)
+        pushing = np.flatnonzero(force > 1e-9)
+        label = "rows that push" if axes is grid[0] else None
+        axes.plot(pushing, 0 * pushing, "^", color=CONTACT, clip_on=False, zorder=5, label=label)
         axes.tick_params(axis="x", rotation=60)
         axes.set_title(name)
-    grid[0].set_ylabel(r"opening of the row [$\mu$m]")
-    page.suptitle(r"triangles: the rows that push; h = 10 ms, friction pyramid", fontsize="medium")
+        labelled(axes, y=r"opening [$\mu$m]", key=False)
+        axes.label_outer(remove_inner_ticks=True)
+    grid[0].get_figure(root=False).legend(loc="outside upper center", title=caption(h))
     return page
 
 

@@ -5,15 +5,15 @@ optimum of each step says how many digits of the answer are right. docs/exactnes
 for all 600 steps, and for problems that are not written in natural units.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.digits import BackendDigits, digits_of_backends
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.solve.solve import solve_step
 
@@ -24,13 +24,15 @@ EVERY = 25
 
 
 @cache
-def records() -> tuple[BackendDigits, ...]:
+def records(
+    backends: tuple[str, ...] = BACKENDS, accuracies: tuple[str, ...] = ACCURACIES
+) -> tuple[BackendDigits, ...]:
     """One for each backend and accuracy."""
     run = grasp("with torsion")[1]
     steps = [run.step_data(k) for k in range(0, run.steps, EVERY)]
     found = []
-    for backend in BACKENDS:
-        for accuracy in ACCURACIES:
+    for backend in backends:
+        for accuracy in accuracies:
             answers = [solve_step(s, backend, accuracy=float(accuracy)) for s in steps]
             digits = np.array([a.statistics.digits for a in answers], dtype=np.float64)
             worst, low, median, best = np.quantile(digits, [0, 0.01, 0.5, 1])
@@ -44,11 +46,20 @@ def main() -> Numbers:
     return {f"worst digits, {r.backend} at {r.accuracy} [-]": r.worst for r in records()}
 
 
-@styled
-def figure() -> Figure:
-    """Digits against the accuracy asked for."""
-    subject = f"{records()[0].steps} steps of bunny_grasp, h = 10 ms, friction pyramid"
-    return digits_of_backends(records(), subject)
+def figure(
+    ax: Any = None, *, backends: Sequence[str] = BACKENDS, accuracies: Sequence[str] = ACCURACIES
+) -> Figure:
+    """Digits against the accuracy asked for.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    backends, accuracies : sequence of str
+    """
+    found = records(tuple(backends), tuple(accuracies))
+    subject = f"{found[0].steps} steps of bunny_grasp, h = 10 ms, friction pyramid"
+    return digits_of_backends(found, subject, ax)
 
 
 if __name__ == "__main__":

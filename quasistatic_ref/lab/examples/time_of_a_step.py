@@ -1,15 +1,15 @@
-"""Figure 4 of the paper: where the time of a step goes.
+"""After Figure 4 of the paper: where the time of a step goes.
 
 The paper says that a majority of it goes into the quadratic program, although almost 3,000 signed
 distances are evaluated. Here that depends on the solver, and on whether all distances are evaluated
 or a tracker leaves out those that cannot matter. The times are those of this machine.
 """
 
-from __future__ import annotations
+from typing import Any
 
-from quasistatic_ref.figures import Figure, styled
-from quasistatic_ref.figures.validation import PICTURES
+from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.validate.paper.step_time import measured
 
 
@@ -26,10 +26,15 @@ def main() -> Numbers:
     return numbers
 
 
-@styled
-def figure() -> Figure:
-    """All parts, as stacked bars."""
-    return PICTURES["step_time"](measured())
+def figure(ax: Any = None) -> Figure:
+    """All parts, as stacked bars.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    return PICTURES["step_time"](measured(), ax)
 
 
 if __name__ == "__main__":

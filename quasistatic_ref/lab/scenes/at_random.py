@@ -1,7 +1,5 @@
 """Random contacts, matrices and steps. The order of the draws is part of what a seed means."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

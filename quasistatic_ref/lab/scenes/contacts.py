@@ -1,7 +1,5 @@
 """Contacts from plain arrays: frames, J of points of a rigid body, some of them picked."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

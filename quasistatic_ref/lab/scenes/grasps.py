@@ -4,8 +4,6 @@ The coordinates are those of the gripper, a stiff floating base and widths, then
 body. Contacts are between the gripper and a body, six rows, or a floor and a body, four rows.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Many free bodies: boxes in a row, or piled up, to show what large steps cost."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

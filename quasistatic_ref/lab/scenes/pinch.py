@@ -1,7 +1,5 @@
 """The paper's Figure 1 in two contacts: fingertips hold a bar off its centre of mass."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian

@@ -3,8 +3,6 @@
 The coordinates of a body are its twist at the centre of mass, axes along the world's.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

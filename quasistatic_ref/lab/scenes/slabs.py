@@ -4,8 +4,6 @@ All numbers come from one generator, so that a seed gives the same step everywhe
 negative: standing still is allowed, and every step has a solution.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng

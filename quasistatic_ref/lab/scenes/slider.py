@@ -1,7 +1,5 @@
 """A slider on one soft contact, pushed along the plane: (R28), in the ellipsoid, and its step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Scenes with bodies: URDF texts and the systems that they make."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,7 +11,8 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.simulate.simulator import Simulator, StepResult
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.step.data import Array
 

@@ -1,7 +1,5 @@
 """Which setting to use: each solver's fastest of those that are about as right as its best."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

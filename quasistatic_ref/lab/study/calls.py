@@ -1,7 +1,5 @@
 """Four ways to call a solver: CVXPY, qpsolvers, a Python callable, an executable."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import shutil

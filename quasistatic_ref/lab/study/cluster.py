@@ -1,7 +1,5 @@
 """The same study on an existing Dask cluster: blocks of measurements travel with their problems."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager

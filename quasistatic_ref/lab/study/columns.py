@@ -1,7 +1,5 @@
 """The rows of a store as columns, chosen by what they say about themselves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np

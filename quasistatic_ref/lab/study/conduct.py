@@ -4,8 +4,6 @@ The same loop serves the cores of this machine and a Dask cluster: both are exec
 blocks of measurements and give back rows. There is never more than one block of a solver under way.
 """
 
-from __future__ import annotations
-
 import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
@@ -28,7 +26,7 @@ BLOCK = 50
 
 
 def block_rows(keeper: Keeper, block: Block, limit: float, left: float) -> list[Row]:
-    """Measure one block; what the budget does not cover is told so.
+    """Measure one block; a measurement beyond the budget is a row that says so.
 
     Parameters
     ----------

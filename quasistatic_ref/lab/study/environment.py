@@ -1,7 +1,5 @@
 """Where a study ran: machine and versions, for the record beside its times."""
 
-from __future__ import annotations
-
 import os
 import platform
 from importlib.metadata import PackageNotFoundError, version

@@ -4,8 +4,6 @@ Everything is measured in natural units, whichever units the solver was asked in
 lossless, and digits, which are relative, do not notice.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

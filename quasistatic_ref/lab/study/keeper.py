@@ -1,7 +1,5 @@
 """The keeper of one solver's process: starts it, asks it, kills it when it hangs, starts anew."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import signal
@@ -100,7 +98,7 @@ class Keeper:
         self._outbox.close()
         self._process = None
 
-    def __enter__(self) -> Keeper:
+    def __enter__(self) -> "Keeper":
         return self
 
     def __exit__(self, *exception: object) -> None:

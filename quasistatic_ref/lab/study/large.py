@@ -1,7 +1,5 @@
 """What large steps cost: time by part and memory, against bodies and against contacts."""
 
-from __future__ import annotations
-
 import tracemalloc
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A store made small enough to keep in a repository: the same rows, shorter numbers."""
 
-from __future__ import annotations
-
 import json
 import lzma
 import math

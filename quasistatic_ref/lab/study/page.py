@@ -1,7 +1,5 @@
 """What a report is made of: sections of sentences, tables and pictures; as data."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -38,7 +36,7 @@ class Picture:
     name : str
         Of its file.
     kind : str
-        Which figure of ``figures/study.py``.
+        Which figure of ``lab/figures/study.py``.
     data : mapping
         What that one draws.
     caption : str

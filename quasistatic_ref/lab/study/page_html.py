@@ -1,7 +1,5 @@
 """A report as one HTML file: figures inside it, nothing from elsewhere, no scripts."""
 
-from __future__ import annotations
-
 import base64
 import re
 from collections.abc import Mapping

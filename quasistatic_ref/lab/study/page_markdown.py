@@ -1,7 +1,5 @@
 """A report as Markdown, its figures in the folder ``figures`` next to it."""
 
-from __future__ import annotations
-
 from quasistatic_ref.lab.study.page import Block, Picture, Report, Table
 
 

@@ -1,7 +1,5 @@
 """A study's problems as test sets of qpbenchmark, in raw and in natural units."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from quasistatic_ref.files import text_written

@@ -4,8 +4,6 @@ Problems come in one scattered order, the same for all solvers, so that what a b
 no family but a part of all; on each problem all solvers are asked before the next one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The test set of a study: made once, from a seed, and kept in a folder with its exact answers."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math
@@ -176,7 +174,7 @@ def problems_read(folder: str | Path) -> list[Problem]:
     """
     folder = Path(folder)
     head, lines = _head(folder), lines_read(folder / FACTS, FACT)
-    arrays = npz_arrays(folder / NUMBERS)
+    arrays = npz_arrays(folder / NUMBERS, "the numbers of a test set")
     sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in NAMES}
     if (
         head.get("format") != FORMAT

@@ -4,8 +4,6 @@ The problem is the four arrays as they are: somebody who reads them from a file 
 numbers, and the exact answer belongs to these, not to the step that they were rounded from.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The report on a store, as data; drawing and writing it is the command's."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError

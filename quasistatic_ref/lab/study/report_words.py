@@ -1,7 +1,5 @@
 """The sentences of a report: method, limitations, where it ran."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping, Sequence
 from functools import cache

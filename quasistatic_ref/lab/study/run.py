@@ -1,7 +1,5 @@
 """A study of solvers, from its file to its store."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import asdict

@@ -4,8 +4,6 @@ A shape is a kind of value, a table of shapes by name, or a list of one shape. A
 from its shape is refused by line, field and value.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The report on solvers: which one, at which setting, how right, how fast, where it fails."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The tables of a report on solvers; each carries the filter that gives its rows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The solvers of a study, by the road on which they are asked, and the settings to ask at."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,10 +1,8 @@
 """STUDY.toml: what is compared on what, read field by field; a mistake is one sentence."""
 
-from __future__ import annotations
-
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,16 +12,24 @@ from quasistatic_ref.files import bytes_read, text_of
 from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import chosen_solvers, own_solvers
+from quasistatic_ref.lab.study.spec_table import (
+    COUNTS,
+    FORMAT,
+    PROBLEMS,
+    RUN,
+    SETTING,
+    SOLVERS,
+    TABLES,
+    VERSION,
+)
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.settings import toml_tables
 
-FORMAT, VERSION = "quasistatic-ref/study", 1
 KINDS = ("solvers", "sweep")
+FAMILIES = tuple(TABLES[COUNTS])
 LARGEST = 2**20
 """Largest study file [bytes]."""
-FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
-MOST_PROBLEMS = 100_000
 QUICK = 20
 """By how much ``--quick`` divides the number of problems."""
 
@@ -60,7 +66,7 @@ class Part:
     warm : tuple of bool
     repetitions : int
     every : int
-        Each so-manieth problem only.
+        3 asks every third problem, in a random order of all families.
     """
 
     solvers: tuple[Solver, ...]
@@ -146,13 +152,10 @@ def study_tables(path: Path) -> dict[str, Any]:
 
 def study_kind(tables: dict[str, Any]) -> str:
     """``"solvers"`` or ``"sweep"``."""
-    return Fields(dict(tables)).text("kind", "solvers", KINDS)
-
-
-def header(top: Fields) -> None:
-    """Read ``format``, ``version`` and ``kind``, which both kinds of study begin with."""
-    top.check_format(FORMAT, VERSION)
-    top.text("kind", "solvers", KINDS)
+    top = Fields(tables)
+    if {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+        top.check_format(FORMAT, VERSION)
+    return top.text("kind", "solvers", KINDS)
 
 
 def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Study:
@@ -171,78 +174,49 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         Naming the file, the field and the value.
     """
     try:
-        top = Fields(tables)
-        header(top)
-        problems = _problems(top.table("problems", {}), quick)
-        limit = top.number("time_limit", 2.0, above=0.0)
-        budget = top.number("budget", 600.0, above=0.0)
-        settings = _settings(top.table("settings", {}))
-        own = own_solvers(top.table("solvers", {}), settings)
+        top = TABLES.all_values(Fields(tables), SOLVERS)
+        problems = _problems(top["problems"], quick)
+        settings = _settings(top["settings"])
+        own = own_solvers(top["solvers"], settings)
         parts = tuple(
-            _part(Fields(part, f"runs[{i}]"), settings, own)
-            for i, part in enumerate(top.sequence("runs", [{}]))
+            _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
         )
-        top.close()
-        if not parts:
-            raise top.fail("runs", "must hold at least one table")
-        return Study(path, problems, limit, budget, parts)
+        return Study(path, problems, top["time_limit"], top["budget"], parts)
     except InputError as error:
         raise error.in_file(path) from None
 
 
 def _problems(table: Fields, quick: bool) -> TestSet:
-    seed = table.integer("seed", 1, least=0, most=2**32 - 1)
-    known = scenario_names()
-    scenarios = table.words("scenarios", known)
-    for name in scenarios:
-        if name not in known:
-            raise table.fail("scenarios", f"holds no scenario{suggestion(str(name), known)}", name)
-    counts = table.table("families", {"scenarios": 20})
-    families = {name: counts.integer(name, 0, least=0, most=MOST_PROBLEMS) for name in FAMILIES}
-    counts.close()
-    table.close()
+    given, known = TABLES.all_values(table, PROBLEMS), scenario_names()
+    scenarios = known if given["scenarios"] is None else given["scenarios"]
+    _check_known(table, "scenarios", scenarios, known)
+    families = TABLES.all_values(given["families"], COUNTS)
     if quick:
         families = {name: -(-count // QUICK) for name, count in families.items()}
     if not sum(families.values()):
         raise table.fail("families", "must name at least one problem")
-    return TestSet(seed, families, tuple(scenarios))
+    return TestSet(given["seed"], families, tuple(scenarios))
 
 
 def _settings(tables: Fields) -> dict[str, Setting]:
     settings = {s.name: s for s in SETTINGS}
     for name in tables.names():
-        table, was = tables.table(name), settings.get(name)
-        if was is None or "accuracy" in table:
-            accuracy: float | None = table.number("accuracy", above=0.0)
-        else:
-            accuracy = was.accuracy
-        promised = table.number("promised", was.promised if was else 3.0, least=0.0)
-        tuned = table.boolean("tuned", bool(was and was.tuned))
-        table.close()
-        settings[name] = Setting(name, accuracy, float(promised), tuned)
+        table = tables.table(name)
+        given = TABLES.all_values(table, SETTING)
+        if name not in settings and given["accuracy"] is None:
+            raise table.fail("accuracy", "is missing")
+        was = settings.get(name, Setting(name, None, 3.0))
+        settings[name] = replace(was, **{k: v for k, v in given.items() if v is not None})
     return settings
 
 
 def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
-    asked = table.words("solvers", ["qpsolvers:*"])
-    solvers = chosen_solvers(table, asked, own)
-    names = table.words("settings", ["default"])
-    for name in names:
-        if name not in settings:
-            hint = suggestion(str(name), settings)
-            raise table.fail("settings", f"holds an unknown one{hint}", name)
-    units = table.words("units", ["natural"])
-    for name in units:
-        if name not in UNITS:
-            raise table.fail("units", f"must be among {', '.join(UNITS)}", name)
-    warm = table.sequence("warm", [False])
-    if not warm or not all(isinstance(w, bool) for w in warm):
-        raise table.fail("warm", "must be a list of true and false", warm)
-    repetitions = table.integer("repetitions", 1, least=1, most=1000)
-    every = table.integer("every", 1, least=1)
-    table.close()
-    if not names or not units:
-        raise table.fail("settings" if not names else "units", "must not be empty")
+    given = TABLES.all_values(table, RUN)
+    solvers, names = chosen_solvers(table, given["solvers"], own), given["settings"]
+    _check_known(table, "settings", names, settings)
+    _check_known(table, "units", given["units"], UNITS)
+    if not all(isinstance(warm, bool) for warm in given["warm"]):
+        raise table.fail("warm", "must be a list of true and false", given["warm"])
     for solver in solvers:
         if not any(solver.takes(settings[name]) for name in names):
             words = f"hold nothing that {solver.label} can be set to; add 'default', or give it"
@@ -250,8 +224,14 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
     return Part(
         solvers,
         tuple(settings[name] for name in dict.fromkeys(names)),
-        tuple(dict.fromkeys(units)),
-        tuple(dict.fromkeys(warm)),
-        repetitions,
-        every,
+        tuple(dict.fromkeys(given["units"])),
+        tuple(dict.fromkeys(given["warm"])),
+        given["repetitions"],
+        given["every"],
     )
+
+
+def _check_known(table: Fields, field: str, names: list[str], known: Collection[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise table.fail(field, f"holds an unknown one{suggestion(name, known)}", name)

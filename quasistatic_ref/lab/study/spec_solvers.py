@@ -1,7 +1,5 @@
 """The ``[solvers.NAME]`` tables of a study, and the lists that choose among solvers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -9,11 +7,11 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.lab.study.solvers import ROADS, Setting, Solver
+from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
 BY_ROAD = {"cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy], "qpsolvers": list(BACKENDS)}
-MODULE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*", re.ASCII)
 
 
 def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, Solver]:
@@ -27,43 +25,41 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
     solvers = {}
     for name in tables.names():
         table = tables.table(name)
-        given = [road for road in ROADS if road in table]
-        if len(given) != 1:
+        given = TABLES.all_values(table, SOLVER)
+        roads = [road for road in ROADS if given[road] is not None]
+        if len(roads) != 1:
             words = "must say one of cvxpy, qpsolvers, callable and executable"
-            raise tables.fail(name, words, given or None)
-        target = _target(table, given[0])
-        options = _options(table.table("options", {}), settings)
-        table.close()
-        solvers[name] = Solver(name, given[0], target, options)
+            raise tables.fail(name, words, roads or None)
+        (road,) = roads
+        target, options = _target(table, road, given[road]), _options(given["options"], settings)
+        solvers[name] = Solver(name, road, target, options)
     return solvers
 
 
 def chosen_solvers(
-    table: Fields, names: list[Any], own: Mapping[str, Solver]
+    table: Fields, names: list[str], own: Mapping[str, Solver]
 ) -> tuple[Solver, ...]:
     """The solvers of a list: names of the study's own, ``road:name``, and ``road:*``.
 
     Raises
     ------
     InputError
-        If a name is unknown, its solver is not installed, or the list is empty.
+        If a name is unknown, or its solver is not installed.
     """
     chosen: dict[str, Solver] = {}
     for name in names:
         if name in own:
             found = [own[name]]
         else:
-            road, _, solver = str(name).partition(":")
+            road, _, solver = name.partition(":")
             if road not in BY_ROAD:
                 known = [*own, *(f"{r}:*" for r in BY_ROAD)]
-                raise table.fail("solvers", f"holds no solver{suggestion(str(name), known)}", name)
+                raise table.fail("solvers", f"holds no solver{suggestion(name, known)}", name)
             everyone = installed(road) if solver == "*" else (solver,)
             for one in everyone:
                 _check_installed(table, road, one)
             found = [Solver(one, road, one) for one in everyone]
         chosen |= {solver.label: solver for solver in found}
-    if not chosen:
-        raise table.fail("solvers", "must not be empty")
     return tuple(chosen.values())
 
 
@@ -76,22 +72,18 @@ def _check_installed(table: Fields, road: str, solver: str) -> None:
         raise table.fail("solvers", f"is not installed; {remedy}", solver)
 
 
-def _target(table: Fields, road: str) -> str | tuple[str, ...]:
+def _target(table: Fields, road: str, given: Any) -> str | tuple[str, ...]:
     if road == "executable":
-        command = table.sequence(road)
-        if not command or not all(isinstance(word, str) for word in command):
-            raise table.fail(road, "must be a list of words, the program first", command)
-        return tuple(command)
-    name = table.text(road)
+        return tuple(given)
     if road == "callable":
-        if not MODULE.fullmatch(name):
-            raise table.fail(road, "must read module:function", name)
-        return name
+        if not re.fullmatch(MODULE, given):
+            raise table.fail(road, "must read module:function", given)
+        return str(given)
     try:
-        _check_installed(table, road, name)
+        _check_installed(table, road, given)
     except InputError as error:
-        raise table.fail(road, error.problem, name) from None
-    return name
+        raise table.fail(road, error.problem, given) from None
+    return str(given)
 
 
 def _options(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, dict[str, Any]]:

@@ -1,7 +1,5 @@
 """Studies of kind ``"sweep"``: which scenarios are run with which values, read field by field."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +9,7 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import json_text
-from quasistatic_ref.lab.study.spec import header
+from quasistatic_ref.lab.study.spec_table import AXIS, SWEEP, SWEEPS, TABLES
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.tolerances import LARGE
 
@@ -107,31 +105,24 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
     """
     try:
         top = Fields(tables)
-        header(top)
         sweeps: dict[str, Sweep] = {}
-        for i, table in enumerate(top.sequence("sweeps")):
+        for i, table in enumerate(TABLES.all_values(top, SWEEPS)["sweeps"]):
             sweep = _sweep(Fields(table, f"sweeps[{i}]"), path.parent, quick)
             if sweep.name in sweeps:
                 raise top.fail(f"sweeps[{i}].name", "is given twice", sweep.name)
             sweeps[sweep.name] = sweep
-        top.close()
-        if not sweeps:
-            raise top.fail("sweeps", "must hold at least one table")
     except InputError as error:
         raise error.in_file(path) from None
     return tuple(sweeps.values())
 
 
 def _sweep(table: Fields, folder: Path, quick: bool) -> Sweep:
-    named = table.text("scenario")
+    given = TABLES.all_values(table, SWEEP)
+    named, link = given["scenario"], given["link"]
     scenario = str(folder / named) if named.endswith(".toml") else named
-    name = table.text("name", Path(named).stem)
-    link = table.text("link")
-    duration = table.number("duration", None, above=0.0)
-    since = table.number("since", 0.0, least=0.0)
-    axes = _axes(table.table("axes"), quick)
-    table.close()
-    sweep = Sweep(name, scenario, link, duration, float(since), axes)
+    name = Path(named).stem if given["name"] is None else given["name"]
+    axes = _axes(given["axes"], quick)
+    sweep = Sweep(name, scenario, link, given["duration"], given["since"], axes)
     count = len(sweep.points())
     if count > MOST_RUNS:
         raise table.fail("axes", f"make more than {MOST_RUNS} runs", count)
@@ -148,17 +139,14 @@ def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
     axes = []
     for name in tables.names():
         table = tables.table(name)
-        fields = table.sequence("fields", [name])
-        if not fields or not all(isinstance(f, str) and f for f in fields):
-            raise table.fail("fields", "must be a list of dotted fields of the scenario", fields)
-        values = table.sequence("values")
-        if not values or not all(isinstance(v, str) or _is_finite(v) for v in values):
+        given = TABLES.all_values(table, AXIS)
+        values = given["values"]
+        if not all(isinstance(v, str) or _is_finite(v) for v in values):
             raise table.fail("values", "must be a list of finite numbers or words", values)
-        table.close()
         chosen = dict.fromkeys([values[0], values[-1]] if quick else values)
-        axes.append(Axis(name, tuple(fields), tuple(chosen)))
+        axes.append(Axis(name, tuple(given["fields"] or [name]), tuple(chosen)))
     if not axes:
-        raise tables.error("must hold at least one table", field="axes")
+        raise tables.error("must hold at least one table", field=tables.where)
     return tuple(axes)
 
 

@@ -1,7 +1,5 @@
 """The few statistics of a report: shares, means of times, performance profiles."""
 
-from __future__ import annotations
-
 import numpy as np
 
 SHIFT = 1e-3

@@ -5,8 +5,6 @@ program in the middle of it leaves a last line that does not parse, which is dro
 goes on. Order in the file is the order of time; readers sort.
 """
 
-from __future__ import annotations
-
 import fcntl
 import json
 import lzma
@@ -127,7 +125,7 @@ class Store:
         """Close the file, and let others write."""
         self._file.close()
 
-    def __enter__(self) -> Store:
+    def __enter__(self) -> "Store":
         return self
 
     def __exit__(self, *exception: object) -> None:

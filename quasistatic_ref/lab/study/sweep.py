@@ -3,8 +3,6 @@
 Every combination of the values is one run, each step exact; a row is what the run came to.
 """
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The report on a sweep of simulation parameters: a table and a figure for each."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The exact answer of a plain quadratic program, or a rigorous enclosure of it."""
 
-from __future__ import annotations
-
 from quasistatic_ref.certify.bound import enclosed_answer
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of

@@ -5,8 +5,6 @@
 requests, and sends the graded reply to each request.
 """
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

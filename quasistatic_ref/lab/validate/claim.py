@@ -1,7 +1,5 @@
 """What a claim is, what was measured for it, and the verdict."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -115,7 +113,7 @@ class Evidence:
     picture: Mapping[str, Any]
 
     @classmethod
-    def of(cls, *comparisons: Comparison, **picture: Any) -> Evidence:
+    def of(cls, *comparisons: Comparison, **picture: Any) -> "Evidence":
         """Comparisons one after another, and what a figure draws by name."""
         return cls(comparisons, picture)
 

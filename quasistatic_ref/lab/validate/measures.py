@@ -1,7 +1,5 @@
 """What claims share: sweeps, exact answers, exponents, thresholds."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Final
 

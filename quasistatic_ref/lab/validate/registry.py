@@ -1,7 +1,5 @@
 """Every claim by name."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Final
 

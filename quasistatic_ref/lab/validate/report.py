@@ -1,7 +1,5 @@
 """Findings as JSON and as the page ``claims.md``."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ Which entries of q and delta_q belong to which joint of a case's mechanism, in p
 mechanism in exact numbers is what the answers are measured against.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

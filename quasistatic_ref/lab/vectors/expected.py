@@ -1,7 +1,5 @@
 """What a layer answers to one case, and how far from it a careful answer may be."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any

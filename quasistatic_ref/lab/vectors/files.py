@@ -4,8 +4,6 @@ A shape that several cases use, such as a cloud of 992 points, stands once in th
 ``shapes``; a case names it as ``{"kind": "shared", "name": ...}``.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass

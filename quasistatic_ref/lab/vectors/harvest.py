@@ -3,8 +3,6 @@
 Run at a release. What it writes is committed, and everything else is computed from that.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path

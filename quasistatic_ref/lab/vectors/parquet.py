@@ -4,8 +4,6 @@ qpbenchmark states min 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= u
 row, matrices flattened row by row. Ours has P = H, q = -g, G = -A, h = -b and no others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module

@@ -1,7 +1,5 @@
 """DAQP, a dual active-set method: H is factorised when it changes, the active set is kept."""
 
-from __future__ import annotations
-
 from typing import Any, Literal
 
 import daqp

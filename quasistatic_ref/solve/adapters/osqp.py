@@ -1,7 +1,5 @@
 """OSQP, operator splitting: every entry of A and of H's blocks is kept, zeros included."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

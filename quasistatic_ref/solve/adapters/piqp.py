@@ -1,7 +1,5 @@
 """PIQP, a proximal interior-point method, dense or sparse as its program is."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """quadprog, Goldfarb and Idnani's dual method: it keeps nothing between calls."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ It takes poses and Jacobians from :class:`~quasistatic_ref.model.system.System`,
 pinocchio, measures all points, and builds a new quadratic program for qpsolvers at each step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from qpsolvers import solve_qp
 

@@ -1,7 +1,5 @@
 """MuJoCo stepping a comparable grasp: the same bunny, as its hull, between the same two fingers."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 from typing import Any

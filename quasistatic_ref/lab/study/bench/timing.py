@@ -1,7 +1,5 @@
 """Times that can be compared: taken in turn, in one process, and told by their medians."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

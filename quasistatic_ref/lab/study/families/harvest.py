@@ -1,7 +1,5 @@
 """Problems met in the scenarios that come along: at their own settings, and at others."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import cache
 

@@ -1,7 +1,5 @@
 """What a family yields: a step, and what is worth knowing about it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Families in which one number is scaled: contacts, ratio of masses, time step, bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

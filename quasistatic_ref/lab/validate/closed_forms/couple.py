@@ -1,7 +1,5 @@
 """Two free bodies across a gap: the pair of contact forces is a couple."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian

@@ -1,7 +1,5 @@
 """Free fall, and a point that approaches the floor or has sunk into it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY

@@ -1,7 +1,5 @@
 """A rigid flat patch: which of its points bear the load when it turns, and what that costs."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z

@@ -1,7 +1,5 @@
 """Actuated coordinates: free, and pressed against a wall."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts

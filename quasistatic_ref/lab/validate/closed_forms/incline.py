@@ -1,7 +1,5 @@
 """A block on an incline: it stays, slides without turning, or tips over its lower edge."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
@@ -16,7 +14,7 @@ from quasistatic_ref.lab.scenes.systems import (
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
 from quasistatic_ref.lab.validate.measures import grid
-from quasistatic_ref.simulate.simulator import StepResult
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -1,7 +1,5 @@
 """One contact loaded with a force and a torque at once."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY

@@ -1,7 +1,5 @@
 """mu_omega of a patch, from point contacts without torsion whose loads are given."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

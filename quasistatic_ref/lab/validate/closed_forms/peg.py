@@ -1,7 +1,5 @@
 """A peg that touches its hole at two points: wedged, or free to go in (Whitney 1982)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z

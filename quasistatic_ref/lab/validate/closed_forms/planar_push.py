@@ -1,7 +1,5 @@
 """A slider pushed on the plane under an ellipsoidal limit surface, slowly and less slowly."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.slider import (

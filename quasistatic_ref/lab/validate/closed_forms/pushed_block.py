@@ -1,7 +1,5 @@
 """A block pushed along the floor by a finger of some stiffness: lag, gap and drag."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair

@@ -1,7 +1,5 @@
 """A sphere pushed at its centre, rolling on a floor that is rough enough."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair

@@ -1,7 +1,5 @@
 """A point on the floor, pulled in any direction."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY

@@ -1,7 +1,5 @@
 """A sphere on the floor under a constant torque about the normal."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY

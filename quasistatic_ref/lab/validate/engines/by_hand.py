@@ -3,8 +3,6 @@
 A finger on a rail pushes a sphere along a floor, with torsion at both contacts.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from qpsolvers import solve_qp
 from scipy.sparse import csc_matrix

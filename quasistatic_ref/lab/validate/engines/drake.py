@@ -1,7 +1,5 @@
 """Signed distances, nearest points, mass matrices and Jacobians from Drake, of the same bodies."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Stick and slip in torsion and along a tangent: our zero beside MuJoCo's creep."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Our rows of a step against MuJoCo's efc_J, at MuJoCo's own contact points and frames."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Random heaps of bodies, as MJCF for MuJoCo and as URDF for us."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Figure 3: the boundary layer of a spun sphere, and its two laws."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of

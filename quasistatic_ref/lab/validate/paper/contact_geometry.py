@@ -1,7 +1,5 @@
 """Figure 2: alpha, beta, phi, n, d1, d2 of contacts, from data."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

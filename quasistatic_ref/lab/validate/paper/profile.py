@@ -1,7 +1,5 @@
 """Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cache, partial
 from typing import Final, NamedTuple

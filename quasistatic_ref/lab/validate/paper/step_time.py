@@ -1,7 +1,5 @@
 """Figure 4: where the time of a step goes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from quasistatic_ref.lab.validate.claim import Claim, Comparison, Evidence, comparison, within

@@ -1,7 +1,5 @@
 """'Exact when objects are sticking': the relaxation's only error is a gap, which has a formula."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.grasp import CASES

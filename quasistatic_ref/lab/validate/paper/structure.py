@@ -1,7 +1,5 @@
 """The size of the bunny's quadratic program: 13 x 80."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.runs import grasp
@@ -34,7 +32,8 @@ CLAIM = Claim(
     name="structure",
     sentence="The grasp's quadratic program has 13 variables and 80 rows in every step: 10 "
     "contacts of the gripper with torsion, 5 of the floor without.",
-    where="the paper, section III-B; how 13 and 80 come about is an inference",
+    where="the paper, section III-B; how 13 and 80 come about is an inference, and that the floor "
+    "goes without torsion departs from its words (docs/theory/errata.md)",
     sweep="bunny_grasp, 300 steps",
     reason="Whole numbers, and h as it is written.",
     measure=evidence,

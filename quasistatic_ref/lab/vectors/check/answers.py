@@ -1,7 +1,5 @@
 """A folder of answers, read so that one bad file or answer does not hide the others."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final

@@ -1,19 +1,19 @@
 """The verdict on one answer."""
 
-from __future__ import annotations
-
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.check.compare import differences, shape_problem
+from quasistatic_ref.lab.vectors.check.compare import CONTACT, OPTIONAL, differences, shape_problem
 from quasistatic_ref.lab.vectors.check.freedoms import (
     FREEDOMS,
     aligned,
     dependent_fields,
     plain_failure,
 )
+from quasistatic_ref.lab.vectors.check.loosened import loosened
 from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
@@ -46,8 +46,12 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
             return _infeasible(layer, case, record, answer)
         if "farkas" in answer:
             return failure("farkas", "farkas is given, but the case has a solution")
-        if "farkas" in expected:
+        if "farkas" in expected and (layer == "qp" or "delta_q" in answer):
             return _unseen(case, record, answer)
+    if layer == "step" and isinstance(answer, dict) and (missing := absent(expected, answer)):
+        part = {"output": _given(expected, missing), "contacts": expected["contacts"]}
+        verdict = case_verdict(layer, case, {**record, **part}, answer)
+        return replace(verdict, without=missing)
     if layer == "qp" and isinstance(answer, dict) and "certificate" in answer:
         return _certified(case, record, answer)
     expected = {name: value for name, value in expected.items() if name != "certificate"}
@@ -70,6 +74,36 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     held = [d.digits for name, d in found.items() if name not in free and name not in failing]
     digits = min(held, default=None)
     return verdict if verdict.field else Verdict("", verdict.verdict, verdict.reason, "", digits)
+
+
+def judged(
+    layer: str, case: Json, record: Json, answer: Json, digits: float | None = None
+) -> Verdict:
+    """The same, an answer that is right to so many digits being acceptable [-]."""
+    verdict = case_verdict(layer, case, record, answer)
+    if digits is None or verdict.verdict != FAILED:
+        return verdict
+    loose = case_verdict(layer, case, loosened(record, digits), answer)
+    return verdict if loose.verdict == FAILED else acceptable(f"right to {digits:g} digits")
+
+
+def absent(expected: Json, answer: Json) -> tuple[str, ...]:
+    """Fields of a step that an answer leaves out, if it has any others."""
+    names = [name for name in expected if name not in (*answer, *OPTIONAL["step"], "certificate")]
+    contacts = answer.get("contacts")
+    if isinstance(contacts, list) and contacts and isinstance(contacts[0], dict):
+        wanted = expected["contacts"][0] if expected.get("contacts") else {}
+        names += [f"contacts.{key}" for key in CONTACT if key in wanted and key not in contacts[0]]
+    return tuple(names) if set(expected) & set(answer) else ()
+
+
+def _given(expected: Json, missing: tuple[str, ...]) -> Json:
+    """An expected step without some of its fields."""
+    kept = {name: value for name, value in expected.items() if name not in missing}
+    if "contacts" in kept:
+        names = {key for key in CONTACT if f"contacts.{key}" not in missing}
+        kept["contacts"] = [{k: v for k, v in c.items() if k in names} for c in kept["contacts"]]
+    return kept
 
 
 def _certified(case: Json, record: Json, answer: Json) -> Verdict:

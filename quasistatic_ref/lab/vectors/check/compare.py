@@ -1,7 +1,5 @@
 """Two outputs of one layer side by side: their shape, and number by number."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
@@ -15,9 +13,10 @@ OPTIONAL: Final = {
 }
 """Fields that follow from others, and need not be answered."""
 
-
+CONTACT: Final = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "J")
 ORDER: Final = (
-    *("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "indices", "J"),
+    *CONTACT,
+    "indices",
     *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "net", "q", "q_next"),
 )
 """Fields in the order in which a step comes to them: what fails first is the cause of the rest."""
@@ -70,6 +69,8 @@ def _mismatch(expected: Json, answer: Json, path: str) -> str | None:
 
 def number_problem(value: Json, path: str) -> str | None:
     """What keeps a value from being a finite number; None if nothing does."""
+    if value is None:
+        return f"{path} must be a number, not null, which many programs write for NaN"
     if isinstance(value, bool) or not isinstance(value, int | float):
         return f"{path} must be a number, not {str(value)[:40]!r}"
     try:

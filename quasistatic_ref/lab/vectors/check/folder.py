@@ -1,7 +1,5 @@
 """``vectors check``: a folder of answers against the reference vectors, layer by layer."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,10 +7,10 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
-from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.check.case import judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
-from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict, failure
+from quasistatic_ref.lab.vectors.check.verdict import DIGITS, FAILED, MISSING, Verdict, failure
 from quasistatic_ref.lab.vectors.converters import converted
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, check_layer, expected_read, inputs_read
@@ -20,7 +18,12 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 
 
 def check_answers(
-    answers: str | Path, vectors: str | Path, layers: Sequence[str] | None = None
+    answers: str | Path,
+    vectors: str | Path,
+    layers: Sequence[str] | None = None,
+    *,
+    only: str = "",
+    digits: float | None = None,
 ) -> Report:
     """Compare a folder of answers with the vectors.
 
@@ -33,6 +36,10 @@ def check_answers(
     layers : sequence of str, optional
         Layers that have to be answered. By default all are looked at, and one without a file is
         reported but no failure.
+    only : str
+        Beginning of the ids of the cases that are looked at, e.g. ``rows/cone``.
+    digits : float, optional
+        [-] An answer that is right to so many digits is acceptable.
 
     Returns
     -------
@@ -44,9 +51,13 @@ def check_answers(
         If the *vectors* cannot be read, the folder of answers does not exist or answers no layer,
         or a layer has an unknown name. A bad file of answers is reported, never raised.
     """
+    if digits is not None and not 0 < digits <= DIGITS:
+        raise InputError(f"must be from 0 to {DIGITS:g}", field="digits", value=digits)
     folder = Path(answers)
     if not folder.is_dir():
         raise InputError("is no folder of answers", file=folder)
+    if only and layers is None:
+        layers = [only.partition("/")[0]]
     asked = LAYERS if layers is None else [check_layer(name) for name in layers]
     known = [name for name in asked if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
@@ -57,14 +68,21 @@ def check_answers(
         raise InputError(f"answers no layer; the files looked for are {names}", file=folder)
     reports = []
     for name in known:
-        cases = inputs_read(vectors, name)
-        report = layer_report(name, cases, expected_read(vectors, name), found[name])
+        cases = [case for case in inputs_read(vectors, name) if case.id.startswith(only)]
+        cases = [case for case in cases if case.id == only] or cases
+        if not cases:
+            raise InputError("is no beginning of the id of a case", field="only", value=only)
+        report = layer_report(name, cases, expected_read(vectors, name), found[name], digits)
         reports.append(report.required() if layers is not None else report)
-    return Report(str(folder), tuple(reports))
+    return Report(str(folder), tuple(reports), digits)
 
 
 def layer_report(
-    layer: str, cases: Sequence[Case], expected: dict[str, Json], answers: Answers
+    layer: str,
+    cases: Sequence[Case],
+    expected: dict[str, Json],
+    answers: Answers,
+    digits: float | None = None,
 ) -> LayerReport:
     """The verdicts on all answers of one layer, and the mistake behind those that fail.
 
@@ -75,13 +93,19 @@ def layer_report(
     expected : dict
         Records of ``expected/LAYER.json`` by id.
     answers : Answers
+    digits : float, optional
+        [-] An answer that is right to so many digits is acceptable.
     """
     with np.errstate(all="ignore"):  # answers may be any numbers: what overflows does not match
-        return _layer_report(layer, cases, expected, answers)
+        return _layer_report(layer, cases, expected, answers, digits)
 
 
 def _layer_report(
-    layer: str, cases: Sequence[Case], expected: dict[str, Json], answers: Answers
+    layer: str,
+    cases: Sequence[Case],
+    expected: dict[str, Json],
+    answers: Answers,
+    digits: float | None,
 ) -> LayerReport:
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
@@ -91,16 +115,9 @@ def _layer_report(
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
             continue
-        given = answers.outputs[case.id]
-        try:
-            output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
-            verdict = case_verdict(layer, case.input, record, output).named(case.id)
-        except (ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
-            # Of a shape that only a conversion meets before its shape is checked.
-            output = given
-            verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)
+        one = answer_judged(layer, case, record, answers.outputs[case.id], answers, digits)
+        verdict = one.verdict
         verdicts.append(verdict)
-        one = Failed(case.id, case.input, record, output, verdict)
         (failed if verdict.verdict == FAILED else right).append(one)
     unknown = [name for name in answers.outputs if name not in expected]
     problem = answers.problem
@@ -114,3 +131,35 @@ def _layer_report(
         verdicts=tuple(verdicts),
         mistakes=mistakes_of(layer, failed, right),
     )
+
+
+def answer_judged(
+    layer: str,
+    case: Case,
+    record: Json,
+    given: Json,
+    answers: Answers,
+    digits: float | None = None,
+) -> Failed:
+    """One answer, in the package's conventions, and its verdict.
+
+    Parameters
+    ----------
+    layer : str
+    case : Case
+    record : dict
+        What is expected.
+    given : object
+        The output of somebody else, in the conventions that are declared in `answers`.
+    answers : Answers
+    digits : float, optional
+        [-].
+    """
+    try:
+        output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
+        verdict = judged(layer, case.input, record, output, digits).named(case.id)
+    except (ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
+        # Of a shape that only a conversion meets before its shape is checked.
+        output = given
+        verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)
+    return Failed(case.id, case.input, record, output, verdict)

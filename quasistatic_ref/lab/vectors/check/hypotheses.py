@@ -1,41 +1,21 @@
 """The table of classic mistakes: a name, what is right, and what would be answered."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
-from quasistatic_ref.lab.vectors.check import wrong_contacts, wrong_frames
+from quasistatic_ref.lab.vectors.check import wrong_contacts, wrong_frames, wrong_steps
+from quasistatic_ref.lab.vectors.check.forces_and_orders import FORCES_AND_ORDERS
+from quasistatic_ref.lab.vectors.check.hypothesis import Hypothesis
 from quasistatic_ref.lab.vectors.check.predictions import (
-    Prediction,
     again,
     both,
     by_h,
     contacts_changed,
+    of_q_next,
     opposite,
     times,
 )
 from quasistatic_ref.lab.vectors.check.wrong_contacts import mu_omega, of_rows, with_mu_omega
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """One mistake.
-
-    Parameters
-    ----------
-    name : str
-    sentence : str
-        What is wrong, and what is right.
-    predictions : mapping
-        By layer: (input, expected output) -> what would be answered.
-    """
-
-    name: str
-    sentence: str
-    predictions: Mapping[str, Prediction]
-
+from quasistatic_ref.lab.vectors.check.wrong_steps import PLACED
 
 HYPOTHESES: Final = (
     Hypothesis(
@@ -54,8 +34,16 @@ HYPOTHESES: Final = (
         "lam is an impulse [N s]; the wrench is its combination divided by h [N]",
         {
             "qp": by_h("lam", "A_lam"),
-            "wrench": by_h("wrench", "net"),
-            "step": by_h("lam", "A_lam", "wrench"),
+            "wrench": by_h("wrench", "net", powers=(1,)),
+            "step": both(by_h("lam", "A_lam"), by_h("wrench", powers=(1,))),
+        },
+    ),
+    Hypothesis(
+        "lam divided by h twice",
+        "lam is an impulse [N s]: the wrench is its combination divided by h once [N]",
+        {
+            "wrench": by_h("wrench", "net", powers=(-1,)),
+            "step": by_h("wrench", powers=(-1,)),
         },
     ),
     Hypothesis(
@@ -64,7 +52,7 @@ HYPOTHESES: Final = (
         {
             "qp": by_h("delta_q"),
             "integrate": wrong_frames.other_delta_q,
-            "step": by_h("delta_q"),
+            "step": both(by_h("delta_q"), of_q_next(wrong_frames.other_delta_q)),
         },
     ),
     Hypothesis(
@@ -83,7 +71,6 @@ HYPOTHESES: Final = (
         "n points from alpha's body to beta's, also in penetration",
         {
             "distance": opposite("n"),
-            "jacobian": wrong_contacts.reversed_spin,
             "rows": wrong_contacts.reversed_rows,
             "wrench": wrong_contacts.reversed_wrench,
             "step": contacts_changed(lambda c: {"n": times(c["n"], -1.0)}),
@@ -123,7 +110,9 @@ HYPOTHESES: Final = (
         {
             "jacobian": wrong_frames.other_tangents,
             "integrate": wrong_frames.world_integrate,
-            "step": wrong_frames.other_tangents_of_step,
+            "step": both(
+                wrong_frames.other_tangents_of_step, of_q_next(wrong_frames.world_integrate)
+            ),
         },
     ),
     Hypothesis(
@@ -136,21 +125,30 @@ HYPOTHESES: Final = (
         },
     ),
     Hypothesis(
-        "quaternion order",
+        "quaternions written as wxyz",
         'quaternions are [x, y, z, w]; or declare "quaternion": "wxyz" in the answers',
+        {
+            "integrate": wrong_frames.answered_wxyz("q"),
+            "step": wrong_frames.answered_wxyz("q_next"),
+        },
+    ),
+    Hypothesis(
+        "quaternions read as wxyz",
+        "the inputs' quaternions are [x, y, z, w], whatever the answers declare of their own",
         {
             "distance": wrong_frames.misread("distance"),
             "jacobian": wrong_frames.misread("jacobian"),
-            "integrate": both(wrong_frames.answered_wxyz("q"), wrong_frames.misread("integrate")),
-            "step": wrong_frames.answered_wxyz("q_next"),
+            "integrate": wrong_frames.misread("integrate"),
+            "step": wrong_steps.misread,
         },
+        first=PLACED,
     ),
     Hypothesis(
         "rows interleaved",
         "a contact's rows are +d1, +d2, -d1, -d2, +spin, -spin; MuJoCo's are +d1, -d1, +d2, -d2",
         {
             **of_rows(wrong_contacts.interleaved),
-            "wrench": wrong_contacts.interleaved_lam,
+            "wrench": wrong_contacts.lam_in_order(wrong_contacts.mujoco_order),
         },
     ),
     Hypothesis(
@@ -169,12 +167,24 @@ HYPOTHESES: Final = (
     Hypothesis(
         "un-actuated coordinates first",
         "delta_q holds the actuated joints first, then the others",
-        {"jacobian": wrong_frames.unactuated_first},
+        {"jacobian": wrong_frames.unactuated_first, "step": wrong_frames.unactuated_step},
     ),
     Hypothesis(
         "a straight line in the place of the screw",
         "T exp6(delta_q): the translation is V(w) v, not v",
-        {"integrate": wrong_frames.straight},
+        {
+            "integrate": wrong_frames.straight("mujoco"),
+            "step": of_q_next(wrong_frames.straight("mujoco")),
+        },
     ),
+    Hypothesis(
+        "world tangent without the screw",
+        "a floating base's delta_q is a twist in the body's own frame, and (+) follows its screw",
+        {
+            "integrate": wrong_frames.straight("world"),
+            "step": of_q_next(wrong_frames.straight("world")),
+        },
+    ),
+    *FORCES_AND_ORDERS,
 )
 """Tried in this order; of equally good explanations all are named."""

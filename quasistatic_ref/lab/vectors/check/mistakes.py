@@ -5,8 +5,6 @@ of them to within a multiple of their tolerance where the right answer is anothe
 than right answers that it would have made wrong.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -15,7 +13,8 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
-from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES, Hypothesis
+from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES
+from quasistatic_ref.lab.vectors.check.hypothesis import Hypothesis
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
@@ -94,6 +93,9 @@ def _spread(cases: Sequence[Failed]) -> Sequence[Failed]:
 
 
 def _predictions(layer: str, hypothesis: Hypothesis, one: Failed) -> list[Json]:
+    first = hypothesis.first if layer == "step" else ()
+    if first and one.verdict.field and one.verdict.field not in first:
+        return []
     try:
         return list(hypothesis.predictions[layer](one.case, one.record["output"]))
     except (QuasistaticError, ValueError, KeyError, IndexError, TypeError, ArithmeticError):
@@ -111,6 +113,12 @@ def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
         if wrong and all(_same(one, name, value, one.output) for name, value in wrong.items()):
             return True
     return False
+
+
+def predicted(layer: str, name: str, one: Failed) -> bool:
+    """Whether a mistake of that name explains an answer."""
+    known = next(hypothesis for hypothesis in HYPOTHESES if hypothesis.name == name)
+    return _predicted(layer, known, one)
 
 
 def _would_spoil(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:

@@ -4,8 +4,6 @@ Where the rows that bear load depend on each other, lam is one of many. All of t
 the same A'lam, and vanish on rows with a slack.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Final
 
@@ -23,6 +21,9 @@ EPS: Final = float(np.finfo(np.float64).eps)
 NEGLIGIBLE: Final = 1e-9
 """Largest multiplier, relative to the largest, on a row that has a slack, or below zero: a method
 that reaches delta_q to rounding leaves 1e-14."""
+
+NOISE: Final = 1e-12
+"""An entry of a Farkas vector, relative to the largest, that may be rounding."""
 
 
 def program_rows(case: Json, output: Json) -> Json:
@@ -53,10 +54,10 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
     off = float(np.abs(A.T @ multipliers - A_lam).max(initial=0.0))
     if not off <= tolerance_of(tolerance, "A_lam") + 2 * sums < np.inf:
         return f"A'lam is off by {off:.2g}"
-    small = NEGLIGIBLE * largest
-    slack = _slack(A, output)
+    share = record.get("negligible", NEGLIGIBLE)
+    small, slack = share * largest, _slack(A, output)
     if conic:
-        return _conic_problem(multipliers.reshape(-1, 4), slack.reshape(-1, 4), small)
+        return _conic_problem(multipliers.reshape(-1, 4), slack.reshape(-1, 4), small, share)
     if (multipliers < -small).any():
         row = int(multipliers.argmin())
         return f"lam[{row}] is {multipliers[row]:.2g}, below 0"
@@ -77,13 +78,13 @@ def _slack(A: Array, output: Json) -> Array:
     return np.asarray(A @ np.array(output["delta_q"]) - np.array(output["b"], dtype=np.float64))
 
 
-def _conic_problem(lam: Array, z: Array, small: float) -> str | None:
+def _conic_problem(lam: Array, z: Array, small: float, share: float) -> str | None:
     outside = np.linalg.norm(lam[:, 1:], axis=1) - lam[:, 0]
     if not (outside <= small).all():
         return f"lam of block {int(outside.argmax())} is outside its cone"
     product = np.abs(np.einsum("ji,ji->j", lam, z))
     size = np.linalg.norm(lam, axis=1) * np.linalg.norm(z, axis=1)
-    if (product > NEGLIGIBLE * max(float(size.max(initial=0.0)), 1e-300)).any():
+    if (product > share * max(float(size.max(initial=0.0)), 1e-300)).any():
         return f"lam of block {int(product.argmax())} is not complementary to F x + f"
     return None
 
@@ -91,7 +92,8 @@ def _conic_problem(lam: Array, z: Array, small: float) -> str | None:
 def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
     """Whether the wrenches of a step belong to its own multipliers."""
     by_name = {pair["name"]: pair for pair in case["pairs"]}
-    pairs = [by_name[contact["pair"]] for contact in record["output"]["contacts"]]
+    contacts = record.get("contacts", record["output"].get("contacts"))  # of a partial answer: all
+    pairs = [by_name[contact["pair"]] for contact in contacts]
     parts = by_contact(answer["lam"], case["cone"], pairs)
     for j, (pair, lam) in enumerate(zip(pairs, parts, strict=True)):
         part = np.array(lam, dtype=np.float64) / case["h"]
@@ -123,20 +125,30 @@ def farkas_verdict(case: Json, record: Json, y: Json) -> Verdict:
         return failure("farkas", str(problem))
     if any(value < 0 for value in exact):
         return failure("farkas", "farkas has a negative entry")
-    support = [i for i, value in enumerate(exact) if value]
-    if not sum((exact[i] * Fraction(case["b"][i]) for i in support), Fraction(0)) > 0:
-        return failure("farkas", "b'y is not positive")
-    for v in range(len(case["g"])):
-        terms = [exact[i] * Fraction(case["A"][i][v]) for i in support]
-        off, size = abs(sum(terms, Fraction(0))), sum(map(abs, terms), Fraction(0))
-        proof = isinstance(y[0], str)
-        if off > (0 if proof else tolerance_of(record["tolerance"], "farkas") * size):
-            return failure("farkas", f"A'y is not zero: entry {v} is {float(off):.2g}")
+    room = 0.0 if isinstance(y[0], str) else tolerance_of(record["tolerance"], "farkas")
+    if unproved := _proof_problem(case, exact, room):
+        small = Fraction(NOISE) * max(exact)  # what rounding leaves in the place of a zero
+        kept = [value if value > small else Fraction(0) for value in exact]
+        if not room or _proof_problem(case, kept, room):
+            return failure("farkas", unproved)
     if abs(max(exact) - 1) > tolerance_of(record["tolerance"], "farkas"):
         return failure("farkas", f"the largest entry must be 1, not {float(max(exact))!r}")
     expected = record["output"]["farkas"]
     same = all(float(value) == wanted for value, wanted in zip(exact, expected, strict=True))
     return Verdict("", PASSED) if same else acceptable("another Farkas vector")
+
+
+def _proof_problem(case: Json, y: list[Fraction], room: float) -> str | None:
+    """Why y >= 0 is no proof; A'y = 0 within `room` of |A|'y [-]."""
+    support = [i for i, value in enumerate(y) if value]
+    if not sum((y[i] * Fraction(case["b"][i]) for i in support), Fraction(0)) > 0:
+        return "b'y is not positive"
+    for v in range(len(case["g"])):
+        terms = [y[i] * Fraction(case["A"][i][v]) for i in support]
+        off, size = abs(sum(terms, Fraction(0))), sum(map(abs, terms), Fraction(0))
+        if off > Fraction(room) * size:
+            return f"A'y is not zero: entry {v} is {float(off):.2g}"
+    return None
 
 
 def _fraction(value: Json, i: int) -> Fraction:

@@ -6,8 +6,7 @@ in float64. Such contacts are checked by what they have to be; J, A, b and the a
 computed from them without rounding.
 """
 
-from __future__ import annotations
-
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -45,6 +44,9 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     )
     if [c["pair"] for c in contacts] != [c["pair"] for c in wanted]:
         return "they are of other pairs"
+    for one, other in pairwise(contacts):
+        if one["pair"] == other["pair"] and one["index"] > other["index"]:
+            return f"those of {one['pair']} do not stand in the order of index"
     tree = mechanism(case["mechanism"])
     for pair in case["pairs"]:
         own = [c for c in contacts if c["pair"] == pair["name"]]

@@ -4,9 +4,7 @@ A prediction is a part of an output, or several where a mistake comes in variant
 only the field that fails first is compared, so that what follows from it need not be predicted.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 from quasistatic_ref.errors import QuasistaticError
@@ -60,12 +58,12 @@ def contacts_changed(change: Callable[[Json], Json]) -> Prediction:
     return prediction
 
 
-def by_h(*names: str) -> Prediction:
+def by_h(*names: str, powers: Sequence[int] = (1, -1)) -> Prediction:
     """Multiplied by h, or divided by it."""
 
     def prediction(case: Json, output: Json) -> Iterable[Json]:
         known = (case["h"],) if "h" in case else TIME_STEPS
-        return [scaled(output, factor, *names) for h in known for factor in (h, 1 / h)]
+        return [scaled(output, h**power, *names) for h in known for power in powers]
 
     return prediction
 
@@ -78,3 +76,16 @@ def both(*predictions: Prediction) -> Prediction:
             yield from one(case, output)
 
     return prediction
+
+
+def of_q_next(prediction: Prediction) -> Prediction:
+    """A mistake of the layer `integrate` in a whole step."""
+
+    def of_step(case: Json, output: Json) -> Iterable[Json]:
+        given = {name: case[name] for name in ("mechanism", "q")}
+        given["delta_q"] = output["delta_q"]
+        for answer in prediction(given, {"q": output["q_next"]}):
+            if "q" in answer:
+                yield {"q_next": answer["q"]}
+
+    return of_step

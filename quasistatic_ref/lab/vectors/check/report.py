@@ -1,7 +1,5 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from typing import Final
 
@@ -62,7 +60,7 @@ class LayerReport:
     mistakes: tuple[Named, ...] = ()
     must: bool = False
 
-    def required(self) -> LayerReport:
+    def required(self) -> "LayerReport":
         """The same of a layer that has to be answered."""
         return replace(self, must=True)
 
@@ -102,6 +100,14 @@ class LayerReport:
         return f"{self.first.id}: {self.first.reason}" if self.first else ""
 
     @property
+    def partial(self) -> str:
+        """One sentence on what the answers leave out; empty if they do not."""
+        partial = [v for v in self.verdicts if v.without]
+        names = ", ".join(dict.fromkeys(name for v in partial for name in v.without))
+        count = f"{len(partial)} of {len(self.verdicts)} answers are partial"
+        return f"{self.layer}: {count}: nothing is said of {names}" if partial else ""
+
+    @property
     def row(self) -> tuple[str, ...]:
         """Its line of the table."""
         counts = (str(self.count(v)) for v in (PASSED, ACCEPTABLE, FAILED, MISSING))
@@ -136,10 +142,13 @@ class Report:
     answers : str
         The folder.
     layers : tuple of LayerReport
+    digits : float, optional
+        [-] To how many digits an answer is acceptable.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
+    digits: float | None = None
 
     @property
     def ok(self) -> bool:
@@ -168,6 +177,10 @@ class Report:
                     f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
                     f"{m.sentence}"
                 )
+            if layer.partial:
+                said.append(layer.partial)
+        if self.digits is not None:
+            said.append(f"acceptable are answers that are right to {self.digits:g} digits")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
         if unanswered:
             said.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
@@ -181,5 +194,6 @@ class Report:
             "version": 1,
             "answers": self.answers,
             "ok": self.ok,
+            "digits": self.digits,
             "layers": [layer.record for layer in self.layers],
         }

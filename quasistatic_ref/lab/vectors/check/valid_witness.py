@@ -5,8 +5,6 @@ against n, then the gap along n is the signed distance, apart and in penetration
 tables of a case, about their own origin; everything is float64.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

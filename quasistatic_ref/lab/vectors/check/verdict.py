@@ -1,7 +1,5 @@
 """What the checker says of one answer."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from typing import Final
 
@@ -72,6 +70,8 @@ class Verdict:
         The first field that fails.
     digits : float or None
         Fewest correct digits of a field that was compared number by number.
+    without : tuple of str
+        Fields of a whole step that are not answered, of which nothing is said.
     """
 
     id: str
@@ -79,13 +79,14 @@ class Verdict:
     reason: str = ""
     field: str = ""
     digits: float | None = None
+    without: tuple[str, ...] = ()
 
     @property
     def record(self) -> dict[str, Json]:
         """As it stands in a JSON report."""
         return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
-    def named(self, id: str) -> Verdict:
+    def named(self, id: str) -> "Verdict":
         """The same about a case of that id."""
         return replace(self, id=id)
 

@@ -1,15 +1,13 @@
 """What mistakes about a contact answer: its normal, its bodies, its rows and its friction."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.lab.vectors.check.predictions import Prediction, again, each, scaled, times
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.layers.rows import by_contact, row_count
 
 MUJOCO_ORDER: Final = (0, 2, 1, 3, 4, 5)
 """Ours of +d1 -d1 +d2 -d2 +spin -spin."""
@@ -69,6 +67,61 @@ def reversed_spin(case: Json, output: Json) -> Iterable[Json]:
     return [{"J": [[*J[:3], times(J[3], -1.0)] for J in output["J"]]}]
 
 
+def reversed_torque(case: Json, output: Json) -> Iterable[Json]:
+    """The torque about -n, in the wrenches and in what they come to."""
+    turned = [again("wrench", with_mu_omega(lambda c: -c["mu_omega"])(case))]
+    return [*turned, {"wrench": [[*w[:3], -w[3]] for w in output["wrench"]]}]
+
+
+def spins_exchanged(case: Json, output: Json) -> Iterable[Json]:
+    """-spin before +spin, where they come last: in the pyramid and in facets."""
+    return [_kept_rows(case, output, lambda count: exchanged_spins(case, count))]
+
+
+def exchanged_spins(case: Json, count: int) -> list[int]:
+    """Rows of a contact, those after its sides the other way round."""
+    sides = row_count(case["cone"], 4)
+    return [*range(min(sides, count)), *reversed(range(sides, count))]
+
+
+def mujoco_order(case: Json, count: int) -> list[int]:
+    """Rows of a contact in MuJoCo's order."""
+    return list(MUJOCO_ORDER[:count])
+
+
+def one_point(case: Json, output: Json) -> Iterable[Json]:
+    """J of one point for both bodies: midway, alpha or beta."""
+    for share in (0.5, 0.0, 1.0):
+        contacts = []
+        for c in case["contacts"]:
+            alpha, beta = np.array(c["alpha"]), np.array(c["beta"])
+            point = (alpha + share * (beta - alpha)).tolist()
+            contacts.append({**c, "alpha": point, "beta": point})
+        yield again("jacobian", {**case, "contacts": contacts})
+
+
+def other_offset(case: Json, output: Json) -> Iterable[Json]:
+    """A half-space whose offset is not divided by its normal's length, or has the other sign."""
+    for change in OFFSETS:
+        sides = {side: change(case[side]) for side in ("alpha", "beta")}
+        if sides != {side: case[side] for side in sides}:
+            yield again("distance", {**case, **sides})
+
+
+def _undivided(shape: Json) -> Json:
+    if shape["kind"] != "halfspace":
+        return shape
+    return {**shape, "offset": shape["offset"] * float(np.linalg.norm(shape["normal"]))}
+
+
+def _opposite_offset(shape: Json) -> Json:
+    return {**shape, "offset": -shape["offset"]} if shape["kind"] == "halfspace" else shape
+
+
+OFFSETS: Final = (_undivided, _opposite_offset)
+"""Wrong half-spaces of a shape."""
+
+
 def unsigned(case: Json, output: Json) -> Iterable[Json]:
     """|phi|, with the normal of beta - alpha or without."""
     phi = np.abs(output["phi"]).tolist()
@@ -124,11 +177,15 @@ def interleaved(case: Json, output: Json) -> Iterable[Json]:
     return [_kept_rows(case, output, lambda count: MUJOCO_ORDER[:count])]
 
 
-def interleaved_lam(case: Json, output: Json) -> Iterable[Json]:
-    """Lam read in MuJoCo's order."""
+def lam_in_order(order: Callable[[Json, int], Sequence[int]]) -> Prediction:
+    """Lam read in another order of a contact's rows."""
 
-    def read(contact: Json) -> Json:
-        lam = contact["lam"]
-        return {"lam": [lam[MUJOCO_ORDER.index(i)] for i in range(len(lam))]}
+    def prediction(case: Json, output: Json) -> Iterable[Json]:
+        def read(contact: Json) -> Json:
+            lam = contact["lam"]
+            places = order(case, len(lam))
+            return {"lam": [lam[places.index(i)] for i in range(len(lam))]}
 
-    return [again("wrench", {**case, "contacts": each(case["contacts"], read)})]
+        return [again("wrench", {**case, "contacts": each(case["contacts"], read)})]
+
+    return prediction

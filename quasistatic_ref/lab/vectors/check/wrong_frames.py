@@ -1,7 +1,5 @@
 """What mistakes about frames, orders and lengths answer: wrong tangents, wxyz, transposes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 
@@ -81,21 +79,21 @@ def transposed_rows(case: Json, output: Json) -> Iterable[Json]:
     return [again("rows", {**case, "contacts": each(case["contacts"], misread)})]
 
 
-def _misread_poses(value: Any) -> Any:
+def misread_poses(value: Any) -> Any:
     """Every pose with its quaternion taken as [w, x, y, z]."""
     if isinstance(value, dict):
         return {
-            key: v[1:] + v[:1] if key == "quaternion" else _misread_poses(v)
+            key: v[1:] + v[:1] if key == "quaternion" else misread_poses(v)
             for key, v in value.items()
         }
-    return [_misread_poses(v) for v in value] if isinstance(value, list) else value
+    return [misread_poses(v) for v in value] if isinstance(value, list) else value
 
 
 def misread(name: str) -> Prediction:
     """The answer to quaternions taken as [w, x, y, z], of poses, of q, or of both."""
 
     def prediction(case: Json, output: Json) -> Iterable[Json]:
-        misread = _misread_poses(case)
+        misread = misread_poses(case)
         yield again(name, misread)
         if "q" in case:  # the mechanism right, or q right
             for other in (case, misread):
@@ -113,24 +111,52 @@ def answered_wxyz(field: str) -> Prediction:
     return lambda case, output: [{field: wxyz(case["mechanism"], output[field])}]
 
 
-def unactuated_first(case: Json, output: Json) -> Iterable[Json]:
-    """Columns of J in the order [un-actuated; actuated]."""
-    joints = {body["name"]: bool(body.get("actuated")) for body in case["mechanism"]["bodies"]}
+def _unactuated_order(mechanism: Json) -> list[int]:
+    """Entries of delta_q in the order [un-actuated; actuated]."""
+    joints = {body["name"]: bool(body.get("actuated")) for body in mechanism["bodies"]}
     order: list[int] = []
     for actuated in (False, True):
-        for at in places(case["mechanism"]):
+        for at in places(mechanism):
             if joints[at.name] == actuated:
                 order += range(at.v.start, at.v.stop)
-    return [{"J": np.array(output["J"])[:, :, order].tolist()}]
+    return order
 
 
-def straight(case: Json, output: Json) -> Iterable[Json]:
-    """X + R v in the place of the screw."""
-    B = tangent_map(case["mechanism"], case["q"], "mujoco")
-    moved = B.T @ np.array(case["delta_q"])
-    q = list(output["q"])
-    for at in places(case["mechanism"]):
-        if at.kind == "floating":
-            start = np.array(case["q"][at.q.start : at.q.start + 3])
-            q[at.q.start : at.q.start + 3] = (start + moved[at.v.start : at.v.start + 3]).tolist()
-    return [{"q": q}]
+def unactuated_first(case: Json, output: Json) -> Iterable[Json]:
+    """Columns of J in that order."""
+    return [{"J": np.array(output["J"])[:, :, _unactuated_order(case["mechanism"])].tolist()}]
+
+
+def unactuated_step(case: Json, output: Json) -> Iterable[Json]:
+    """J, H and g of a step in that order."""
+    order = _unactuated_order(case["mechanism"])
+    contacts = [{"J": np.array(c["J"])[:, order].tolist()} for c in output["contacts"]]
+    H, g = np.array(output["H"]), np.array(output["g"])
+    yield {"contacts": contacts, "H": H[np.ix_(order, order)].tolist(), "g": g[order].tolist()}
+
+
+def straight(tangent: str) -> Prediction:
+    """X + v in the place of the screw, v along the axes of the body or, with the turn, the world's.
+
+    Parameters
+    ----------
+    tangent : str
+        In which delta_q is taken: ``"mujoco"`` has its angular part in the body as ours.
+    """
+
+    def prediction(case: Json, output: Json) -> Iterable[Json]:
+        B = tangent_map(case["mechanism"], case["q"], tangent)
+        own = np.array(case["delta_q"])
+        if tangent == "world":
+            moved, turned = own, again("integrate", {**case, "delta_q": (B @ own).tolist()})
+        else:
+            moved, turned = B.T @ own, output
+        q = list(turned["q"])
+        for at in places(case["mechanism"]):
+            if at.kind == "floating":
+                start = np.array(case["q"][at.q.start : at.q.start + 3])
+                to = start + moved[at.v.start : at.v.start + 3]
+                q[at.q.start : at.q.start + 3] = to.tolist()
+        return [{"q": q}]
+
+    return prediction

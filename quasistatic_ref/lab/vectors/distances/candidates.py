@@ -7,8 +7,6 @@ closest pair where k corners are as near. Everything is decided on distances, po
 that are rounded to float64.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product

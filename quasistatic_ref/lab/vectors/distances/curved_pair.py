@@ -7,8 +7,6 @@ A vertex has its own closest point; a face the farthest point of the curved soli
 edge the distance is convex, and its minimum is enclosed by bisection.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial

@@ -6,8 +6,6 @@ point of the other solid towards it; along a rim the distance has its minima bet
 its derivative changes from falling to rising.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial

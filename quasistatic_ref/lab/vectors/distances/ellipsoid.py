@@ -5,8 +5,6 @@ root of F(t) = sum (e_i p_i / (t + e_i^2))^2 - 1. (D. Eberly, "Distance from a p
 an ellipsoid, or a hyperellipsoid".)
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import arb, ctx, fmpq

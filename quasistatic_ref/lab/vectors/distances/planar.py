@@ -1,7 +1,5 @@
 """What two convex sets in one plane have in common: points, segments and polygons, in rationals."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, cross, dot, subtract

@@ -1,7 +1,5 @@
 """Closest points of a half-space and a bounded solid: its lowest point."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ Everything is in the shape's own frame. Where the normal is not unique (the midd
 axis of a cylinder) one is taken, and the answer says so.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -6,8 +6,6 @@ arithmetic. Otherwise the signed distance is the widest gap s(n) over the faces 
 normals of faces of either, and common normals of an edge of each.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat

@@ -1,7 +1,5 @@
 """Shapes of the vectors in exact numbers, where they stand in the world, and their polytopes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, product

@@ -1,7 +1,5 @@
 """Closest points of two solids in exact numbers, by the road that suits them."""
 
-from __future__ import annotations
-
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError

@@ -1,7 +1,5 @@
 """Roots of increasing functions, enclosed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from flint import arb, ctx, fmpq

@@ -1,7 +1,5 @@
 """Closest points of two solids, in exact numbers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,11 +29,11 @@ class Witness:
     n: Vector
     unique: bool
 
-    def swapped(self) -> Witness:
+    def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, scaled(self.n, -1), self.unique)
 
-    def inflated(self, margin_alpha: Real, margin_beta: Real) -> Witness:
+    def inflated(self, margin_alpha: Real, margin_beta: Real) -> "Witness":
         """The same of solids that have a ball about every point."""
         phi = self.phi - margin_alpha - margin_beta
         alpha = along(self.alpha, self.n, margin_alpha)

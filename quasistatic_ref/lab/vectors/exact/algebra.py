@@ -1,7 +1,5 @@
 """Vectors and matrices of exact numbers, as plain lists."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeAlias
 

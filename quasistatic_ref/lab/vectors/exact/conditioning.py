@@ -10,8 +10,6 @@ does not change it. c counts the roundings of one entry of an elimination, gener
 asked to be nearer than :mod:`quasistatic_ref.lab.vectors.exact.floor` says.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction

@@ -11,8 +11,6 @@ move an entry of x by as many sqrt((H^-1)_vv) at most, one of A'lam = H x - g by
 slack by sqrt((A H^-1 A')_ii).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from fractions import Fraction
 from math import isqrt

@@ -1,7 +1,5 @@
 """The configuration q (+) delta_q of a mechanism, and the change q_next (-) q, in exact numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import arb, fmpq

@@ -1,7 +1,5 @@
 """M_u and the force of gravity on a mechanism, in exact numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from flint import fmpq

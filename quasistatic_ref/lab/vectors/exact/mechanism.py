@@ -7,8 +7,6 @@ continuous joint's q is cos, sin. Quaternions and (cos, sin) of any length stand
 length one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final

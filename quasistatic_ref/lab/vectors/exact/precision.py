@@ -8,8 +8,6 @@ is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpo
 rational answers on the way to which a root or a sine cancelled.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache

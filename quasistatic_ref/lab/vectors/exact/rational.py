@@ -1,7 +1,5 @@
 """Algebra on float64 numbers without rounding, and its results rounded once."""
 
-from __future__ import annotations
-
 from decimal import ROUND_UP, Context, Decimal
 from fractions import Fraction
 from typing import Any, Final

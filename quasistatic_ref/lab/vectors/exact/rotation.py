@@ -4,8 +4,6 @@ The rotation of a quaternion q of any length but zero is that of q / |q|; its ma
 in q, so that poses of float64 numbers are exact.
 """
 
-from __future__ import annotations
-
 from flint import fmpq
 
 from quasistatic_ref.lab.vectors.exact.algebra import (

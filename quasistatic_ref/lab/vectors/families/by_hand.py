@@ -1,7 +1,5 @@
 """Cases that are written by hand, in ``LAYER.toml`` next to this file."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Inputs of the layer `distance`: every pair, apart, near touching and in penetration; corners."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -3,8 +3,6 @@
 Numbers come from a seeded generator, rounded to few digits, so that the cases can be read.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -80,12 +78,21 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
     return {"bodies": bodies}
 
 
+def follower(joint: str, parent: str | None = None, **more: Any) -> list[Json]:
+    """A revolute or prismatic joint, and one that follows it backwards at half its pace."""
+    follow = {"of": "drive", "multiplier": -0.5, "offset": 0.35}
+    moves = {"axis": [1.0, 0.0, 0.0] if joint == "prismatic" else [0.0, 1.0, 0.0], **more}
+    drive = link("drive", parent, joint, **moves)
+    return [drive, link("finger", parent, joint, mimic=follow, **moves)]
+
+
 def random_q(rng: Rng, mechanism: Json) -> list[float]:
     """A configuration in the paper's order; quaternions and (cos, sin) not normalised."""
     q: list[float] = []
     for actuated in (True, False):
         for body in mechanism["bodies"]:
-            if body["joint"] != "fixed" and body["actuated"] == actuated:
+            has_own = body["joint"] != "fixed" and "mimic" not in body
+            if has_own and body["actuated"] == actuated:
                 q += _random_position(rng, body["joint"])
     return q
 
@@ -105,7 +112,8 @@ def _random_position(rng: Rng, kind: str) -> list[float]:
 def random_step(rng: Rng, mechanism: Json, size: float) -> list[float]:
     """Some delta_q of few significant digits, of about the `size` [m, rad]."""
     counts = {"floating": 6, "planar": 3, "fixed": 0}
-    n_v = sum(counts.get(body["joint"], 1) for body in mechanism["bodies"])
+    own = [body["joint"] for body in mechanism["bodies"] if "mimic" not in body]
+    n_v = sum(counts.get(joint, 1) for joint in own)
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
 
 

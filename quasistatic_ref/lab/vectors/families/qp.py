@@ -1,7 +1,5 @@
 """Inputs of the layer `qp`: closed forms, grasps, degenerate and infeasible programs, all cones."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Inputs of the layer `rows`: every polyhedral cone, and contacts of every kind."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import partial
 

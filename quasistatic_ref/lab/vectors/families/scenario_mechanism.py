@@ -4,8 +4,6 @@ Numbers are those of the URDFs in float64, rotations as quaternions; a case is w
 need not be the scenario to the last bit.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

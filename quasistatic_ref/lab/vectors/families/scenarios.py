@@ -1,7 +1,5 @@
 """Inputs from every scenario that comes with the package: some steps of each run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Final
 
@@ -24,8 +22,8 @@ from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.simulator import StepResult
 from quasistatic_ref.simulate.target import piecewise_linear
 from quasistatic_ref.step.data import Array
 

@@ -1,7 +1,5 @@
 """Inputs of the layer `selection`: ties of every kind, and fewer candidates than are asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steps and contacts as cases hold them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.vectors.expected import Json

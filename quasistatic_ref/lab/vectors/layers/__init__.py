@@ -1,7 +1,5 @@
 """The layers of the model, each one module with `expected` and `own`, loaded when asked for."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Final, Protocol, cast
 

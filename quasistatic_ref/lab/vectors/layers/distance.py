@@ -1,7 +1,5 @@
 """Layer `distance`: shapes and poses -> phi, alpha, beta, n."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, Final
 

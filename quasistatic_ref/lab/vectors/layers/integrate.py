@@ -1,7 +1,5 @@
 """Layer `integrate`: q+ = q (+) delta_q of a mechanism."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from quasistatic_ref.lab.vectors.exact.integration import integrated

@@ -1,7 +1,5 @@
 """Layer `jacobian`: J of Eqs. (2)-(3) at given contact points of a mechanism."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from flint import fmpq

@@ -5,8 +5,6 @@ violated row. In second-order cones, (F x + f)_0 >= |(F x + f)_1:3| for each blo
 not rational: it is enclosed in balls.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any

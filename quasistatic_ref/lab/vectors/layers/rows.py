@@ -1,7 +1,5 @@
 """Layer 4: the rows of Eqs. (4)-(8), in any polyhedral cone."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Layer 2: of each group of signed distances the k smallest, ties broken by index."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

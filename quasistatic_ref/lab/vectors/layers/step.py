@@ -6,8 +6,7 @@ Contacts of a pair stand in the order of their index. Gravity acts on the un-act
 that of the others is compensated.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final
 
@@ -40,20 +39,24 @@ ROUNDINGS: Final = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 
-def expected(case_input: Json) -> Expected:
-    """All that one step comes to, and q after it."""
+def expected(
+    case_input: Json, terms: Callable[[Mechanism, Json], tuple[float, float]] | None = None
+) -> Expected:
+    """All that one step comes to, and q after it; `terms` says how large what makes H and g is."""
     tree, q = mechanism(case_input["mechanism"]), case_input["q"]
-    found = _chosen(tree, case_input)
-    contacts, friction = _contacts(case_input, found)
+    contacts, friction, found = contacts_of(tree, case_input)
     place = {"mechanism": case_input["mechanism"], "q": q}
     jacobian = layer("jacobian").expected({**place, "contacts": contacts})
     for contact, J in zip(contacts, jacobian.output["J"], strict=True):
         contact["J"] = J
     both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
     rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
-    H, g, g_size = _objective(tree, case_input)
+    H, g, g_size = objective(tree, case_input)
+    H_size = max([abs(x) for row in H for x in row], default=0.0)
+    if terms:
+        H_size, g_size = map(max, (H_size, g_size), terms(tree, case_input))
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
-    errors, distances = _errors(case_input, program, found, jacobian, rows, g_size)
+    errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
     solved = _solved(program, errors)
     base = {**program, "contacts": [_shown(contact) for contact in contacts]}
     base_tolerance = {
@@ -130,8 +133,9 @@ def shape_pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
     return rounded(world)[0]
 
 
-def _contacts(case: Json, found: list[Chosen]) -> tuple[list[Json], list[Json]]:
-    """Contacts of all pairs, with their tangents, and each one's coefficients of friction."""
+def contacts_of(tree: Mechanism, case: Json) -> tuple[list[Json], list[Json], list[Chosen]]:
+    """Contacts of all pairs without J, each one's coefficients of friction, and whence they are."""
+    found = _chosen(tree, case)
     contacts, friction = [], []
     for pair, one in zip(case["pairs"], found, strict=True):
         bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
@@ -139,7 +143,7 @@ def _contacts(case: Json, found: list[Chosen]) -> tuple[list[Json], list[Json]]:
             tangents = _tangents(contact["n"])
             contacts.append({"pair": pair["name"], **bodies, **contact, **tangents})
             friction.append({key: pair[key] for key in ("mu_v", "mu_omega", "rows")})
-    return contacts, friction
+    return contacts, friction, found
 
 
 def _tangents(normal: list[float]) -> dict[str, Json]:
@@ -155,8 +159,8 @@ def _tangents(normal: list[float]) -> dict[str, Json]:
     return {"d1": first, "d2": rounded(lambda: cross(numbers(normal), numbers(first)))[0]}
 
 
-def _objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
-    """H and g of Eq. (13), each entry rounded once, and the largest term of g."""
+def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
+    """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
     h, n_a = number(case["h"]), tree.n_a
     K = [numbers(row) for row in case["K_q"]]
 
@@ -198,7 +202,12 @@ def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
 
 
 def _errors(
-    case: Json, program: Json, found: list[Chosen], jacobian: Expected, rows: Expected, size: float
+    case: Json,
+    program: Json,
+    found: list[Chosen],
+    jacobian: Expected,
+    rows: Expected,
+    sizes: tuple[float, float],
 ) -> tuple[Errors, dict[str, Tolerance]]:
     """What rounding in the layers before leaves in the program, and in the contacts."""
     points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
@@ -216,10 +225,9 @@ def _errors(
     mu = max([max(pair["mu_v"], pair["mu_omega"]) for pair in case["pairs"]], default=0.0)
     moved_J = jacobian.tolerance["J"].absolute + 2 * max(worst["alpha"], worst["beta"])
     A = (1 + 2 * mu) * (3 * moved_J + 12 * reach * worst["n"]) + rows.tolerance["A"].absolute
-    largest = max([abs(x) for row in program["H"] for x in row], default=0.0)
     return Errors(
-        H=Fraction(ROUNDINGS * EPS * largest),
-        g=Fraction(ROUNDINGS * EPS * size),
+        H=Fraction(ROUNDINGS * EPS * sizes[0]),
+        g=Fraction(ROUNDINGS * EPS * sizes[1]),
         A=Fraction(A if program["A"] else 0.0),
         b=Fraction(worst["phi"] if program["A"] else 0.0),
     ), distances

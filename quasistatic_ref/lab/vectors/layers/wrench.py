@@ -4,8 +4,6 @@ On beta's body the force acts at beta, on alpha's body its reaction at alpha; th
 is free of a point. lam is an impulse: forces are divided by h.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shapes of the vectors as the package knows them, and its own closest points."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

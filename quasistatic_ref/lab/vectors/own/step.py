@@ -1,7 +1,5 @@
 """A whole step by the package itself: its System, pairs, simulator and solver, in float64."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points

@@ -3,8 +3,6 @@
 What `own` answers must go the way that users' robots go; so each tree becomes the text of a URDF.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

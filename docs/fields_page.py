@@ -1,0 +1,38 @@
+"""The fields of a file, of a scenario or of a study, as the pages about them list them."""
+
+from quasistatic_ref.declared import Field, Tables
+from quasistatic_ref.fields import REQUIRED
+from quasistatic_ref.files import json_text
+
+
+def reference_page(tables: Tables) -> str:
+    """Every field of a file as Markdown, one table for each kind of table."""
+    parts = []
+    for kind, fields in tables.items():
+        rows = ["| field | value | unit | default | says |", "|---|---|---|---|---|"]
+        for name, one in fields.items():
+            cells = (f"`{name}`", _values(one), one.unit, _default(one), one.says)
+            rows.append(f"| {' | '.join(cells)} |")
+        parts.append("\n".join([f"## {_heading(kind)}", "", *rows]))
+    return "\n\n".join(parts) + "\n"
+
+
+def _heading(kind: str) -> str:
+    return f"`{kind}`" if kind[0] == "[" else kind[0].upper() + kind[1:]
+
+
+def _values(one: Field) -> str:
+    """What a field may hold, in words."""
+    if one.choices is not None:
+        return ", ".join(f"`{json_text(choice)}`" for choice in one.choices)
+    if one.kind.startswith("list of "):
+        return f"{one.kind}{', not empty' if one.least else ''}"
+    bounds = [(one.above, "above"), (one.least, "from"), (one.most, "to")]
+    said = " ".join(f"{word} {bound:.10g}" for bound, word in bounds if bound is not None)
+    return f"{one.kind}{', ' if said else ''}{said}"
+
+
+def _default(one: Field) -> str:
+    if one.default is REQUIRED:
+        return "required"
+    return "" if one.default is None else f"`{json_text(one.default)}`"

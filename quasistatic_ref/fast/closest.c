@@ -1,0 +1,187 @@
+/* Closest points of clouds on solids, from the poses of the links. */
+
+#include "scene.h"
+
+int64_t scene_size(void) { return sizeof(Scene); }
+
+/* model/poses: R @ on_link, then + t. */
+static void placed(const double *R, const double *t, const double *on_link, double *world)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 4; j++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++)
+                sum = ADDED(R[i + 3 * k], on_link[4 * k + j], sum);
+            world[4 * i + j] = sum;
+        }
+        world[4 * i + 3] += t[i];
+    }
+}
+
+/* contact/poses: R_solid' @ [R_cloud, t_cloud - t_solid]. */
+static void relative(const double *solid, const double *cloud, double *pose)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++) {
+                double at = cloud[4 * k + j] - (j == 3 ? solid[4 * k + 3] : 0.0);
+                sum = ADDED(solid[4 * k + i], at, sum);
+            }
+            pose[4 * i + j] = sum;
+        }
+}
+
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
+static inline double along(const double *row, double x, double y, double z)
+{
+    return (row[0] * x + row[1] * y) + row[2] * z;
+}
+
+/* The same by np.add.reduce, which starts from zero: it never gives -0.0. */
+static inline double turned(const double *row, double x, double y, double z)
+{
+    return ((0.0 + row[0] * x) + row[1] * y) + row[2] * z;
+}
+
+/* contact/cloud: signed_distance, and its normal where one is asked for. */
+static double rounded_box(const double *size, const double *x, double *normal)
+{
+    double excess[3], beyond[3], inside;
+    for (int i = 0; i < 3; i++) {
+        excess[i] = fabs(x[i]) - size[i];
+        beyond[i] = larger(excess[i], 0.0);
+    }
+    double outside = sqrt((beyond[0] * beyond[0] + beyond[1] * beyond[1]) + beyond[2] * beyond[2]);
+    inside = larger(larger(excess[0], excess[1]), excess[2]);
+    if (normal) {
+        int face = excess[1] > excess[0] ? 1 : 0;
+        if (excess[2] > excess[face])
+            face = 2;
+        for (int i = 0; i < 3; i++) {
+            double away = outside == 0.0 ? (i == face) : beyond[i] / outside;
+            normal[i] = copysign(away, x[i] + 0.0);
+        }
+    }
+    return outside + (inside < 0.0 ? inside : 0.0) - size[3];
+}
+
+static double cylinder(const double *size, const double *x, double *normal)
+{
+    double r = sqrt((x[0] * x[0] + x[1] * x[1]) + 0.0);
+    double side = r - size[0], end = fabs(x[2]) - size[1];
+    double beyond_side = larger(side, 0.0), beyond_end = larger(end, 0.0);
+    double outside = hypot(beyond_side, beyond_end);
+    int is_outside = outside > 0.0;
+    if (normal) {
+        double of_side = is_outside ? beyond_side / outside : side >= end;
+        double of_end = is_outside ? beyond_end / outside : !(side >= end);
+        normal[0] = of_side * (r == 0.0 ? 1.0 : x[0] / r);
+        normal[1] = of_side * (r == 0.0 ? 0.0 : x[1] / r);
+        normal[2] = of_end * (x[2] < 0.0 ? -1.0 : 1.0);
+    }
+    return is_outside ? outside : larger(side, end);
+}
+
+static double distance(int64_t kind, const double *size, const double *x, double *normal)
+{
+    if (kind == ROUNDED_BOX)
+        return rounded_box(size, x, normal);
+    if (kind == CYLINDER)
+        return cylinder(size, x, normal);
+    for (int i = 0; normal && i < 3; i++)
+        normal[i] = size[i];
+    return along(size, x[0], x[1], x[2]) - size[3];
+}
+
+/* contact/batch: below which signed distances no point outside the list can have come. Its rounding
+   is in the bounds' room, so that any order of its sum will do. */
+static double limit(const Scene *s, int64_t pair, const double *pose)
+{
+    double least = INFINITY;
+    for (int64_t i = s->bounds[pair]; i < s->bounds[pair + 1]; i++) {
+        double sum = s->offset[i];
+        for (int k = 0; k < 12; k++)
+            sum += s->slope[12 * i + k] * pose[k];
+        if (!(sum >= least))
+            least = sum;
+    }
+    return least;
+}
+
+static void in_solid(const double *pose, double x, double y, double z, double *at)
+{
+    for (int i = 0; i < 3; i++)
+        at[i] = turned(pose + 4 * i, x, y, z) + pose[4 * i + 3];
+}
+
+/* contact/batch: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
+static int selected(const Scene *s, int64_t pair, const double *pose)
+{
+    int64_t kept = 0, count = s->count[pair];
+    for (int64_t w = 0; w < s->length[pair]; w++) {
+        double at[3];
+        int64_t p = s->first[pair] + w;
+        in_solid(pose, s->x[p], s->y[p], s->z[p], at);
+        double phi = distance(s->kind[pair], s->size + 4 * pair, at, 0);
+        if (phi != phi)
+            return 0;
+        if (kept == count && !(phi < s->nearest[kept - 1]))
+            continue;
+        int64_t j = kept < count ? kept++ : count - 1;
+        for (; j > 0 && phi < s->nearest[j - 1]; j--) {
+            s->nearest[j] = s->nearest[j - 1];
+            s->rank[j] = s->rank[j - 1];
+        }
+        s->nearest[j] = phi;
+        s->rank[j] = p;
+    }
+    return kept == count;
+}
+
+/* contact/cloud_tracker: the points and normal of one contact in the world. */
+static void witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
+{
+    const double *solid = s->world + 24 * pair, *cloud = solid + 12;
+    double at[3], normal[3];
+    in_solid(pose, s->x[p], s->y[p], s->z[p], at);
+    s->phi[c] = distance(s->kind[pair], s->size + 4 * pair, at, normal);
+    s->point[c] = s->index[p];
+    for (int i = 0; i < 3; i++) {
+        double n = turned(solid + 4 * i, normal[0], normal[1], normal[2]);
+        double centre = turned(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
+        double foot = centre - s->phi[c] * n;
+        int swapped = s->sign[pair] < 0.0;
+        s->n[3 * c + i] = s->sign[pair] * n;
+        s->alpha[3 * c + i] = swapped ? centre : foot;
+        s->beta[3 * c + i] = swapped ? foot : centre;
+    }
+}
+
+/* The closest points of all pairs; 0 where the lists do not prove them. */
+int closest_points(Scene *s)
+{
+    for (int64_t pair = 0; pair < s->pairs; pair++) {
+        double *solid = s->world + 24 * pair, *cloud = solid + 12, pose[12];
+        int64_t a = s->link_solid[pair], b = s->link_cloud[pair];
+        placed(s->R[a], s->t[a], s->on_solid + 12 * pair, solid);
+        placed(s->R[b], s->t[b], s->on_cloud + 12 * pair, cloud);
+        relative(solid, cloud, pose);
+        if (!selected(s, pair, pose) || !(s->nearest[s->count[pair] - 1] < limit(s, pair, pose)))
+            return 0;
+        for (int64_t j = 0; j < s->count[pair]; j++)
+            witness(s, pair, pose, s->start[pair] + j, s->rank[j]);
+    }
+    return 1;
+}
+
+/* The squared distances of all links' origins from that of the world, added up. */
+double reach(const Scene *s)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < s->links; i++)
+        for (int k = 0; k < 3; k++)
+            sum += s->t[i][k] * s->t[i][k];
+    return sum;
+}

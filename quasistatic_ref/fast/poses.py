@@ -1,0 +1,48 @@
+"""Where pinocchio writes the poses of links and the columns of Jacobians: C reads them there."""
+
+import numpy as np
+
+from quasistatic_ref.model.system import System
+from quasistatic_ref.step.data import Array
+
+
+class Poses:
+    """The addresses of a workspace of its own, and what moves it to a configuration.
+
+    Parameters
+    ----------
+    system : System
+
+    Attributes
+    ----------
+    R, t : ndarray of int, shape (L,)
+        Addresses of each link's rotation, by columns, and of its origin; the world's first.
+    columns : ndarray of int, shape (n_x,)
+        Addresses of the Jacobian's columns, velocity before angular velocity.
+    """
+
+    def __init__(self, system: System) -> None:
+        self.workspace, self.order = system.workspace(), system.motion.order
+        self._world = np.eye(3), np.zeros(3)
+        R, t = [self._world[0]], [self._world[1]]
+        columns: list[int] = []
+        for part in self.workspace.parts:
+            R += part.R
+            t += part.t
+            J = part.data.J.reshape(6, -1, order="F")
+            assert J.strides[0] == 8
+            columns += [J.ctypes.data + J.strides[1] * i for i in range(J.shape[1])]
+        assert all(one.strides == (8, 24) for one in R[1:])
+        self.R = np.array([one.ctypes.data for one in R])
+        self.t = np.array([one.ctypes.data for one in t])
+        self.columns = np.array(columns)
+        self._at: bytes | None = None
+
+    def move(self, q: Array) -> None:
+        """Have the poses of a configuration, shape (n_q,), written, unless they are there."""
+        at = q.tobytes()
+        if at == self._at:
+            return
+        self._at = None  # of a failure
+        self.workspace.move(self.order.model_q(q))
+        self._at = at

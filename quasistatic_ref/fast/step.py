@@ -1,0 +1,174 @@
+"""A simulator's step in compiled code: the same algorithm, the same numbers to the last bit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.fast.library import library
+from quasistatic_ref.fast.poses import Poses
+from quasistatic_ref.fast.products import products
+from quasistatic_ref.fast.scene import Scene, known
+from quasistatic_ref.fast.screws import Screws
+from quasistatic_ref.plain import bits
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.posed import PosedContacts
+from quasistatic_ref.step.standard_form import StandardForm, load, standard_form
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.simulator import Simulator
+
+SURELY = 1 - 2.0**-40
+"""For the rounding of a sum of squares, of 2^-53 of each."""
+
+
+def taken_by(simulator: Simulator) -> str:
+    """What takes a simulator's steps, in words."""
+    if (reason := unknown(simulator)) is not None:
+        return f"NumPy: {reason}"
+    names = ", ".join(dict.fromkeys(measured_by_numpy(simulator)))
+    return "compiled code" + (f"; closest points by NumPy, which {names} need" if names else "")
+
+
+def unknown(simulator: Simulator) -> str | None:
+    """Why compiled code does not take a simulator's steps, in words; None if it does."""
+    if simulator.engine != "native":
+        return f"the engine is {simulator.engine!r}"
+    if simulator.extension is not None:
+        return "the scene has an extension"
+    if not cone(simulator.cone).polyhedral:
+        return f"the {simulator.cone} has no rows"
+    if not simulator.pairs:
+        return "nothing can touch"
+    if not isinstance(simulator.geometry, ContactGeometry):
+        return "contacts are handed over in blocks"
+    if products() is None:
+        return "NumPy multiplies matrices here in an order that is not known"
+    return None
+
+
+def measured_by_numpy(simulator: Simulator) -> list[str]:
+    """Names of the pairs whose closest points compiled code does not know."""
+    return [
+        pair.name
+        for pair in simulator.pairs
+        if not (pair.has_cloud and (known(pair.alpha.shape) or known(pair.beta.shape)))
+    ]
+
+
+def compiled_step(simulator: Simulator) -> CompiledStep | None:
+    """What takes a simulator's steps, or None: :func:`unknown` says why."""
+    return CompiledStep(simulator) if unknown(simulator) is None else None
+
+
+class CompiledStep:
+    """The step of one simulator.
+
+    The first step's numbers are formed by NumPy, too, and compared.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    """
+
+    def __init__(self, simulator: Simulator) -> None:
+        assert isinstance(simulator.geometry, ContactGeometry)
+        self.poses, self.geometry = Poses(simulator.system), simulator.geometry
+        clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
+        constant = simulator.constant
+        self.scene = Scene(self.poses, self.geometry, constant.layout, constant.cone, clouds)
+        found = library()
+        self.find, self.form, self.reach = found.closest_points, found.contact_rows, found.reach
+        self.screws = Screws(simulator.system)
+        self.equal: bool | None = None
+
+    def __call__(
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> StepResult | None:
+        """The step of :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`.
+
+        Returns
+        -------
+        StepResult or None
+            None where NumPy turns out to multiply otherwise here, or has an extension to take.
+        """
+        if simulator.extension is not None:  # given since
+            return None
+        lap, system = Stopwatch(), simulator.system
+        q = np.asarray(q, dtype=np.float64)
+        self.poses.move(q)
+        points = self.points(simulator, q)
+        lap("distances")
+        step, form = self.step_data(simulator, points, q, q_bar_a, force)
+        if self.equal is None:
+            self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
+            if not self.equal:
+                simulator.fast = None
+                return None
+        lap("rows")
+        solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)
+        solution = solved(step, solver, *asked, form)  # Eq. (13)
+        simulator.limits.check_penetration(step)
+        lap("solve")
+        q_next = self.screws.integrate(q, solution.delta_q)
+        self.poses.move(q_next)
+        if not self.reach(self.scene.address) <= SURELY * simulator.limits.reach**2:
+            simulator.limits.check_reach(step, system.links, system.kinematics(q_next).t)
+        lap("integrate")
+        return StepResult(q_next, step, solution, points, lap.seconds)
+
+    def points(self, simulator: Simulator, q: Array) -> ClosestPoints:
+        """The closest points at q, by the short lists; by NumPy where these do not prove them."""
+        scene, names = self.scene, ("phi", "alpha", "beta", "n", "point")
+        scene.relist()
+        if scene.clouds is not None and scene.listed and self.find(scene.address):
+            scene.clouds.steps += 1
+            return ClosestPoints(*(scene[name].copy() for name in names))
+        kinematics = simulator.system.kinematics(q)
+        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        for name, values in zip(names, points, strict=True):
+            scene[name][:] = values
+        return points
+
+    def step_data(
+        self,
+        simulator: Simulator,
+        points: ClosestPoints,
+        q: Array,
+        q_bar_a: Array,
+        force: Array | float,
+    ) -> tuple[StepData, StandardForm]:
+        """The problem of one step, and its matrices until the next."""
+        self.form(self.scene.address)
+        scene, layout = self.scene, self.geometry.layout
+        d1, d2, J = (scene[name].copy() for name in ("d1", "d2", "J"))
+        names, constant = self.geometry.names(points.point), self.geometry.mu
+        contacts = PosedContacts(
+            names,
+            points.phi,
+            points.n,
+            d1,
+            d2,
+            J,
+            layout.mu_v,
+            layout.mu_omega,
+            layout.rows,
+            constant,
+        )
+        step = simulator.posed(q, force, self.screws.actuated_difference(q, q_bar_a), contacts)
+        return step, StandardForm(step.H, load(step), scene["A"], scene["b"])
+
+    def by_numpy(
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> StandardForm:
+        """The matrices of the same step without compiled code."""
+        kinematics = simulator.system.kinematics(q)
+        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        return standard_form(simulator.step_data(q, q_bar_a, force, points, kinematics))

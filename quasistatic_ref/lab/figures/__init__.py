@@ -1,0 +1,1 @@
+"""Figures of claims, studies and examples, each drawn from what was measured for it."""

@@ -1,0 +1,49 @@
+"""The friction cones: their limit surfaces."""
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.figures.surfaces import faces
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.friction import cone_matrix
+
+SHOWN = (PYRAMID, ELLIPSOID, "product")
+SURFACE: Final[dict[str, Any]] = {"alpha": 0.5, "edgecolor": "k"}
+
+
+def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
+    """The forces that a contact can bear at f_n = 1, in units of mu_v, mu_v, mu_omega.
+
+    Parameters
+    ----------
+    cones : sequence of str
+    within : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    space = {"projection": "3d"}
+    page, grid = panels(6.3, 2.6, columns=len(cones), within=within, narrow=13, subplot_kw=space)
+    colours = plt.rcParams["axes.prop_cycle"].by_key()["color"]
+    for k, (axes, name) in enumerate(zip(grid, cones, strict=True)):
+        colour = colours[k % len(colours)]
+        if name == ELLIPSOID:
+            u, v = np.mgrid[0 : 2 * np.pi : 33j, 0 : np.pi : 17j]
+            ball = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
+            axes.plot_surface(*ball, color=colour, linewidth=scaled(0.15), **SURFACE)
+        else:
+            sides, style = faces(cone_matrix(name)[:, 1:]), SURFACE | {"linewidth": scaled(0.6)}
+            axes.add_collection3d(Poly3DCollection(sides, facecolor=colour, **style))
+        for axis in "xyz":
+            axes.set(**{f"{axis}lim": (-1.3, 1.3), f"{axis}ticks": (-1, 0, 1)})
+        axes.set_box_aspect((1, 1, 1), zoom=0.82)
+        axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=scaled(-4))
+        axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=scaled(-4))
+        axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=scaled(-7))
+        axes.tick_params(pad=scaled(-3))
+        axes.set_title(name)
+    return page

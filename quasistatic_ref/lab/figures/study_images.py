@@ -1,0 +1,35 @@
+"""The pictures of a report, drawn: as PNG beside a page and as SVG inside one."""
+
+from collections.abc import Callable, Mapping
+from io import BytesIO
+from typing import Any, Final
+
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from quasistatic_ref.figures.style import figure_style
+from quasistatic_ref.lab.figures.study import digits_time, families, profiles, success
+from quasistatic_ref.lab.figures.study_sweep import sweep
+
+KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
+    draw.__name__: draw for draw in (profiles, success, digits_time, families, sweep)
+}
+
+
+def drawn(kind: str, data: Mapping[str, Any]) -> Figure:
+    """A figure of some kind, in the common style."""
+    with figure_style("paper"):
+        return KINDS[kind](data)
+
+
+def images(kind: str, data: Mapping[str, Any]) -> dict[str, bytes]:
+    """``"png"`` and ``"svg"`` of a figure: equal bytes for equal data."""
+    found = {}
+    with figure_style("paper"):
+        figure = drawn(kind, data)
+        for suffix, metadata in (("png", None), ("svg", {"Date": None})):
+            stream = BytesIO()
+            figure.savefig(stream, format=suffix, metadata=metadata)
+            found[suffix] = stream.getvalue()
+    plt.close(figure)
+    return found

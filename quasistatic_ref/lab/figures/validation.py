@@ -1,0 +1,239 @@
+"""The figures of claims, each drawn from what was measured for it."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from quasistatic_ref.figures.style import panels, scaled
+from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
+from quasistatic_ref.lab.figures.study_pens import MARKS
+
+Picture = Mapping[str, Any]
+THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}
+"""Lines of closed forms."""
+GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
+
+
+def _open(mark: str) -> dict[str, Any]:
+    """Hollow marks, each kind of another size: equal values stay visible."""
+    size = scaled(9 - 2.75 * MARKS.index(mark))
+    return {"marker": mark, "markersize": size, "fillstyle": "none"}
+
+
+def grasp(picture: Picture, within: Any = None) -> Figure:
+    """Rotation of the bunny during the lift."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    for case, angle in picture["angles"].items():
+        axes.plot(picture["times"], angle, label=case)
+    labelled(axes, "time t [s]", "rotation since the grip closed [deg]", caption(picture["h"]))
+    return figure
+
+
+def contact_geometry(picture: Picture, within: Any = None) -> Figure:
+    """Two bodies, their closest points, phi and the frame; in the plane of d1 or d2 and n."""
+    data = picture["outline"]
+    figure, (axes,) = panels(4.6, 3.2, within=within)
+    for body in ("capsule", "box"):
+        axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
+    alpha, beta = 1e3 * data["alpha"][[0, 2]], 1e3 * data["beta"][[0, 2]]
+    axes.plot(*np.stack([alpha, beta]).T, color="black", linestyle=":", linewidth=1)
+    for name, point, mark, aside in ((r"$\alpha$", alpha, "o", -14), (r"$\beta$", beta, "s", 4)):
+        axes.plot(*point, marker=mark, color="black", linestyle="", markersize=scaled(4))
+        offset = scaled(aside), scaled(-12)
+        axes.annotate(name, point, xytext=offset, textcoords="offset points")
+    for name in ("n", "d1", "d2"):
+        arrow = 25 * data[name][[0, 2]]
+        if np.linalg.norm(arrow) < 1:
+            continue  # it points out of the page
+        axes.annotate("", beta + arrow, xytext=beta, arrowprops={"arrowstyle": "->"})
+        axes.annotate(f"${name[0]}{'_' + name[1] if name[1:] else ''}$", beta + 1.15 * arrow)
+    axes.set_aspect("equal")
+    gap = 1e3 * data["phi"][0]
+    title = rf"a capsule and a box, $\phi$ = {gap:.1f} mm; $d_1$ is normal to the page"
+    labelled(axes, "x [mm]", "z [mm]", title)
+    return figure
+
+
+def boundary_layer(picture: Picture, within: Any = None) -> Figure:
+    """Spin and lift-off against torque; size of the layer against the time step."""
+    figure, (left, right) = panels(6.3, 2.8, columns=2, within=within)
+    left.plot(1e3 * picture["torque"], 1e3 * picture["lift"])
+    left.axvline(1e3 * picture["limit"], color="black", linestyle=":", linewidth=1)
+    left.annotate(
+        r"$\mu_\omega\,m\,g$", (1e3 * picture["limit"], 0.6), xycoords=("data", "axes fraction"),
+        xytext=(-4, 0), textcoords="offset points", ha="right",
+    )  # fmt: skip
+    left.set(xlabel="applied torque [mN m]", ylabel="lift-off [mm]")
+    left.set_title(caption(picture["h"]), loc="right")
+    sizes = 1e3 * picture["sizes"]
+    right.loglog(sizes, 1e6 * picture["at_rate"], marker="o", label="fixed rate: slope 1")
+    right.loglog(sizes, 1e6 * picture["at_torque"], marker="s", label="fixed torque: slope 2")
+    right.set(xlabel="time step h [ms]", ylabel=r"boundary layer [$\mu$m]")
+    right.set_title("friction pyramid", loc="right")
+    right.legend()
+    return figure
+
+
+def step_time(picture: Picture, within: Any = None) -> Figure:
+    """Parts of a step by backend, each with the tracker and with all distances, stacked."""
+    figure, (axes,) = panels(6.3, 3.9, within=within)
+    profiles = picture["profiles"].all
+    # Two bars of a backend touch, backends stand apart.
+    at = -np.array([k + 0.5 * (k // 2) for k in range(len(profiles))])
+    times = np.array([list(p.typical.values()) for p in profiles])
+    whole = times.sum(axis=1)
+    shares = 100 * times / whole[:, None]
+    left = np.zeros(len(profiles))
+    for part, width, grey in zip(profiles[0].typical, shares.T, GREYS, strict=True):
+        axes.barh(at, width, 0.9, left=left, label=part, color=grey, edgecolor="black",
+                  linewidth=scaled(0.5))  # fmt: skip
+        left += width
+    axes.axvline(50, color="black", linestyle=":", linewidth=scaled(1.2))
+    for y, p, total in zip(at, profiles, whole, strict=True):
+        text = f"{100 * p.solve:.0f} % of {_duration(total)}"
+        axes.annotate(text, (102, y), va="center", annotation_clip=False)
+    names = [p.name.split(",")[0].replace(" ", "\n") for p in profiles[::2]]
+    axes.set_yticks((at[::2] + at[1::2]) / 2, names)
+    axes.grid(False)
+    axes.set(xlim=(0, 100), xticks=range(0, 101, 25))
+    bars = (
+        f"upper bars: {picture['tracked']:.0f} distances by the tracker, lower bars: all "
+        f"{picture['all']}; right: share of the solve"
+    )
+    labelled(
+        axes, "share of the time of a step, medians [%]", title=caption(picture["h"]), key=False
+    )
+    legend_below([axes], axes.get_legend_handles_labels()[0], bars)
+    return figure
+
+
+def _duration(microseconds: float) -> str:
+    ms = microseconds >= 1000
+    return f"{microseconds / 1000:.1f} ms" if ms else rf"{microseconds:.0f} $\mu$s"
+
+
+def sliding_threshold(picture: Picture, within: Any = None) -> Figure:
+    """Least force that moves a point, by direction: the pyramid beside Coulomb's circle."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    degrees = np.degrees(picture["angles"])
+    axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
+    exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
+    axes.plot(degrees, exact, label="(R7)", **THIN)
+    for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
+        axes.plot(degrees, found, linestyle="", **_open(mark), label=rf"$\mu_v$ = {mu:g}")
+    axes.set_xlabel("direction of the force from $d_1$ [deg]")
+    axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
+    axes.set_title(caption(picture["h"]), loc="right")
+    axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.62))
+    return figure
+
+
+def pushed_block(picture: Picture, within: Any = None) -> Figure:
+    """Force of the finger over friction, against the quasi-dynamic number."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    friction = picture["mu"] * picture["m"] * 9.81
+    pi = picture["v"] / (picture["mu"] * 9.81 * picture["h"])
+    line = np.geomspace(0.8 * pi.min(), 1.2 * pi.max(), 100)
+    axes.plot(line, 1 + line, label=r"$1 + \Pi$, (R13)", **THIN)
+    for h, mark in zip(np.unique(picture["h"]), MARKS, strict=False):
+        at = picture["h"] == h
+        force = picture["force"][at] / friction[at]
+        axes.plot(pi[at], force, linestyle="", **_open(mark), label=f"h = {1e3 * h:g} ms")
+    axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
+    axes.set(xscale="log", yscale="log", ylabel=r"push / ($\mu_v m g$) [-]")
+    axes.set_xlabel(r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]")
+    axes.set_title("friction pyramid", loc="right")
+    axes.legend()
+    return figure
+
+
+def planar_push(picture: Picture, within: Any = None) -> Figure:
+    """Turn of a pushed slider over that of the quasi-static law, against its speed."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    rho = picture["rho"]
+    line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
+    for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
+        axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), **THIN)
+        label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
+        axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
+    axes.set_xscale("log")
+    title = f"{caption(picture['h'], 'ellipsoid')}; lines: (R28)"
+    labelled(axes, r"quasi-dynamic number $\Pi$ [-]", "turn / Lynch's turn [-]", title)
+    return figure
+
+
+def patch_torsion(picture: Picture, within: Any = None) -> Figure:
+    """mu_omega of patches made of rings, and their limits."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
+        axes.plot(picture["rings"], found, marker=mark, label=name)
+        axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
+    axes.set_xscale("log", base=2)
+    axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])
+    axes.set(xlabel="rings of point contacts [-]", ylabel=r"$\mu_\omega$ / ($\mu$ a) [-]")
+    axes.set_title("h = 10 ms, friction pyramid; dotted: continuum", loc="right")
+    axes.legend()
+    return figure
+
+
+def flat_patch(picture: Picture, within: Any = None) -> Figure:
+    """Who bears the load of a rigid disk that turns."""
+    figure, (axes,) = panels(4.6, 2.6, within=within)
+    at = np.arange(len(picture["r"]))
+    uniform = np.full(len(at), 1 / len(at))
+    axes.set_axisbelow(True)
+    axes.bar(at - 0.2, uniform, 0.4, color="white", edgecolor="black", label="uniform load")
+    axes.bar(at + 0.2, picture["shares"], 0.4, color="0.5", edgecolor="black", label="this model")
+    axes.set_xticks(at, [f"{1e3 * r:.0f}" for r in picture["r"]])
+    axes.set(xlabel="radius of the ring of points [mm]", ylabel="share of the load [-]")
+    axes.set_title(caption(picture["h"]), loc="right")
+    axes.legend(loc="upper left")
+    return figure
+
+
+def peg_wedging(picture: Picture, within: Any = None) -> Figure:
+    """Depth at which a peg stops to wedge, against Whitney's line."""
+    figure, (axes,) = panels(4.6, 2.8, within=within)
+    line = np.array([0, 0.9])
+    axes.plot(line, line, label=r"$l = \mu d$, (R17)", **THIN)
+    for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
+        at = picture["width"] == width
+        ratio, label = picture["found"][at] / width, f"d = {1e3 * width:g} mm"
+        axes.plot(picture["mu"][at], ratio, linestyle="", **_open(mark), label=label)
+    axes.annotate("slides in", (0.3, 0.5))
+    axes.annotate("wedged", (0.6, 0.15))
+    axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
+    axes.set_title(f"{caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
+    axes.legend(loc="upper left")
+    return figure
+
+
+def mujoco_friction(picture: Picture, within: Any = None) -> Figure:
+    """Velocity against load, below and beyond the threshold, of both engines."""
+    figure, both = panels(6.3, 2.8, columns=2, within=within)
+    units = {"torsion": "spin rate [rad/s]", "tangent": "velocity [m/s]"}
+    for axes, (kind, unit) in zip(both, units.items(), strict=True):
+        for (what, cone), final in picture["creep"].items():
+            if what == kind:
+                mark = MARKS[len(axes.lines)]
+                axes.plot(picture["shares"], np.abs(final), marker=mark, label=f"MuJoCo, {cone}")
+        ours = picture["ours"][kind]
+        axes.plot(picture["shares"], ours, marker="D", label="ours, pyramid, one step")
+        axes.set_yscale("symlog", linthresh=1e-5)
+        axes.axvline(1, color="black", linestyle=":", linewidth=1)
+        axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
+        axes.set_title(f"{kind}, h = {1e3 * picture['h']:g} ms", loc="right")
+    legend_below(both, both[0].get_legend_handles_labels()[0])
+    return figure
+
+
+PICTURES: Final[dict[str, Callable[..., Figure]]] = {
+    draw.__name__: draw
+    for draw in (
+        grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
+        patch_torsion, flat_patch, peg_wedging, mujoco_friction, planar_push,
+    )
+}  # fmt: skip
+"""Claim -> its figure, of what was measured, drawn where it is told to."""

@@ -1,0 +1,156 @@
+"""Every field of a study file, said once: the loader, a JSON Schema and a page read this table.
+
+What goes beyond one field, such as that a solver is installed, the loader checks by hand.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from quasistatic_ref.declared import Field, Tables
+from quasistatic_ref.lab.study.qp import UNITS
+from quasistatic_ref.lab.study.solvers import ROADS, SETTINGS
+from quasistatic_ref.schema import json_schema
+from quasistatic_ref.tolerances import LARGE
+
+FORMAT, VERSION = "quasistatic-ref/study", 1
+MOST_PROBLEMS = 100_000
+LONGEST_LIMIT = 1e6
+"""Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
+MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
+STUDY, SOLVERS, SWEEPS = "a study", "a study of solvers", "a study of sweeps"
+PROBLEMS, COUNTS, SETTING, SOLVER = (
+    "[problems]",
+    "[problems.families]",
+    "[settings.NAME]",
+    "[solvers.NAME]",
+)
+RUN, SWEEP, AXIS = "[[runs]]", "[[sweeps]]", "[sweeps.axes.NAME]"
+TEXT = {"type": "string"}
+
+
+def _head(kind: str, **default: Any) -> dict[str, Field]:
+    return {
+        "format": Field("text", "what the file is", choices=(FORMAT,)),
+        "version": Field("integer", "of the format", choices=(VERSION,)),
+        "kind": Field("text", "what is studied", choices=(kind,), **default),
+    }
+
+
+def _family(says: str) -> Field:
+    return Field("integer", says, default=0, least=0, most=MOST_PROBLEMS)
+
+
+TABLES = Tables({
+    SOLVERS: {
+        **_head("solvers", default="solvers"),
+        "time_limit": Field("number", "of one problem; a solver that takes longer is killed", "s",
+                            2.0, above=0.0, most=LONGEST_LIMIT),
+        "budget": Field("number", "of one solver, all its calls together", "s", 600.0, above=0.0,
+                        most=LARGE),
+        "problems": Field("table", "on what solvers are compared", default={}, of=PROBLEMS),
+        "settings": Field("tables by name", default={}, of=SETTING, says="settings of your own, "
+                          f"or others in place of {', '.join(s.name for s in SETTINGS)}"),
+        "solvers": Field("tables by name", "solvers that are not listed, or have options of their "
+                         "own", default={}, of=SOLVER),
+        "runs": Field("list of tables", "who is asked in which way", default=[{}], least=1, of=RUN),
+    },
+    PROBLEMS: {
+        "seed": Field("integer", "everything else is a function of it", default=1, least=0,
+                      most=2**32 - 1),
+        "scenarios": Field("list of words", "whose steps are harvested; else those of all that "
+                           "come along", default=None),
+        "families": Field("table", "how many problems of each", default={"scenarios": 20},
+                          of=COUNTS),
+    },
+    COUNTS: {
+        "scenarios": _family("steps of the scenarios"),
+        "contacts": _family("1 to 1,000 contacts"),
+        "mass_ratio": _family("masses of a ratio of 1 to 1e9"),
+        "time_step": _family("h from 0.1 to 1e-4 s"),
+        "closest_points": _family("k from 1 to 50"),
+        "bodies": _family("towers of 2 to 40 slabs"),
+    },
+    SETTING: {
+        "accuracy": Field("number", "asked of residuals and gap; a new name needs it", "-", None,
+                          above=0.0, most=LARGE),
+        "promised": Field("number", "digits that \"optimal\" promises; 3 for a new name", "-", None,
+                          least=0.0, most=LARGE),
+        "tuned": Field("boolean", "whether with the options that the simulator uses; false for a "
+                       "new name", default=None),
+    },
+    SOLVER: {
+        "cvxpy": Field("text", "a solver's name, for options of its own through CVXPY",
+                       default=None),
+        "qpsolvers": Field("text", "a solver's name, for options of its own without CVXPY",
+                           default=None),
+        "callable": Field("text", "module:function", default=None, schema={"pattern": MODULE}),
+        "executable": Field("list of words", "a program and its arguments", default=None, least=1),
+        "options": Field("tables by name", "options at each setting, in place of ours",
+                         default={}),
+    },
+    RUN: {
+        "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, * for every one that is "
+                         "installed, or names of [solvers.NAME]", default=["qpsolvers:*"], least=1),
+        "settings": Field("list of words", "names of settings", default=["default"], least=1),
+        "units": Field("list of words", f"of {', '.join(UNITS)}", default=["natural"], least=1,
+                       schema={"items": {"enum": list(UNITS)}}),
+        "warm": Field("list of true and false", "whether from the answer to a neighbour",
+                      default=[False], least=1,
+                      schema={"type": "array", "items": {"type": "boolean"}}),
+        "repetitions": Field("integer", "of each call", default=1, least=1, most=1000),
+        "every": Field("integer", "each so-manieth problem only", default=1, least=1,
+                       most=MOST_PROBLEMS),
+    },
+    SWEEPS: {
+        **_head("sweep"),
+        "sweeps": Field("list of tables", "which scenarios, with which values", least=1, of=SWEEP),
+    },
+    SWEEP: {
+        "name": Field("text", "of the sweep; else the scenario's", default=None),
+        "scenario": Field("text", "a name, or a file in the study's folder"),
+        "link": Field("text", "whose motion is measured"),
+        "duration": Field("number", "of each run, whatever h is; else the scenario's steps", "s",
+                          None, above=0.0, most=LARGE),
+        "since": Field("number", "from when on rotation and travel count", "s", 0.0, least=0.0,
+                       most=LARGE),
+        "axes": Field("tables by name", "parameters; each combination of their values is a run",
+                      of=AXIS, schema={"minProperties": 1}),
+    },
+    AXIS: {
+        "fields": Field("list of words", "dotted fields of the scenario that are set to each value;"
+                        " else the axis's name", default=None, least=1),
+        "values": Field("list of numbers and words", "one after the other", least=1,
+                        schema={"type": "array", "items": {"anyOf": [
+                            TEXT, {"type": "number", "minimum": -LARGE, "maximum": LARGE}]}}),
+    },
+})  # fmt: skip
+"""The fields of each kind of table, in the order of the reference page."""
+
+
+def study_schema() -> dict[str, Any]:
+    """The JSON Schema of a study file, of either kind.
+
+    One table has the fields of both kinds: an editor then marks the field that is wrong, and not
+    the whole file.
+    """
+    inner = {kind: fields for kind, fields in TABLES.items() if kind not in (SOLVERS, SWEEPS)}
+    solvers, sweeps = TABLES[SOLVERS], TABLES[SWEEPS]
+    kind = replace(solvers["kind"], choices=(*_kinds(SOLVERS), *_kinds(SWEEPS)))
+    both = {**solvers, "sweeps": replace(sweeps["sweeps"], default=None), "kind": kind}
+    rules = {
+        STUDY: {"oneOf": [_only(SOLVERS, sweeps), {"required": ["kind", "sweeps"],
+                                                   **_only(SWEEPS, solvers)}]},
+        SOLVER: {"oneOf": [{"required": [road]} for road in ROADS]},
+    }  # fmt: skip
+    return json_schema("A study", Tables({STUDY: both, **inner}), rules, STUDY)
+
+
+def _kinds(top: str) -> tuple[str, ...]:
+    return TABLES[top]["kind"].choices or ()
+
+
+def _only(top: str, other: Mapping[str, Field]) -> dict[str, Any]:
+    """The rule of a file of one kind, which has no field that only the other kind has."""
+    strangers = [{"required": [name]} for name in other if name not in TABLES[top]]
+    return {"properties": {"kind": {"enum": list(_kinds(top))}}, "not": {"anyOf": strangers}}

@@ -1,0 +1,34 @@
+"""What is asked of programs that are right to fewer digits than float64 holds."""
+
+from quasistatic_ref.lab.vectors.check.compare import leaves, parts, tolerance_of
+from quasistatic_ref.lab.vectors.check.multipliers import NEGLIGIBLE
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.qp import UNIQUE
+
+
+def loosened(record: Json, digits: float) -> Json:
+    """What is expected of a program that rounds to `digits` [-], or stops there.
+
+    Every tolerance is what float64's would be with that unit of rounding, 10^-digits in the place
+    of 1e-16, and at least 10^-digits of the largest number of its field. Whole numbers stay.
+
+    Parameters
+    ----------
+    record : dict
+        What is expected: ``output``, ``flags``, ``tolerance``.
+    digits : float
+    """
+    unit, wide = 10.0**-digits, {}
+    flags = dict(record["flags"])
+    for field, value in parts(record["output"]).items():
+        numbers = [abs(v) for _, v in leaves(value) if isinstance(v, float)]
+        exact = tolerance_of(record["tolerance"], field)
+        if numbers and field != "farkas":
+            wide[field] = {"absolute": max(exact * unit * 1e16, unit * max(numbers))}
+        if field == "lam" and numbers:
+            known = wide[field]["absolute"] <= UNIQUE * max(numbers)
+            flags["unique_multipliers"] = flags["unique_multipliers"] and known
+    if "farkas" in record["output"]:
+        wide["farkas"] = {"absolute": max(tolerance_of(record["tolerance"], "farkas"), unit)}
+    small = {"negligible": max(NEGLIGIBLE, unit)}
+    return {**record, "tolerance": {**record["tolerance"], **wide}, "flags": flags, **small}

@@ -1,0 +1,30 @@
+"""What is expected and what is given, side by side."""
+
+from quasistatic_ref.lab.vectors.check.compare import leaves
+from quasistatic_ref.lab.vectors.expected import Json
+
+LINES = 60
+"""At most so many numbers of one case are shown."""
+
+
+def side_by_side(expected: Json, given: Json) -> list[tuple[str, ...]]:
+    """The table of all numbers that differ, its header first; then how many are the same."""
+    ours = {_place(path): value for path, value in leaves(expected)}
+    theirs = {_place(path): value for path, value in leaves(given)}
+    rows = [("place", "expected", "given", "difference")]
+    other = [at for at in {**ours, **theirs} if _text(ours, at) != _text(theirs, at)]
+    for at in other[:LINES]:
+        pair = ours.get(at), theirs.get(at)
+        numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in pair)
+        change = f"{float(pair[1]) - float(pair[0]):.3g}" if numbers else ""  # type: ignore[arg-type]
+        rows.append((at, _text(ours, at), _text(theirs, at), change))
+    more = f"{len(other) - LINES} more that differ, " if len(other) > LINES else ""
+    return [*rows, (f"{more}{len(ours) - len(set(other) & set(ours))} the same", "", "", "")]
+
+
+def _place(path: str) -> str:
+    return path.removeprefix(".") or "output"
+
+
+def _text(values: dict[str, Json], place: str) -> str:
+    return repr(values[place])[:40] if place in values else "-"

@@ -1,0 +1,22 @@
+"""The notebooks of the lectures grade themselves: answers are right, and nothing else is."""
+
+import pytest
+
+from validation.lectures import FOLDER, LECTURES, cells, marks
+
+
+@pytest.mark.parametrize("name", LECTURES)
+def test_every_answer_of_a_lecture_is_right_and_no_unfinished_task_is(name):
+    done, begun = marks(name, answers=True), marks(name, answers=False)
+    tasks = sum(kind == "task" for kind, _ in cells(name)[1])
+    assert len(done) == len(begun) == tasks >= 2
+    assert all(done.values()), done
+    assert not any(begun.values()), begun
+
+
+def test_there_are_five_lectures_and_each_task_has_its_answer_and_its_check():
+    assert sorted(path.stem for path in FOLDER.glob("*.py")) == sorted(LECTURES)
+    assert len(LECTURES) == 5
+    for name in LECTURES:
+        kinds = [kind for kind, _ in cells(name)[1]]
+        assert kinds == ["setup", *["task", "answer", "check"] * ((len(kinds) - 1) // 3)]

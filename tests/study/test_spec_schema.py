@@ -1,0 +1,128 @@
+"""The JSON Schema and the reference page of study files say what the loader does."""
+
+import json
+import tomllib
+
+import pytest
+from jsonschema import Draft4Validator
+
+from docs.fields_page import reference_page
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_names, study_tables
+from quasistatic_ref.lab.study.spec_sweep import sweep_study
+from quasistatic_ref.lab.study.spec_table import TABLES, study_schema
+
+
+def test_every_field_of_a_study_is_on_the_page_that_is_made_of_the_table():
+    lines = reference_page(TABLES).splitlines()
+    for fields in TABLES.values():
+        for name, one in fields.items():
+            assert any(
+                s.startswith(f"| `{name}` |") and s.endswith(f"| {one.says} |") for s in lines
+            )
+
+
+HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'
+SWEEP = HEAD + 'kind = "sweep"\n[[sweeps]]\nscenario = "stack"\nlink = "upper"\naxes.h.values = '
+MISTAKES = {
+    "another format": 'format = "quasistatic-ref/scenario"\nversion = 1',
+    "no format": "version = 1",
+    "a later version": 'format = "quasistatic-ref/study"\nversion = 2',
+    "no budget": HEAD + "budget = 0.0",
+    "a budget beyond numbers": HEAD + "budget = 1e16",
+    "more time than there is": HEAD + "time_limit = 1e7",
+    "a word for a time": HEAD + 'time_limit = "long"',
+    "a seed beyond 32 bits": HEAD + "problems.seed = 4294967296",
+    "half a problem": HEAD + "problems.families.contacts = 0.5",
+    "an unknown family": HEAD + "problems.families.contact = 1",
+    "a number for a scenario": HEAD + "problems.scenarios = [1]",
+    "an unknown word of a setting": HEAD + "settings.mine = { accuracy = 1e-3, tune = true }",
+    "no accuracy": HEAD + "settings.mine.accuracy = 0.0",
+    "less than no digits": HEAD + "settings.high.promised = -1.0",
+    "a solver of two kinds": HEAD + 'solvers.me = { callable = "a:b", qpsolvers = "daqp" }',
+    "a solver of no kind": HEAD + "solvers.me.options.high = {}",
+    "no function": HEAD + 'solvers.me.callable = "module"',
+    "no program": HEAD + "solvers.me.executable = []",
+    "an option without a table": HEAD + 'solvers.me = { callable = "a:b", options.high = 1 }',
+    "no runs": HEAD + "runs = []",
+    "no solvers": HEAD + "[[runs]]\nsolvers = []",
+    "unknown units": HEAD + '[[runs]]\nunits = ["si"]',
+    "warm one": HEAD + "[[runs]]\nwarm = [1]",
+    "cold and nothing": HEAD + "[[runs]]\nwarm = []",
+    "no repetition": HEAD + "[[runs]]\nrepetitions = 0",
+    "every half": HEAD + "[[runs]]\nevery = 0.5",
+    "no sweeps": HEAD + 'kind = "sweep"\nsweeps = []',
+    "runs in a sweep": HEAD + 'kind = "sweep"\n[[runs]]\n',
+    "no values": SWEEP + "[]",
+    "true for a value": SWEEP + "[[0.01]]",
+    "no fields": SWEEP + "[0.01]\naxes.h.fields = []",
+    "no duration": SWEEP + "[0.01]\nduration = 0.0",
+    "a time before the start": SWEEP + "[0.01]\nsince = -1.0",
+    "a misspelt name": SWEEP + "[0.01]\nsicne = 1.0",
+}
+
+
+@pytest.fixture(scope="module")
+def validator():
+    Draft4Validator.check_schema(study_schema())
+    return Draft4Validator(study_schema())
+
+
+def loaded(path):
+    tables = study_tables(path)
+    (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_is_refused_by_the_loader_and_by_the_schema(name, validator, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(MISTAKES[name])
+    with pytest.raises(InputError):
+        loaded(path)
+    assert not validator.is_valid(tomllib.loads(MISTAKES[name]))
+
+
+FULL = f"""{HEAD}time_limit = 1
+budget = 90.0
+problems = {{ seed = 0, scenarios = ["stack"], families = {{ scenarios = 1, contacts = 2 }} }}
+settings = {{ tight = {{ accuracy = 1e-11, promised = 5 }}, high = {{ tuned = true }} }}
+solvers.mine = {{ callable = "my_module:solve", options.tight = {{ a = [1, "b"] }} }}
+solvers.other.executable = ["true", "--flag"]
+[[runs]]
+solvers = ["qpsolvers:*", "cvxpy:clarabel", "mine", "other"]
+settings = ["default", "tight"]
+units = ["raw", "natural"]
+warm = [false, true]
+repetitions = 2
+every = 1
+"""
+
+
+@pytest.mark.parametrize(
+    "text", [HEAD, FULL, SWEEP + '[0.01]\nname = "a"\nduration = 1\nsince = 0']
+)
+def test_what_the_loader_takes_the_schema_takes(text, validator, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(text)
+    loaded(path)
+    assert [error.message for error in validator.iter_errors(tomllib.loads(text))] == []
+
+
+@pytest.mark.parametrize("name", sorted(study_names()))
+def test_every_study_that_comes_along_is_valid(name, validator):
+    assert validator.is_valid(tomllib.loads(study_names()[name].read_text()))
+
+
+def test_the_command_prints_the_schema_of_studies(capsys):
+    assert main(["schema", "study"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(study_schema()))
+
+
+@pytest.mark.parametrize(("name", "path"), [
+    ("a word for a time", ["time_limit"]), ("a misspelt name", ["sweeps", 0]),
+    ("no repetition", ["runs", 0, "repetitions"]),
+])  # fmt: skip
+def test_the_schema_marks_what_is_wrong_and_not_the_whole_file(name, path, validator):
+    errors = validator.iter_errors(tomllib.loads(MISTAKES[name]))
+    assert [list(error.absolute_path) for error in errors] == [path]
