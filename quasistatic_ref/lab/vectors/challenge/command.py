@@ -1,7 +1,5 @@
 """What ``vectors challenge`` does, once its options are read."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

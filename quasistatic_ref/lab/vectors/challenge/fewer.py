@@ -1,7 +1,5 @@
 """Inputs with fewer parts: contacts, pairs, wrenches, points, rows, bodies, coordinates."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Final
 

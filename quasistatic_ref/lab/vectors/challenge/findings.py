@@ -1,7 +1,5 @@
 """What a challenge found: each by its mistake and field, with the smallest case that shows it."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import dataclass

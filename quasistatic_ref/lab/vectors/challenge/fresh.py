@@ -4,8 +4,6 @@ Easy is one contact, few bodies and numbers of one digit; then come cases as the
 then those that are degenerate, badly scaled, or without solution.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """A Python function that is challenged as a program is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from quasistatic_ref.files import plain

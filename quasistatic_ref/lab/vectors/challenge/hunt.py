@@ -4,8 +4,6 @@ After each round, what failed is named by all that was seen so far of its layer,
 failing case is made smaller.
 """
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence

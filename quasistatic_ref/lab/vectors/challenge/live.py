@@ -4,8 +4,6 @@ Every case follows from the seed, the round, its layer and its number, so that t
 gives the same result.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor

@@ -1,7 +1,5 @@
 """What a challenge came to."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
 from math import inf

@@ -4,8 +4,6 @@ Whatever it does, crash, hang, print what is no answer, answer twice or late, or
 error, is survived and said.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os
@@ -87,7 +85,7 @@ class Program:
         self.tail = b""
         self.starts = 0
 
-    def __enter__(self) -> Program:
+    def __enter__(self) -> "Program":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,7 +1,5 @@
 """The package as a program that is challenged: cases in, answers out, line by line."""
 
-from __future__ import annotations
-
 import json
 from typing import IO
 

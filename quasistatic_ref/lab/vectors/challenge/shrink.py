@@ -1,7 +1,5 @@
 """A failing case made smaller, by moves after each of which it fails in the same way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

@@ -3,8 +3,6 @@
 A move need not give a valid input: what is none is not asked.
 """
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Callable, Iterator
 from typing import Final

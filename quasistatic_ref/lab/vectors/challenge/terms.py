@@ -3,8 +3,6 @@
 The committed steps have few that do; cases at random have all kinds.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.lab.vectors.exact.algebra import moved

@@ -1,7 +1,5 @@
 """Whether an input is one of its layer: what the families keep to, and moves may break."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -4,8 +4,6 @@ A ball on a body and a plane, or another ball, are put where the gap between the
 of mass are not at origins, wrenches act on any body, and gravity is along any direction.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
