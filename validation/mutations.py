@@ -93,7 +93,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
     "certify/gap.py": ("unit/test_bound.py", *FORGED),
-    "certify/impulses.py": FORGED,
+    "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/test_bound.py", *FORGED),
     "certify/ellipsoid.py": FORGED,
     "certify/apex.py": FORGED,

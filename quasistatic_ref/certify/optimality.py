@@ -78,11 +78,7 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
     unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
     balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
-    return residuals_of_rows(balance, A @ delta_q - b, lam)
-
-
-def residuals_of_rows(balance: Array, slack: Array, lam: Array) -> Residuals:
-    """The same of the left-hand side of (9), shape (n_v,), slacks and multipliers, shape (m,)."""
+    slack = A @ delta_q - b
     short = -slack  # Eq. (10): slack >= 0
     pull = -lam  # Eq. (11): lam >= 0
     work = slack * lam  # Eq. (12): zero, row by row

@@ -1,7 +1,5 @@
 """The exact optimum on a guessed working set, proved in compiled fixed point."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from quasistatic_ref.certify.confirm import implied_zeros
@@ -67,7 +65,7 @@ class Prover:
         self.usable = n <= LARGEST and bool(found.hessian(s.address))
 
     def fits(self, step: StepData, coordinate: Array) -> bool:
-        """Whether a step, whose S has the diagonal `coordinate`, shape (n_v,), is of that kind."""
+        """Whether a step is of that kind; its S has the diagonal `coordinate` (n_v,) [m, rad]."""
         h, K_q, M_u, layout, unit = self.of
         own = step.layout is layout and coordinate is unit
         return own and h == step.h and K_q is step.K_q and M_u is step.M_u

@@ -11,11 +11,7 @@ from quasistatic_ref.solve.backends import (
     backend,
 )
 from quasistatic_ref.solve.native import NativeSolver, check_native, native_backends
-from quasistatic_ref.solve.second_order import ConeSolver
 from quasistatic_ref.solve.solver import NoSolver, Solver
-from quasistatic_ref.solve.sparse import SparseSolver
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -76,12 +72,24 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     check_solver(name, engine, step.cone)
     if name == NONE:
         return NoSolver(step)
+    # Others are imported when they are asked for: a short run takes less time than their packages.
     if engine == NATIVE:
         if not cone(step.cone).polyhedral:
+            from quasistatic_ref.solve.second_order import ConeSolver
+
             return ConeSolver(step, name)
-        sparse = step.contacts.blocks is not None
-        return SparseSolver(step, name) if sparse else NativeSolver(step, name)
-    return (QpsolversSolver if name.startswith(QPSOLVERS) else CvxpySolver)(step, name)
+        if step.contacts.blocks is None:
+            return NativeSolver(step, name)
+        from quasistatic_ref.solve.sparse import SparseSolver
+
+        return SparseSolver(step, name)
+    if name.startswith(QPSOLVERS):
+        from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
+
+        return QpsolversSolver(step, name)
+    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+
+    return CvxpySolver(step, name)
 
 
 def may_be_sparse(engine: str, name: str, certify: str, cone_name: str) -> bool:

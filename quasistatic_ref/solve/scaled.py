@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from quasistatic_ref.certify.bound import error_bound
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of_rows
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.units import Metric, Units, metric, natural_form, to_natural, units_of
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -85,7 +85,8 @@ class Scaled:
             return ellipsoid_residuals(self.natural, delta_q, lam)
         form = self.natural_form
         balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), as (13) has it
-        return residuals_of_rows(balance, form.A @ delta_q - form.b, lam)
+        slack = form.A @ delta_q - form.b
+        return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:
         """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""

@@ -19,7 +19,6 @@ from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
-from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
 from quasistatic_ref.solve.units import from_natural
@@ -96,11 +95,13 @@ def solve_step(
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if extension is not None:
-        own = extension_rows(step, extension)
+        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+
+        own = extended.extension_rows(step, extension)
         if own is not None:
-            step = with_rows(step, own)
+            step = extended.with_rows(step, own)
         elif isinstance(solver, str):
-            return extended_solution(step, extension, solver, accuracy, certify)
+            return extended.extended_solution(step, extension, solver, accuracy, certify)
         else:
             problem = "holds a problem of rows only; an extension that is more needs the name of a "
             problem += "backend, and in a simulator engine = 'cvxpy'"

@@ -305,3 +305,19 @@ def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
             with pytest.raises(BackendError):
                 simulator.step(q, goal)
     assert replace(scenario, engine=None).simulator().engine == "native"
+
+
+NATIVE_RUN = """
+import sys
+from quasistatic_ref.cli.main import main
+status = main(["run", "sphere_spin", "--set", "steps=3", "--json", "--out", sys.argv[1]])
+heavy = "cvxpy", "qpsolvers", "scipy", "matplotlib", "osqp", "piqp", "clarabel", "numba"
+print(status, [name for name in heavy if name in sys.modules])
+"""
+
+
+def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
+    """It takes less time than these packages take to be imported."""
+    command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.stdout.splitlines()[-1] == "0 []", done.stderr

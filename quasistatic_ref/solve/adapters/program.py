@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
-from scipy.sparse import csc_matrix
 
 from quasistatic_ref.step.data import Array, Indices
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +52,8 @@ class Program:
 
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
         """H's upper triangle and A in compressed columns of a fixed pattern, zeros included."""
+        from scipy.sparse import csc_matrix  # not all adapters ask for it
+
         m, n = self.A.shape
         rows, _ = self.upper
         starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
@@ -82,7 +86,7 @@ class SparseProgram:
         """The whole symmetric matrix."""
         whole = self.P + self.P.T
         whole.setdiag(self.P.diagonal())
-        return csc_matrix(whole)
+        return whole.tocsc()
 
     @property
     def P_data(self) -> Array:
