@@ -1,5 +1,7 @@
 """The one protocol of adapters: what each is given, and what it gives back."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, Protocol
