@@ -8,8 +8,6 @@ how small the counterexample is.
 Exit status 1 if a bug is not found, or one is named wrong.
 """
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import statistics
@@ -168,8 +166,8 @@ def page(trials: list[Trial]) -> Iterator[str]:
     if found:
         most = max(map(contacts, found)), max(map(bodies, found))
         median = statistics.median(n for case in found for n in digits(case))
-        yield f"The largest counterexample has {most[0]} contacts, {most[1]} bodies; the median of "
-        yield f"all numbers' digits is {median:g}."
+        yield f"The largest counterexample has {most[0]} contacts, {most[1]} bodies; the median of"
+        yield f"all numbers' digits, zeros having one, is {median:g}."
 
 
 def main() -> int:

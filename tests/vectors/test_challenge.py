@@ -14,9 +14,11 @@ from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
 from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
-from tests.vectors.material import RUNNERS, runner
+from tests.vectors.material import ROOT, RUNNERS, runner
 from tests.vectors.programs import command
 from validation import planted_bugs
+
+TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
 
 
 def numpy_runner(name, case):
@@ -199,3 +201,18 @@ def test_a_planted_bug_is_found_named_and_small(name, bug):
     assert planted_bugs.contacts(small) <= 2
     assert planted_bugs.bodies(small) <= 2
     assert np.median(planted_bugs.digits(small)) <= 3
+
+
+def test_the_committed_table_of_planted_bugs_is_of_these_bugs_and_keeps_its_promises():
+    rows = [row.strip("| ").split(" | ") for row in TABLE.read_text().splitlines() if "| " in row]
+    rows = [row for row in rows if row[0] in planted_bugs.COMMANDS]
+    names = [bug["name"] for bug in planted_bugs.bugs()]
+    for one in planted_bugs.COMMANDS:
+        assert [row[1] for row in rows if row[0] == one] == names
+        verdicts = [row[3] for row in rows if row[0] == one]
+        assert len(verdicts) >= 40
+        assert set(verdicts) == {"named", "not named"}
+        assert verdicts.count("named") >= 0.9 * len(verdicts)
+    assert max(int(row[5]) for row in rows) <= 2
+    assert max(int(row[6]) for row in rows) <= 2
+    assert np.median([float(row[7]) for row in rows]) <= 3
