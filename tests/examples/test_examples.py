@@ -65,7 +65,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 24
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 25
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -135,6 +135,11 @@ def test_the_cloud_is_as_high_as_its_lowest_point_and_phi_is_predicted_to_first_
     least, lowest, exponent, order = numbers("phi_and_j_of_a_cloud").values()
     np.testing.assert_allclose(least, lowest, rtol=ROUNDING)
     np.testing.assert_allclose(exponent, order, atol=FITTED)
+
+
+def test_the_first_slip_is_shorter_than_coulomb_s_and_the_last_is_coulomb_s():
+    # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
+    pairs("coulomb_against_convex_slip", atol=0.0, rtol=ROUNDING)
 
 
 def test_a_twist_leads_along_an_arc():

@@ -16,6 +16,7 @@ EXAMPLES: Final = (
     "a_screw",
     "block_on_an_incline",
     "pushed_block",
+    "coulomb_against_convex_slip",
     "planar_pushing",
     "flat_patch",
     "boundary_layer",
