@@ -120,6 +120,9 @@ QUOTED = {
          "besides the {:.2f} N of the weight", lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
         ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
         ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
+        ("here from {:.1f} times the threshold on",  # (R7) and (R8) at 20 degrees, mu_v = 0.5
+         lambda: [((c := math.cos(math.radians(20))) + (s := math.sin(math.radians(20))))
+                  / (c - (1 + 0.5**2) * s)]),
     ],
     "docs/artifacts.md": [
         ("h = 10 ms: {:.0f} mm a step, a terminal velocity of {:.0f} mm/s",
@@ -232,6 +235,7 @@ MEANT = {
         "; 45 degrees",
         "d of 0, 5, 20 and 50 mm",
         "a patch of 5 mm",
+        "not its own gap but 16 times",
     ],
     "docs/conventions.md": [
         "more by 0.1 %",

@@ -34,7 +34,8 @@ from textwrap import dedent
 from validation.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
 
 ROOT = Path(__file__).parent.parent
-DEMO_SECONDS = 60.0  # for both runs on 2 cores
+DEMO_SECONDS = 60.0
+"""Processor time of both runs: on a busy machine the clock says what else it does."""
 DEMO_MEBIBYTES = 1024.0
 STILL, PIVOTED = 2.0, 20.0
 """Degrees that the bunny turns at most with torsional friction, and at least without."""
@@ -141,11 +142,13 @@ def faults(at: Environment, extra: str) -> list[str]:
         (at.folder / name).write_text(text, "utf-8")
     wrong = []
     for line in COMMANDS[extra]:
-        start = time.perf_counter()
+        start, before = time.perf_counter(), os.times()
         done = at.run(line)
         fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
         if not fault and line.startswith("quasistatic-ref demo"):
-            fault = demo_fault(json.loads(done.stdout), time.perf_counter() - start, at.folder)
+            now = os.times()
+            spent = sum(now[2:4]) - sum(before[2:4])  # of children, in user and system mode
+            fault = demo_fault(json.loads(done.stdout), spent, at.folder)
         if not fault and line.startswith("quasistatic-ref run") and "--json" in line:
             report = json.loads(done.stdout)
             if report["certified"] != f"{report['steps']} of {report['steps']} steps exact":

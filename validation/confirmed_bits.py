@@ -5,7 +5,8 @@ it shorter). Random steps of every polyhedral cone, degenerate ones among them, 
 units up to 2^40 apart. Of each, the exact method finds a working set from cold; ``confirmed`` is
 then given that set, and others that are wrong: without a row, with one more, with one exchanged,
 and random ones. What it confirms must be equal in every bit to what the exact method makes of the
-same guess. (A guess with one row too many may be mended by dropping it, in both.)
+same guess. (A guess with one row too many may be mended by dropping it, in both.) Compiled code is
+given the same sets: it must either prove the same bits of the right one, or nothing.
 
 Prints a table, and exits with status 1 if a bit differs.
 """
@@ -27,14 +28,18 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.confirm import BallHessian, confirmed
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.compiled import compiled
 from quasistatic_ref.files import text_written
 from quasistatic_ref.plain import bits
-from quasistatic_ref.solve.units import Units, to_natural
+from quasistatic_ref.solve.units import Units, natural_units, to_natural
 from quasistatic_ref.step.data import StepData
 from validation.random_steps import mixed_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
-COLUMNS = ("optima", "infeasible", "confirmed", "left open", "wrong sets", "refused", "mended")
+COLUMNS = (
+    "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused", "mended",
+    "compiled too",
+)  # fmt: skip
 
 
 def random_case(seed: int) -> tuple[str, StepData]:
@@ -69,6 +74,19 @@ def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
 
 
+def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
+    """What compiled code makes of a guess, where there is any."""
+    fast = compiled("certificate")
+    if fast is None:
+        return None
+    units = natural_units(step)
+    rows = np.array(sorted(set(guess)), dtype=np.int64)
+    found: ExactOptimum | None = fast.prover(step, units.coordinate, None).optimum(
+        step, rows, units
+    )
+    return found
+
+
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     """The kind of a random step, what was found on it, and faults in words."""
     kind, step = random_case(seed)
@@ -81,16 +99,20 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     else:
         found["optima"] += 1
         right = list(truth.working_set)
-        answer = confirmed(step, right, hessian)
+        answer, proved = confirmed(step, right, hessian), compiled_answer(step, right)
         found["left open" if answer is None else "confirmed"] += 1
-        if answer is not None and (wrong := differing(answer, exact_optimum(form, right))):
-            faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
+        found["compiled"] += proved is not None
+        for one in (answer, proved):
+            if one is not None and (wrong := differing(one, exact_optimum(form, right))):
+                faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
     for guess in wrong_sets(rng, right, form.m):
-        answer = confirmed(step, guess, hessian)
+        answer, proved = confirmed(step, guess, hessian), compiled_answer(step, guess)
         found["wrong sets"] += 1
         found["refused" if answer is None else "mended"] += 1
-        if answer is not None and (wrong := differing(answer, exact_optimum(form, guess))):
-            faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+        found["compiled too"] += proved is not None
+        for one in (answer, proved):
+            if one is not None and (wrong := differing(one, exact_optimum(form, guess))):
+                faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
     return kind, found, faults
 
 

@@ -92,9 +92,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/exact_step.py": ordered("farkas"),
     "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
-    "certify/gap.py": ("unit/test_bound.py", *FORGED),
-    "certify/impulses.py": FORGED,
-    "certify/judged.py": ("unit/test_bound.py", *FORGED),
+    "certify/gap.py": ("unit/test_gap.py", *FORGED),
+    "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
+    "certify/judged.py": ("unit/test_judged.py", *FORGED),
     "certify/ellipsoid.py": FORGED,
     "certify/apex.py": FORGED,
     "certify/conic.py": FORGED,
@@ -136,7 +136,7 @@ file take seven at most, the others fifteen."""
 
 RUN = """
 import contextlib, json, os, resource, sys
-import coal, cvxpy, flint, hypothesis, pinocchio, pytest, scipy.optimize, scipy.spatial.transform
+import coal, cvxpy, flint, pinocchio, pytest, scipy.optimize, scipy.spatial.transform
 for line in sys.stdin:
     seconds, arguments = json.loads(line)
     child = os.fork()  # what is imported above takes longer than most tests
@@ -147,7 +147,10 @@ for line in sys.stdin:
         with contextlib.suppress(ValueError, OSError):  # a mutant may loop, and gather memory
             resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
-        os._exit(pytest.main(arguments))
+        try:
+            os._exit(pytest.main(arguments))
+        finally:
+            os._exit(os.EX_SOFTWARE)  # an error of pytest's own
     print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
 """
 """Runs the tests of one mutant after the other, each in a process of its own."""

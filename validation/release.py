@@ -79,6 +79,11 @@ RESULTS = (
         ("validation/vectors",),
     ),
     Result(
+        "planted_bugs",
+        ("validation.planted_bugs", "--out", "validation/results/planted_bugs.md"),
+        ("validation/results/planted_bugs.md",),
+    ),
+    Result(
         "claims",
         (CLI, "validate", "--out", "{temporary}"),
         ("validation/claims.md", "validation/figures"),

@@ -119,7 +119,7 @@ def confirmed(step: StepData, guess: Sequence[int], hessian: BallHessian) -> Exa
     slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
     idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
     still = np.flatnonzero(open_x).tolist()
-    if open_lam.any() or (slack < 0).any() or not _implied(step, working, idle, still):
+    if open_lam.any() or (slack < 0).any() or not implied_zeros(step, working, idle, still):
         return None
     delta_q[still] = 0.0
     if open_impulse.any():
@@ -185,8 +185,18 @@ def _slacks(step: StepData, x: arb_mat) -> list[arb]:
     return found
 
 
-def _implied(step: StepData, working: list[int], rows: list[int], coordinates: list[int]) -> bool:
-    """Whether the working set implies that slacks of some rows and some x are zero, all of them."""
+def implied_zeros(
+    step: StepData, working: list[int], rows: list[int], coordinates: list[int]
+) -> bool:
+    """Whether the working set implies that slacks of some rows and some x are zero, all of them.
+
+    Parameters
+    ----------
+    step : StepData
+    working : list of int
+        Independent rows.
+    rows, coordinates : list of int
+    """
     if coordinates or not spanned_in_contacts(step, working, rows):
         exact = exact_rows(step, [*working, *rows])
         n, k = step.n_v, len(working)

@@ -9,12 +9,13 @@ from collections.abc import Hashable, Iterator, Sequence
 from functools import cache
 from typing import Final
 
+import numpy as np
 from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
 from quasistatic_ref.certify.dyadic import dyadic
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.rows import places
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.friction import cone_matrix
 
 PRIME: Final = (1 << 61) - 1
@@ -182,7 +183,7 @@ def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[i
     rows : sequence of int
     """
     contact, row = places(step, [*working, *rows])
-    combined, mu = _combined(step.cone), step.contacts.mu.tolist()
+    table_of_cone, mu = combined(step.cone).tolist(), step.contacts.mu.tolist()
     spins = step.contacts.J[:, 3] + 0.0
     columns: dict[Hashable, int] = {}
     entries: list[tuple[int, int, int]] = []
@@ -196,7 +197,7 @@ def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[i
         if j == step.contacts.n_c:
             put(k, ("own", i), 1)
             continue
-        gap, slip_1, slip_2, spin = combined[i]
+        gap, slip_1, slip_2, spin = table_of_cone[i]
         mu_v, _, mu_omega = mu[j]
         put(k, (j, "gap"), gap)
         if mu_v:
@@ -213,7 +214,6 @@ def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[i
 
 
 @cache
-def _combined(name: str) -> list[list[int]]:
-    """How the rows of a cone combine gap, slips and spin: integers, times one positive factor."""
-    table: list[list[int]] = dyadic(cone_matrix(name)).m.tolist()
-    return table
+def combined(name: str) -> Indices:
+    """How the rows of a cone combine gap, slips and spin: integers (R, 4), times one factor > 0."""
+    return np.array(dyadic(cone_matrix(name)).m.tolist(), dtype=np.int64)

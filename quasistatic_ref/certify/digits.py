@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -86,36 +86,22 @@ def correct_digits(
     norm = energy_norm(form.H)
     with np.errstate(over="ignore", invalid="ignore"):
         off = delta_q - exact_delta_q
-        free = float(norm.impulses(form.g[None])[0])
+        free = norm.impulse(form.g)
         wrench = None
         if lam is not None and exact_net is not None:
             net_off = form.A.T @ lam - exact_net
-            wrench = _digits(float(norm.impulses(net_off[None])[0]), free)
+            wrench = relative_digits(norm.impulse(net_off), free)
         reach = norm.impulses(form.A)
         slack_off = np.abs(form.A @ off)[reach > 0] / reach[reach > 0]
         return Digits(
-            delta_q=displacement_digits(norm, form.g, off),
+            delta_q=relative_digits(norm.displacement(off), free),
             wrench=wrench,
-            slack=_digits(float(slack_off.max(initial=0.0)), free),
+            slack=relative_digits(float(slack_off.max(initial=0.0)), free),
         )
 
 
-def displacement_digits(norm: EnergyNorm, g: Array, off: Array) -> float:
-    """Correct digits, 0 to 16 [-], of a delta_q that is `off` the optimum.
-
-    Parameters
-    ----------
-    norm : EnergyNorm
-    g : ndarray, shape (n_v,)
-        Of Eq. :eq:`eq-13` [N m s].
-    off : ndarray, shape (n_v,)
-        [m, rad].
-    """
-    with np.errstate(over="ignore", invalid="ignore"):
-        return _digits(norm.displacement(off), float(norm.impulses(g[None])[0]))
-
-
-def _digits(size: float, free: float) -> float:
+def relative_digits(size: float, free: float) -> float:
+    """Correct digits, 0 to 16 [-], of what is off by `size` where ||H^-1 g||_H is `free`."""
     if free == 0:
         return MOST if size == 0 else 0.0
     return digits_of_error(size / free)

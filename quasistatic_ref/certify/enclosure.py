@@ -5,13 +5,14 @@ By strong convexity any x strictly inside of the cones, and any y inside of them
 .. math:: \tfrac12\|x - x^*\|_H^2 \le f(x) - d(y)
           = \tfrac12\|x - H^{-1}(g + A^T y)\|_H^2 + y^T (A x - b).
 
-The pair comes from an interior point in 640 bits, from a cold start: it is a function of the step
-alone, whatever a backend said. Membership and gap are then computed in balls, where a comparison
-that shows is true.
+The pair comes from Newton's method, if a backend's answer is a good start, and else from an
+interior point in 640 bits, from a cold start. Membership and gap are then computed in balls, where
+a comparison that shows is true.
 """
 
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
@@ -19,11 +20,13 @@ from flint import arb, arb_mat, ctx, fmpq
 from quasistatic_ref.certify.apex import apex_refutation, apex_rows
 from quasistatic_ref.certify.balls import BallForm, ball_form, square_root
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
-from quasistatic_ref.certify.impulses import ONE, cone_blocks, raised
-from quasistatic_ref.certify.interior import Blocks, Pair, interior_point
+from quasistatic_ref.certify.impulses import raised
+from quasistatic_ref.certify.interior import Pair, Vector, interior_point
 from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
+from quasistatic_ref.certify.newton import OPEN, STICKS, contact_states, newton_pair
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in
+from quasistatic_ref.certify.scaled_blocks import ScaledBlocks, largest, scaled_blocks
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import ENCLOSED
 
@@ -34,9 +37,15 @@ lose five digits for each that the gap gains."""
 GAP: Final = arb(2) ** -120
 """Duality gap asked for, 1e-36, where the unconstrained step has length one: an error of 1e-18."""
 
+RESERVE: Final = 16 * GAP
+"""What Newton's pair, far sharper, claims beyond its own gap: `verify` has the interior point's,
+whose gap may be a few times GAP, and the two may be on opposite sides of the optimum."""
+
 IDLE: Final = arb(2) ** -40
 """Multipliers and slacks below this share of the largest count as zero when it is guessed which
 contacts are at their apex; what follows from the guess is checked."""
+
+Start: TypeAlias = tuple[Array, Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +81,7 @@ class Enclosure:
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """What the interior point came to.
+    """What the interior point, or Newton's method, came to.
 
     Parameters
     ----------
@@ -80,11 +89,14 @@ class Guess:
         In the units of the form.
     loaded, held : list of bool
         Which blocks seem to bear load, and which to be at their apex.
+    reserve : arb
+        What is claimed beyond the gap of the pair, where the unconstrained step has length one.
     """
 
     pair: Pair
     loaded: list[bool]
     held: list[bool]
+    reserve: arb
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +121,7 @@ class Checked:
     free: arb
 
 
-def enclosure(step: StepData) -> Enclosure | None:
+def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     """The optimum of a step in the ellipsoid, or None where none can be certified.
 
     That is where no displacement is strictly inside of all cones, or none at all.
@@ -117,6 +129,9 @@ def enclosure(step: StepData) -> Enclosure | None:
     Parameters
     ----------
     step : StepData
+    start : (ndarray, ndarray), optional
+        A backend's delta_q and lam in SI units, shapes (n_v,) and (m,). A good one saves the
+        interior point.
 
     Returns
     -------
@@ -129,21 +144,30 @@ def enclosure(step: StepData) -> Enclosure | None:
         delta_q, _, net, _ = rounded_solution(form, rational_solution(form, ()))
         return Enclosure(delta_q, nothing, net, (), 0.0, 0.0)
     with ctx.workprec(BITS):
-        mu = _coefficients(step)
-        guess = _interior(step, form, balls, mu)
-        found = None if guess is None else _checked(step, form, balls, mu, guess.pair)
-        if guess is None or found is None:
-            return None
-        lam = _impulses(step, form, found, guess)
-        exact = _at_apex(step, form, guess, lam)
-        net = _net(form, found)
-        if exact is not None:
-            working, x, delta_q = exact
-            error = 0.0
-        else:
-            working, x, delta_q = None, point(found), _rounded(form, balls, found)
-            error = enclosed_error(form, found, delta_q)
+        frame = scaled_blocks(step, form, balls)
+        found = (_enclosed(step, form, balls, frame, g) for g in _guesses(form, frame, start))
+        return next(filter(None, found), None)
+
+
+def _enclosed(
+    step: StepData, form: ExactForm, balls: BallForm, frame: ScaledBlocks, guess: Guess
+) -> Enclosure | None:
+    """Return what a guess proves; None if that is too little."""
+    found = _checked(form, balls, frame, guess.pair)
+    if found is None:
+        return None
+    reserve = guess.reserve * frame.size * frame.size  # in the form's units of energy
+    lam = _impulses(step, form, frame, found, guess)
+    exact = _at_apex(step, form, guess, lam)
+    net = _net(form, found)
+    if exact is not None:
+        working, x, delta_q = exact
+        error = 0.0
+    else:
+        working, x, delta_q = None, point(found), _rounded(form, balls, found)
+        error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
     gap = duality_gap(form, x, fractions(lam, form.lam_unit))
+    gap += 0 if exact is not None else fraction(reserve.upper())
     if not (error < ENCLOSED and negligible(form, x, gap)):
         return None
     return Enclosure(delta_q, lam, net, working, error, in_joules(form, gap))
@@ -163,9 +187,9 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     form = exact_form(step)
     balls = ball_form(form)
     with ctx.workprec(bits):
-        mu = _coefficients(step)
-        guess = _interior(step, form, balls, mu, gap)
-        return None if guess is None else _checked(step, form, balls, mu, guess.pair)
+        frame = scaled_blocks(step, form, balls)
+        pair = interior_point(frame.problem, gap)
+        return None if pair is None else _checked(form, balls, frame, frame.pair(pair))
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
@@ -179,65 +203,45 @@ def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
 
 def point(found: Checked) -> list[fmpq]:
     """The x of a checked pair, without rounding, in the units of its form [-]."""
-    return [m * fmpq(2) ** int(e) for m, e in (v.man_exp() for v in found.x.entries())]
+    return [fraction(v) for v in found.x.entries()]
 
 
-def _coefficients(step: StepData) -> list[arb]:
-    """Return what each row of A is multiplied by: 1, mu_v, mu_v, mu_omega; 1 for own rows."""
-    return [arb(v) for _, _, mu in cone_blocks(step) for v in (ONE, *mu)]
+def fraction(v: arb) -> fmpq:
+    """A number without radius as a fraction [of its unit]."""
+    m, e = v.man_exp()
+    return m * fmpq(2) ** int(e)
 
 
-def _blocks(step: StepData) -> list[range]:
-    return [rows for _, rows, _ in cone_blocks(step)]
+def _guesses(form: ExactForm, frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
+    """Yield guesses: Newton's first, which round to the same bits from any start."""
+    if start is not None:
+        yield from _by_newton(frame, *frame.start(form, *start))
+    pair = interior_point(frame.problem, GAP)
+    if pair is not None:
+        yield from _by_newton(frame, pair.x, pair.y)
+        yield _of_interior(frame, pair)
 
 
-def _interior(
-    step: StepData, form: ExactForm, balls: BallForm, mu: list[arb], gap: arb = GAP
-) -> Guess | None:
-    """Return a pair in the units of the form, found in units of about one."""
-    n = form.n
-    root = [(1 / arb(form.H[v, v]).sqrt()).mid() for v in range(n)]
-    blocks = _blocks(step)
-    rows = [
-        [[mu[i] * balls.A[i, v] * root[v] for v in range(n)] for i in block] for block in blocks
-    ]
-    length = [_largest([a for row in block for a in row]) for block in rows]
-    gaps = [abs(balls.b[block[0], 0]) / ell for block, ell in zip(blocks, length, strict=True)]
-    free = square_root((balls.x_free.transpose() * (arb_mat(form.H) * balls.x_free))[0, 0])
-    size = (free if free > 0 else max([arb(0), *(g.mid() for g in gaps)]) or arb(1)).mid()
-    size = size if size > 0 else arb(1)
-    problem = Blocks(
-        H=arb_mat(
-            n, n, [root[u] * form.H[u, v] * root[v] for u in range(n) for v in range(n)]
-        ).mid(),
-        g=arb_mat(n, 1, [root[v] * form.g[v, 0] / size for v in range(n)]).mid(),
-        A=[
-            arb_mat(len(block), n, [a / ell for row in block for a in row]).mid()
-            for block, ell in zip(rows, length, strict=True)
-        ],
-        b=[
-            arb_mat(len(block), 1, [mu[i] * balls.b[i, 0] / (ell * size) for i in block]).mid()
-            for block, ell in zip(blocks, length, strict=True)
-        ],
-    )
-    pair = interior_point(problem, gap)
-    if pair is None:
-        return None
-    x = arb_mat(n, 1, [size * root[v] * pair.x[v, 0] for v in range(n)]).mid()
-    s = [[size * ell * v for v in s_j] for ell, s_j in zip(length, pair.s, strict=True)]
-    y = [[(size / ell * v).mid() for v in y_j] for ell, y_j in zip(length, pair.y, strict=True)]
-    largest = _largest([v for y_j in y for v in y_j])
-    loaded = [y_j[0] > IDLE * largest for y_j in y]
-    held = [s_j[0] < IDLE for s_j in pair.s]
-    return Guess(Pair(x, s, y), loaded, held)
+def _by_newton(frame: ScaledBlocks, x: arb_mat, y: list[Vector]) -> Iterator[Guess]:
+    """Yield what Newton's method makes of a pair of the program."""
+    states = contact_states(frame.problem, x, y)
+    pair = newton_pair(frame.problem, x, y, states)
+    if pair is not None:
+        loaded, held = [state != OPEN for state in states], [state == STICKS for state in states]
+        yield Guess(frame.pair(pair), loaded, held, RESERVE)
 
 
-def _checked(
-    step: StepData, form: ExactForm, balls: BallForm, mu: list[arb], pair: Pair
-) -> Checked | None:
+def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
+    """Return what the interior point found, in the units of the form."""
+    held, pair = [s_j[0] < IDLE for s_j in pair.s], frame.pair(pair)
+    most = largest([v for y_j in pair.y for v in y_j])
+    return Guess(pair, [y_j[0] > IDLE * most for y_j in pair.y], held, arb(0))
+
+
+def _checked(form: ExactForm, balls: BallForm, frame: ScaledBlocks, pair: Pair) -> Checked | None:
     """Return the pair with its gap, if it surely lies inside of all cones."""
-    motion = (balls.A * pair.x - balls.b).entries()
-    s = [[mu[i] * motion[i] for i in block] for block in _blocks(step)]
+    motion, mu = (balls.A * pair.x - balls.b).entries(), frame.mu
+    s = [[mu[i] * motion[i] for i in block] for block in frame.blocks]
     for one in (*s, *pair.y):
         if not (one[0] > 0 and one[0] * one[0] > sum((v * v for v in one[1:]), arb(0))):
             return None
@@ -251,10 +255,12 @@ def _checked(
     return Checked(pair.x, lam, gap, square_root(free))
 
 
-def _impulses(step: StepData, form: ExactForm, found: Checked, guess: Guess) -> Array:
+def _impulses(
+    step: StepData, form: ExactForm, frame: ScaledBlocks, found: Checked, guess: Guess
+) -> Array:
     """Return lam in float64, zero where a contact hardly bears load, inside of its cones."""
     lam = np.array([float(v * form.lam_unit) for v in found.lam])
-    for block, loaded in zip(_blocks(step), guess.loaded, strict=True):
+    for block, loaded in zip(frame.blocks, guess.loaded, strict=True):
         lam[list(block)] *= loaded
     return raised(step, lam + 0.0)
 
@@ -291,8 +297,3 @@ def _at_apex(
 def _net(form: ExactForm, found: Checked) -> Array:
     net = arb_mat(form.H) * found.x - arb_mat(form.g)
     return np.array([float(v * form.net_unit) for v in net.entries()]) + 0.0
-
-
-def _largest(values: list[arb]) -> arb:
-    largest = max((abs(v).mid() for v in values), default=arb(0))
-    return largest if largest > 0 else arb(1)

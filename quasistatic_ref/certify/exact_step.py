@@ -13,7 +13,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.standard_form import load, standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
 
@@ -56,7 +56,31 @@ def exact_step(
         if isinstance(found, Farkas):
             raise StepInfeasible(step, farkas_vector(step, form, found))
         optimum = found
-    norm = None if hessian is None else hessian.norm
+    norm = energy_norm(step.H) if hessian is None else hessian.norm
+    return well_posed(step, optimum, norm, norm.impulse(load(step)))
+
+
+def well_posed(
+    step: StepData, optimum: ExactOptimum, norm: EnergyNorm, free: float
+) -> ExactOptimum:
+    """An optimum of a step, unless it is absurdly long.
+
+    Parameters
+    ----------
+    step : StepData
+    optimum : ExactOptimum
+    norm : EnergyNorm
+        That of the step.
+    free : float
+        ||H^-1 g||_H in it [(N m s)^0.5].
+
+    Raises
+    ------
+    StepIllPosed
+    """
+    # Of three loads the longest step is at least a third of the step that they cause together.
+    if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * free:
+        return optimum
     length = relative_length(step, optimum.delta_q, norm)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, optimum.delta_q, length)

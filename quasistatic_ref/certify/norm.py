@@ -27,6 +27,10 @@ class EnergyNorm:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
         return float(_norms((self.L.T @ (v / self.unit))[:, None])[0])
 
+    def impulse(self, p: Array) -> float:
+        """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
+        return float(self.impulses(p[None])[0])
+
     def impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
         return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))

@@ -33,7 +33,9 @@ COMMANDS = {
     "schema": "print the JSON Schema of scenario or study files, for editors",
     "completion": "print a script by which bash, zsh or fish complete these commands",
 }
-LABS = ("demo", "vectors", "validate", "study", "figures", "bench", "schema")
+SWEEP = "sweep"
+"""What does ``run`` with ``--sweep``."""
+LABS = ("demo", "vectors", "validate", "study", "figures", "bench", "schema", SWEEP)
 """Commands that do something with the core rather than are part of it."""
 
 
@@ -135,7 +137,8 @@ def _module(command: str) -> Any:
 
 
 def _status(options: argparse.Namespace) -> int:
-    status = int(_module(options.command).run(options))
+    many = getattr(options, "sweeps", None)
+    status = int(_module(SWEEP if many else options.command).run(options))
     sys.stdout.flush()  # here, where a full device can still be reported
     return status
 

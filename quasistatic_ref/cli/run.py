@@ -32,6 +32,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add(parser, *shared.SOLVER, "--set", "--json")
     shared.add_resume(parser)
     parser.add_argument(
+        "--sweep",
+        action="append",
+        dest="sweeps",
+        metavar="FIELD=FIRST:LAST:COUNT",
+        help="run it with each of these values, or FIELD=VALUE,VALUE,...; several make a grid",
+    )
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="of --sweep: runs at once (default: all cores)"
+    )
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="of --sweep: a Dask scheduler")
+    parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"
     )
     parser.add_argument(

@@ -5,11 +5,13 @@ of them, up to the size of the solids away from the best. So the search starts f
 directions: a spread over the sphere, and those in which maxima are sharp.
 """
 
+from functools import cache
+
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.polytope import polytope
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 
 SPREAD = 1024
 """Directions over the sphere, about 0.11 rad apart: no direction is farther than REACH from one."""
@@ -50,12 +52,12 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     list of ndarray, shape (3,)
         At most STARTS, the widest gap first.
     """
-    sharp = np.concatenate([_sharp(a), -_sharp(b)])
-    spread_gaps, sharp_gaps = gaps(a, b, _SPHERE), gaps(a, b, sharp)
-    peaks = (spread_gaps[_NEIGHBOURS] <= spread_gaps[:, None]).all(axis=1)
-    near = sharp @ _SPHERE.T > NEAR
+    sharp, (sphere, neighbours) = np.concatenate([_sharp(a), -_sharp(b)]), _sphere()
+    spread_gaps, sharp_gaps = gaps(a, b, sphere), gaps(a, b, sharp)
+    peaks = (spread_gaps[neighbours] <= spread_gaps[:, None]).all(axis=1)
+    near = sharp @ sphere.T > NEAR
     sharp_peaks = (np.where(near, spread_gaps, -np.inf) <= sharp_gaps[:, None]).all(axis=1)
-    directions = np.concatenate([_SPHERE[peaks], sharp[sharp_peaks]])
+    directions = np.concatenate([sphere[peaks], sharp[sharp_peaks]])
     found = np.concatenate([spread_gaps[peaks], sharp_gaps[sharp_peaks]])
     chosen = [first]
     for k in np.argsort(-found, kind="stable"):
@@ -73,13 +75,11 @@ def _sharp(solid: Placed) -> Array:
     return own @ solid.R.T
 
 
-def _sphere(count: int) -> Array:
-    """Directions spread evenly over the sphere, on a Fibonacci spiral."""
-    k = np.arange(count) + 0.5
-    z, turn = 1 - 2 * k / count, np.pi * (1 + np.sqrt(5)) * k
+@cache
+def _sphere() -> tuple[Array, Indices]:
+    """Directions spread evenly over the sphere, on a Fibonacci spiral, and neighbours of each."""
+    k = np.arange(SPREAD) + 0.5
+    z, turn = 1 - 2 * k / SPREAD, np.pi * (1 + np.sqrt(5)) * k
     r = np.sqrt(1 - z * z)
-    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
-
-
-_SPHERE = _sphere(SPREAD)
-_NEIGHBOURS = np.argsort(-(_SPHERE @ _SPHERE.T), axis=1, kind="stable")[:, 1:9]
+    sphere = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+    return sphere, np.argsort(-(sphere @ sphere.T), axis=1, kind="stable")[:, 1:9]

@@ -23,7 +23,8 @@ from quasistatic_ref.fast.products import FUSED, products
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
-SOURCES = ("step_data.c", "screws.c")
+SOURCES = ("closest.c", "rows.c", "screws.c", "certificate.c", "kkt.c", "contraction.c", "span.c")
+HEADERS = ("scene.h", "proof.h", "fixed_point.h")
 FLAGS = ("-std=c11", "-O2", "-ftree-vectorize", "-ffp-contract=off", "-shared", "-fPIC")
 """The last but two: no compiler may join a product and a sum that the source keeps apart."""
 
@@ -34,6 +35,8 @@ FUNCTIONS = {
     "reach": ctypes.c_double,
     "positions": None,
     "changes": None,
+    "hessian": ctypes.c_int,
+    "proof": ctypes.c_int,
 }
 """What each function of the address of a structure returns."""
 
@@ -107,7 +110,7 @@ def compiler() -> list[str]:
 def _made(command: list[str]) -> Path:
     """The library's file, made if it is not there."""
     here = Path(__file__).parent
-    text = b"".join((here / name).read_bytes() for name in SOURCES)
+    text = b"".join((here / name).read_bytes() for name in (*SOURCES, *HEADERS))
     key = hashlib.sha256(
         text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
     ).hexdigest()

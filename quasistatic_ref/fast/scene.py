@@ -1,4 +1,4 @@
-"""What step_data.c is told of a simulator's contacts."""
+"""What scene.h is told of a simulator's contacts."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from quasistatic_ref.step.data import Array, Indices, RowLayout
 from quasistatic_ref.step.friction import cone_function, cone_matrix
 
 ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
-"""Kinds of solids, as step_data.c counts them."""
+"""Kinds of solids, as scene.h counts them."""
 
 NUMBERS = ("pairs", "n_c", "n_v", "n_x", "links", "mimics")
 ARRAYS = (
@@ -28,7 +28,7 @@ ARRAYS = (
     "world", "nearest", "rank", "point",
     "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
 )  # fmt: skip
-"""The fields of ``Scene`` in step_data.c, one for one."""
+"""The fields of ``Scene`` in scene.h, one for one."""
 
 
 def known(shape: shapes.Shape) -> bool:
@@ -37,7 +37,7 @@ def known(shape: shapes.Shape) -> bool:
 
 
 class Scene(Structure):
-    """``Scene`` of step_data.c.
+    """``Scene`` of scene.h.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def starts(lengths: Indices) -> Indices:
 
 
 def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:
-    """The kind of a solid, and the four numbers [m] that step_data.c wants of that kind."""
+    """The kind of a solid, and the four numbers [m] that scene.h wants of that kind."""
     match shape:
         case shapes.HalfSpace():
             return HALF_SPACE, [*shape.normal.tolist(), shape.offset]

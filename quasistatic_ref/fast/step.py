@@ -17,6 +17,7 @@ from quasistatic_ref.plain import bits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.posed import PosedContacts
 from quasistatic_ref.step.standard_form import StandardForm, load, standard_form
@@ -42,6 +43,8 @@ def unknown(simulator: Simulator) -> str | None:
         return f"the engine is {simulator.engine!r}"
     if simulator.extension is not None:
         return "the scene has an extension"
+    if not cone(simulator.cone).polyhedral:
+        return f"the {simulator.cone} has no rows"
     if not simulator.pairs:
         return "nothing can touch"
     if not isinstance(simulator.geometry, ContactGeometry):
@@ -94,8 +97,10 @@ class CompiledStep:
         Returns
         -------
         StepResult or None
-            None where NumPy turns out to multiply otherwise here.
+            None where NumPy turns out to multiply otherwise here, or has an extension to take.
         """
+        if simulator.extension is not None:  # given since
+            return None
         lap, system = Stopwatch(), simulator.system
         q = np.asarray(q, dtype=np.float64)
         self.poses.move(q)

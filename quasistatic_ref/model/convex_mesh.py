@@ -7,7 +7,6 @@ from typing import Any
 import coal
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import freeze_array
@@ -82,6 +81,8 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     ModelError
         If the points are too few or not finite, or lie in one plane.
     """
+    from scipy.spatial import ConvexHull, QhullError  # takes as long as a short run
+
     points = np.array(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1:] != (3,) or len(points) < 4:
         problem = "must be at least four points, as an array of shape (N, 3)"

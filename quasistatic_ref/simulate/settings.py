@@ -69,7 +69,7 @@ def apply_settings(
             key, equals, text = str(setting).partition("=")
             if not equals:
                 raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
-            _put(tables, key, _parsed(text), "--set", setting)
+            _put(tables, key, parsed(text), "--set", setting)
     made = _second_level(tables) - there
     for key, value in named.items():
         tables[key] = _own(key, value)
@@ -96,13 +96,14 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
     at[parts[-1]] = value
 
 
-def _parsed(text: str) -> Any:
+def parsed(text: str) -> Any:
+    """The value of a setting that is given as text: TOML, or else a plain word."""
     try:
-        parsed = toml_tables(f"value = {text}")
+        tables = toml_tables(f"value = {text}")
     except (ValueError, RecursionError):
-        parsed = {}
+        tables = {}
     # Anything but one value, such as a second line, is taken as a word.
-    value = parsed["value"] if list(parsed) == ["value"] else text.strip()
+    value = tables["value"] if list(tables) == ["value"] else text.strip()
     return OwnWord(value) if isinstance(value, str) else value
 
 

@@ -26,7 +26,6 @@ from quasistatic_ref.solve.engines import (
     may_be_sparse,
     solver_for,
 )
-from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
@@ -123,7 +122,7 @@ class Simulator:
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = may_be_sparse(self.engine, self.backend, certify)
+        blocks = may_be_sparse(self.engine, self.backend, certify, cone)
         blocks = blocks and extension is None and system.rigid
         self.geometry = contact_geometry(self.layout, system.motion, blocks)
         fast = compiled("step")
@@ -212,10 +211,13 @@ class Simulator:
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
-        own = None if self.extension is None else self.extension(q)
-        if own is not None and (rows := extension_rows(step, own)) is not None:
-            return with_rows(step, rows), None
-        return step, own
+        if self.extension is None:
+            return step, None
+        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+
+        own = self.extension(q)
+        rows = extended.extension_rows(step, own)
+        return (step, own) if rows is None else (extended.with_rows(step, rows), None)
 
     def fitting(self, step: StepData) -> Solver:
         """The solver: another one, if the last does not fit the step."""

@@ -9,13 +9,9 @@ from quasistatic_ref.solve.backends import (
     NONE,
     QPSOLVERS,
     backend,
-    installed,
 )
-from quasistatic_ref.solve.native import NativeSolver, check_native
+from quasistatic_ref.solve.native import NativeSolver, check_native, native_backends
 from quasistatic_ref.solve.solver import NoSolver, Solver
-from quasistatic_ref.solve.sparse import SparseSolver
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -54,8 +50,7 @@ def default_engine(name: str, cone_name: str) -> str:
 
     What is certified has the same bits either way.
     """
-    reached = name in installed("native") and cone(cone_name).polyhedral
-    return NATIVE if reached else CVXPY
+    return NATIVE if name in native_backends(cone_name) else CVXPY
 
 
 def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
@@ -77,12 +72,27 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     check_solver(name, engine, step.cone)
     if name == NONE:
         return NoSolver(step)
+    # Others are imported when they are asked for: a short run takes less time than their packages.
     if engine == NATIVE:
-        sparse = step.contacts.blocks is not None
-        return SparseSolver(step, name) if sparse else NativeSolver(step, name)
-    return (QpsolversSolver if name.startswith(QPSOLVERS) else CvxpySolver)(step, name)
+        if not cone(step.cone).polyhedral:
+            from quasistatic_ref.solve.second_order import ConeSolver
+
+            return ConeSolver(step, name)
+        if step.contacts.blocks is None:
+            return NativeSolver(step, name)
+        from quasistatic_ref.solve.sparse import SparseSolver
+
+        return SparseSolver(step, name)
+    if name.startswith(QPSOLVERS):
+        from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
+
+        return QpsolversSolver(step, name)
+    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+
+    return CvxpySolver(step, name)
 
 
-def may_be_sparse(engine: str, name: str, certify: str) -> bool:
-    """Whether large steps may be handed over in blocks: natively, nothing certified exactly."""
-    return engine == NATIVE and name in BACKENDS and BACKENDS[name].sparse and certify != "full"
+def may_be_sparse(engine: str, name: str, certify: str, cone_name: str) -> bool:
+    """Whether large steps may be handed over in blocks: natively, rows, not certified exactly."""
+    takes = engine == NATIVE and name in BACKENDS and BACKENDS[name].sparse
+    return takes and certify != "full" and cone(cone_name).polyhedral

@@ -25,6 +25,12 @@ from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 
+def native_backends(cone_name: str) -> tuple[str, ...]:
+    """Backends that the native engine reaches here for steps in a cone of that name."""
+    rows = cone(cone_name).polyhedral
+    return tuple(name for name in installed("native") if rows or BACKENDS[name].cones)
+
+
 def check_native(name: str, cone_name: str) -> None:
     """Refuse a backend or a cone that the native engine cannot take.
 
@@ -33,20 +39,21 @@ def check_native(name: str, cone_name: str) -> None:
     BackendError
         In one sentence that says which it can.
     """
-    if not cone(cone_name).polyhedral:
-        problem = f"takes rows only; cone = {cone_name!r} needs engine = 'cvxpy'"
-        raise BackendError(problem, field="engine", value="native")
-    if name == NONE or name in installed("native"):
+    if name == NONE or name in native_backends(cone_name):
         return
-    there = ", ".join(installed("native"))
+    there = ", ".join(native_backends(cone_name))
     entry = BACKENDS.get(str(name).removeprefix(QPSOLVERS))
     if entry is None or not entry.steps:
         problem = f"is not a backend{suggestion(str(name), installed('native'))}"
-    elif entry.adapter and entry.name == name:
+    elif entry.adapter and entry.name == name and name not in installed("native"):
         problem = f"is not installed; {entry.to_install_it}"
+    elif entry.adapter and entry.name == name:
+        problem = "takes linear rows only"
     else:
         problem = "has no native interface here; use engine = 'cvxpy'"
-    raise BackendError(f"{problem}; engine = 'native' reaches {there}", field="backend", value=name)
+    problem += f"; engine = 'native' reaches {there}"
+    problem += "" if cone(cone_name).polyhedral else f" with cone = {cone_name!r}"
+    raise BackendError(problem, field="backend", value=name)
 
 
 class NativeSolver(Solver):
@@ -64,7 +71,7 @@ class NativeSolver(Solver):
     Raises
     ------
     BackendError
-        If the backend has no native interface, or the cone is not polyhedral.
+        If the backend has no native interface, or does not take the cone.
     """
 
     engine = "native"

@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 
 from quasistatic_ref.certify.bound import error_bound
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.units import Metric, Units, metric, to_natural, units_of
+from quasistatic_ref.solve.units import Metric, Units, metric, natural_form, to_natural, units_of
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -67,6 +67,11 @@ class Scaled:
         except StepDataError:
             raise out_of_range(self.step) from None
 
+    @cached_property
+    def natural_form(self) -> StandardForm:
+        """Its standard form in natural units."""
+        return natural_form(self.form, self.units)
+
     @property
     def unlike(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
@@ -76,8 +81,12 @@ class Scaled:
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        judge = ellipsoid_residuals if self.step.cone == ELLIPSOID else optimality_residuals
-        return judge(self.natural, delta_q, lam)
+        if self.step.cone == ELLIPSOID:
+            return ellipsoid_residuals(self.natural, delta_q, lam)
+        form = self.natural_form
+        balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), as (13) has it
+        slack = form.A @ delta_q - form.b
+        return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:
         """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""

@@ -2,26 +2,26 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.confirm import BallHessian
-from quasistatic_ref.certify.digits import displacement_digits
+from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
-from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
-from quasistatic_ref.solve.extended import extended_solution, extension_rows, with_rows
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import from_natural, natural_form
+from quasistatic_ref.solve.units import from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -95,11 +95,13 @@ def solve_step(
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if extension is not None:
-        own = extension_rows(step, extension)
+        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+
+        own = extended.extension_rows(step, extension)
         if own is not None:
-            step = with_rows(step, own)
+            step = extended.with_rows(step, own)
         elif isinstance(solver, str):
-            return extended_solution(step, extension, solver, accuracy, certify)
+            return extended.extended_solution(step, extension, solver, accuracy, certify)
         else:
             problem = "holds a problem of rows only; an extension that is more needs the name of a "
             problem += "backend, and in a simulator engine = 'cvxpy'"
@@ -172,21 +174,46 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
-    warm: list[int] = []
-    if answer is not None:
-        form = natural_form(scaled.form, scaled.units)
-        warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
     if solver.hessian is None or not solver.hessian.fits(step):
         solver.hessian = BallHessian(step)
-    optimum = exact_step(step, warm, solver.hessian)
-    return _certified(scaled, answer, statistics, optimum, exact_certificate, solver.hessian.norm)
+    norm = solver.hessian.norm
+    free = norm.impulse(scaled.form.g)
+    optimum = None if answer is None else _proved(scaled, solver, answer)
+    if optimum is None:
+        form, warm = scaled.natural_form, list[int]()
+        if answer is not None:
+            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+        optimum = exact_step(step, warm, solver.hessian)
+    else:
+        well_posed(step, optimum, norm, free)
+    return _certified(scaled, answer, statistics, optimum, exact_certificate, norm, free)
+
+
+def _proved(scaled: Scaled, solver: Solver, answer: Answer) -> ExactOptimum | None:
+    """The optimum by compiled code, where there is any and the rows that bear load are a guess."""
+    fast = compiled("certificate")
+    if fast is None:
+        return None
+    rows = np.flatnonzero(answer.lam > 0)
+    if rows.size > scaled.step.n_v:  # they depend on each other
+        return None
+    solver.prover = fast.prover(scaled.step, scaled.units.coordinate, solver.prover)
+    if solver.prover is None:
+        return None
+    form, lam = scaled.natural_form, answer.lam[rows]
+    bears = lam > form.A[rows] @ answer.delta_q - form.b[rows]  # as warm_rows has it
+    found: ExactOptimum | None = solver.prover.optimum(scaled.step, rows[bears], scaled.units)
+    return found
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The optimum in the ellipsoid with a proved bound; where there is none, a judged answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
-    found = enclosure(step)
+    start = None
+    if answer is not None:
+        start = from_natural(answer.delta_q, answer.lam, scaled.units)
+    found = enclosure(step, start)
     if found is None:
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
@@ -196,7 +223,8 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
     norm = energy_norm(step.H)
-    return _certified(scaled, answer, statistics, found, enclosure_certificate, norm)
+    free = norm.impulse(scaled.form.g)
+    return _certified(scaled, answer, statistics, found, enclosure_certificate, norm, free)
 
 
 def _certified(
@@ -206,15 +234,16 @@ def _certified(
     optimum: Any,
     certificate: Callable[..., Certificate],
     norm: EnergyNorm,
+    free: float,
 ) -> StepSolution:
     """A certified optimum with its residuals, and the correct digits of the backend's answer."""
     step, units, delta_q, lam = scaled.step, scaled.units, optimum.delta_q, optimum.lam
     if answer is not None:
         said, _ = from_natural(answer.delta_q, answer.lam, units)
-        digits = displacement_digits(norm, scaled.form.g, said - delta_q)
+        digits = relative_digits(norm.displacement(said - delta_q), free)
         statistics = statistics._replace(digits=digits)
     x = delta_q / (units.size * units.coordinate)
-    residuals = asdict(scaled.residuals(x, lam * (units.length / units.size)))
+    residuals = vars(scaled.residuals(x, lam * (units.length / units.size)))
     return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
 
 
@@ -242,4 +271,4 @@ def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
         asked = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, asked, residuals)
     bound = scaled.bound(answer.delta_q, answer.lam)
-    return Certificate("residual", asdict(residuals), error_bound=bound)
+    return Certificate("residual", dict(vars(residuals)), error_bound=bound)

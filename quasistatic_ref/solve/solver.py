@@ -98,6 +98,8 @@ class Solver(ABC):
     ----------
     hessian : BallHessian or None
         Of the step that was certified last, for those of the same H.
+    prover : Prover or None
+        The same in compiled code.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -118,6 +120,7 @@ class Solver(ABC):
         self._attempts: dict[float, list[Attempt]] = {}
         self._fitting: StepData | None = None
         self.hessian: BallHessian | None = None
+        self.prover: Any = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.like, self.name)

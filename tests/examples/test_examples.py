@@ -18,6 +18,7 @@ from quasistatic_ref.lab.examples import (
     grasp,
     grasp_against_mu_omega,
     grasp_rotation,
+    hold_or_slip,
     solver_digits,
 )
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
@@ -43,6 +44,8 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(solver_digits, "EVERY", 75)
     monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
     monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
+    monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
+    monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
     monkeypatch.setattr(step_time, "STEPS", 20)
 
 
@@ -65,7 +68,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 25
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 26
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -73,6 +76,13 @@ def test_the_figure_of_an_example_is_legible(name):
     figure = figure_of(name)
     assert figure.axes
     assert faults(figure) == []
+
+
+def test_many_runs_hold_where_the_pinch_s_law_says_so():
+    # At mu_v = 0.2 the squeeze of 5 N leaves 0.1 N for torsion, which wants mu_omega = 0.57 m; at
+    # 0.5 it leaves 3.04 N, 17.8 mm.
+    holding, expected, otherwise = numbers("hold_or_slip").values()
+    assert (holding, expected, otherwise) == (1, 1, 0)
 
 
 def test_a_block_on_a_table_slides_beyond_mu_v_m_g_only():

@@ -9,7 +9,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
+from quasistatic_ref.lab.study.bench.grasp import bare_daqp, by_compiled_code, places
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.scaled import Scaled
@@ -99,6 +99,15 @@ def test_each_promise_is_judged_by_its_limit():
     }
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step over the bare solver", "16.5", "at most 16 (stretch 8)", "FAILS")
+
+
+def test_compiled_steps_are_judged_where_there_are_any(at):
+    compiled = {"step": 91.0, "over_solver": 3.9, "certified": 249.0, "certified, p99": 351.0}
+    found = promises({"roads": ROADS, "compiled": compiled})[-4:]
+    assert [p["holds"] for p in found] == [True, False, True, False]
+    assert promises({"roads": ROADS, "compiled": None}) == promises({"roads": ROADS})
+    measured = by_compiled_code(at, 1)
+    assert measured is None or set(measured) == set(compiled)
 
 
 def test_the_page_says_why_mujoco_was_not_run(tmp_path):

@@ -12,6 +12,7 @@ from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
+from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.engines import default_backend, default_engine, solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeSolver
@@ -175,10 +176,58 @@ def test_what_native_does_not_reach_is_refused_naming_what_it_does(name, sentenc
     assert sentence in str(caught.value)
 
 
-def test_cones_and_extensions_that_are_more_than_rows_need_cvxpy(rng):
+@pytest.mark.parametrize("own", [0, 3])
+def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
+    # In natural units, a contact out of reach included. CVXPY has the user's rows first.
+    step = random_step(rng, 3, 4, (6, 4)).replace(cone="ellipsoid")
+    step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0]))
+    if own:
+        step = with_rows(step, extension_rows(step, Extension(lambda s: [s.delta_q_a <= 1e-2])))
+    solver = solver_for(step, "clarabel", "native")
+    solver.write(Scaled(step))
+    natural = within_reach(to_natural(step, natural_units(step)))
+    problem = cone_problem(natural)
+    problem.fill(natural)
+    data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
+    dims = data["dims"]
+    assert (dims.zero, dims.nonneg, dims.soc) == (0, own, [4] * solver.program.cones)
+    P, program = data["P"].toarray(), solver.program
+    A, b = (np.roll(rows, -own, axis=0) for rows in (-data["A"].toarray(), -data["b"]))
+    for found, expected in (
+        (program.H, np.triu(P) + np.triu(P, 1).T), (program.f, data["c"]),
+        (program.A, A), (program.b, b),
+    ):  # fmt: skip
+        np.testing.assert_allclose(found, expected, rtol=FOUR_ULP, atol=EXACT)
+
+
+def test_the_ellipsoid_s_native_answers_are_those_through_cvxpy(rng):
+    for step in (random_step(rng), planted_step(rng)[0], pinch(grip=5.0, offset=0.2)):
+        conic = step.replace(cone="ellipsoid")
+        native, compiled = solver_for(conic, "clarabel", "native"), solver_for(conic, "clarabel")
+        one, two = (solve_step(conic, s, certify="residual") for s in (native, compiled))
+        assert error(conic, one.delta_q, two.delta_q) <= OPTIMUM
+        enclosed = [solve_step(conic, s) for s in (native, compiled, "none")]
+        assert {answer.certificate.kind for answer in enclosed} <= {"enclosure", "exact"}
+        for answer in enclosed[1:]:
+            np.testing.assert_array_equal(answer.delta_q, enclosed[0].delta_q)
+
+
+def test_a_contact_out_of_reach_bears_no_impulse_in_the_ellipsoid(rng):
+    step = random_step(rng, 3, 4, (6, 4)).replace(cone="ellipsoid")
+    step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0]))
+    answer = solve_step(step, solver_for(step, "clarabel", "native"), certify="off")
+    np.testing.assert_array_equal(answer.lam[4:], np.zeros(4))
+
+
+@pytest.mark.parametrize("backend", ["daqp", "osqp", "piqp"])
+def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(backend, rng):
+    sentence = "takes linear rows only; engine = 'native' reaches clarabel with cone = 'ellipsoid'"
+    with pytest.raises(BackendError, match=sentence):
+        solver_for(random_step(rng).replace(cone="ellipsoid"), backend, "native")
+
+
+def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
     step = random_step(rng)
-    with pytest.raises(BackendError, match="cone = 'ellipsoid' needs engine = 'cvxpy'"):
-        solver_for(step.replace(cone="ellipsoid"), "clarabel", "native")
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
     with pytest.raises(BackendError, match="more needs the name of a backend"):
         solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
@@ -195,7 +244,8 @@ def test_an_engine_that_there_is_not_is_refused(rng):
 
 def test_the_default_is_native_where_it_reaches():
     assert default_engine("clarabel", "pyramid") == "native"
-    assert default_engine("clarabel", "ellipsoid") == "cvxpy"
+    assert default_engine("clarabel", "ellipsoid") == "native"
+    assert default_engine("scs", "ellipsoid") == "cvxpy"
     assert default_engine("highs", "pyramid") == "cvxpy"
     assert default_engine("none", "pyramid") == "cvxpy"
 
@@ -255,3 +305,19 @@ def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
             with pytest.raises(BackendError):
                 simulator.step(q, goal)
     assert replace(scenario, engine=None).simulator().engine == "native"
+
+
+NATIVE_RUN = """
+import sys
+from quasistatic_ref.cli.main import main
+status = main(["run", "sphere_spin", "--set", "steps=3", "--json", "--out", sys.argv[1]])
+heavy = "cvxpy", "qpsolvers", "scipy", "matplotlib", "osqp", "piqp", "clarabel", "numba"
+print(status, [name for name in heavy if name in sys.modules])
+"""
+
+
+def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
+    """It takes less time than these packages take to be imported."""
+    command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.stdout.splitlines()[-1] == "0 []", done.stderr

@@ -154,7 +154,7 @@ def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, caps
     assert "no beginning" in capsys.readouterr().err
 
 
-def test_one_case_is_shown_number_beside_number(answers, capsys):
+def test_one_case_is_shown_number_by_number(answers, capsys):
     assert main(["vectors", "check", str(answers), "--case", "rows/random/3"]) == 1
     printed = capsys.readouterr().out
     wanted = expected("rows")["rows/random/3"]["output"]["b"][0]

@@ -331,7 +331,8 @@ def test_a_planted_bug_of_the_table_is_named_too(name, monkeypatch):
     outputs = {c.id: module.plain(getattr(module, layer)(c.input)) for c in families}
     report = report_on(layer, outputs)
     assert report.count("failed") > 0
-    assert [mistake.name for mistake in report.mistakes] == [bug["mistake"]]
+    named = [bug["mistake"]] if bug["mistake"] else []  # some have no name
+    assert [mistake.name for mistake in report.mistakes] == named
 
 
 def test_every_mistake_that_is_recognised_is_planted():

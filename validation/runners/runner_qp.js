@@ -126,7 +126,7 @@ function optimum(H, g, A, b) {
   const f = [...g.map(() => 0), 1];
   const [y, passive] = nonnegativeLeastSquares(E, f);
   const rest = E.reduce((r, c, j) => sub(r, scale(c, y[j])), f);
-  if (Math.hypot(...rest) < 1e-9) {
+  if (Math.hypot(...rest) < 1e-7) {
     const proof = y.map((x, i) => x / size[i]);
     return [null, scale(proof, 1 / largest(proof))];
   }

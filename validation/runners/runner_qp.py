@@ -9,6 +9,8 @@ import numpy as np
 
 ACTIVE = 1e-11
 """A gradient below this, in a problem scaled to one, is rounding."""
+NOTHING = 1e-7
+"""A residual below this is none: the rows contradict each other. It is 1 / |u| otherwise."""
 
 
 def nonnegative_least_squares(E, f):
@@ -71,7 +73,7 @@ def optimum(H, g, A, b):
     f = np.zeros(len(E))
     f[-1] = 1.0
     y, passive = nonnegative_least_squares(E, f)
-    if np.linalg.norm(E @ y - f) < 1e-9:
+    if np.linalg.norm(E @ y - f) < NOTHING:
         return None, y / size / np.max(y / size)
     x, part = equality_answer(H, g, A[passive], b[passive])
     lam = np.zeros(m)

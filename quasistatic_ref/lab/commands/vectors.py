@@ -1,4 +1,4 @@
-"""``vectors harvest|generate|check|own|export``: reference vectors for other implementations."""
+"""``vectors check|challenge|generate|own|export|harvest``: for other implementations."""
 
 import argparse
 import sys
@@ -10,6 +10,7 @@ from quasistatic_ref.resources import vectors_folder
 
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
+    "challenge": "ask a program new cases, and show the smallest that it gets wrong",
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
@@ -22,6 +23,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
     for name, summary in ACTIONS.items():
         action = actions.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+        if name == "challenge":
+            _add_challenge(action)
+            continue
         if name != "harvest":
             action.add_argument(
                 "--vectors",
@@ -33,30 +37,58 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
             shared.add(action, "--json")
             _add_choices(action)
+            _add_digits(action)
         else:
             shared.add(action, "--out", default="answers" if name == "own" else "vectors")
         if name in ("check", "own"):
-            action.add_argument(
-                "--layer",
-                action="append",
-                metavar="NAME",
-                dest="layers",
-                help="this layer only; may be given several times",
-            )
+            _add_layers(action)
 
 
 def _add_choices(action: argparse.ArgumentParser) -> None:
     """Which cases are checked, how strictly, and what is printed."""
     words = "only cases whose ids begin so, e.g. rows/cone"
     action.add_argument("--only", metavar="PREFIX", default="", help=words)
-    action.add_argument("--case", metavar="ID", help="one case alone, number beside number")
+    action.add_argument("--case", metavar="ID", help="one case alone, number by number")
+
+
+def _add_digits(action: argparse.ArgumentParser) -> None:
     words = "answers that are right to D digits are acceptable"
     action.add_argument("--digits", type=float, metavar="D", help=words)
+
+
+def _add_layers(action: argparse.ArgumentParser) -> None:
+    words = "this layer only; may be given several times"
+    action.add_argument("--layer", action="append", metavar="NAME", dest="layers", help=words)
+
+
+def _add_challenge(action: argparse.ArgumentParser) -> None:
+    """Who is challenged, by what, and for how long."""
+    say = action.add_argument
+    say("--command", metavar="COMMAND", dest="program", help="the program, e.g. './my_sim'")
+    _add_layers(action)
+    say("--cases", type=int, metavar="N", help="how many cases (1,000, unless --seconds is given)")
+    say("--seconds", type=float, metavar="S", help="for how long")
+    say("--seed", type=int, default=0, metavar="K", help="of the cases (0)")
+    say("--timeout", type=float, default=10.0, metavar="S", help="for each answer (10 s)")
+    say("--jobs", type=int, default=1, metavar="J", help="processes that make cases (1)")
+    say("--first", action="store_true", help="end after the first round that finds something")
+    say("--again", type=Path, metavar="FILE", help="ask the case of a counterexample once more")
+    words = "answer cases on standard input: exactly, or as this package does in float64"
+    say("--serve", nargs="?", const="exact", choices=("exact", "own"), help=words)
+    _add_digits(action)
+    shared.add(action, "--out", default=Path("counterexamples"))
+    shared.add(action, "--json")
 
 
 def run(options: argparse.Namespace) -> int:
     """Do one of the actions."""
     return RUNS[options.action](options)
+
+
+def _challenge(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.challenge.command import challenged
+
+    return challenged(options)
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -80,8 +112,8 @@ def _check(options: argparse.Namespace) -> int:
 def _show_case(options: argparse.Namespace, source: Path) -> None:
     """Expected and given of one case, in the package's conventions."""
     from quasistatic_ref.lab.vectors.check.answers import answers_read
-    from quasistatic_ref.lab.vectors.check.beside import beside
     from quasistatic_ref.lab.vectors.check.folder import answer_judged
+    from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
     from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 
     layer = options.case.partition("/")[0]
@@ -91,7 +123,7 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
             record, given = expected_read(source, layer)[case.id], answers.outputs[case.id]
             one = answer_judged(layer, case, record, given, answers, options.digits)
             print(f"{case.id}: {case.provenance}: {one.verdict.verdict} {one.verdict.reason}")
-            shared.print_rows(beside(record["output"], one.output))
+            shared.print_rows(side_by_side(record["output"], one.output))
 
 
 def _generate(options: argparse.Namespace) -> int:
@@ -140,6 +172,7 @@ def _counted(counts: dict[str, int], folder: Path) -> int:
 
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
+    "challenge": _challenge,
     "generate": _generate,
     "own": _own,
     "export": _export,

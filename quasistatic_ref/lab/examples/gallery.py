@@ -22,6 +22,7 @@ EXAMPLES: Final = (
     "boundary_layer",
     "boundary_layer_laws",
     "pinch_threshold",
+    "hold_or_slip",
     "grasp",
     "grasp_rotation",
     "grasp_against_mu_omega",

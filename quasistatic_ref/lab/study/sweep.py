@@ -3,9 +3,10 @@
 Every combination of the values is one run, each step exact; a row is what the run came to.
 """
 
+import hashlib
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from dataclasses import asdict
 from multiprocessing import get_context
@@ -24,6 +25,8 @@ from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
+RUNS = "runs"
+"""Folder of trajectories in that of a store."""
 DONE, ENDED_EARLY, REFUSED = "done", "ended_early", "refused"
 
 
@@ -34,6 +37,7 @@ def run_sweep(
     jobs: int | None = None,
     scheduler: str | None = None,
     progress: bool = True,
+    keep_runs: bool = False,
 ) -> list[Row]:
     """Run sweeps, or what is left of them.
 
@@ -47,6 +51,8 @@ def run_sweep(
     scheduler : str, optional
         Address of a Dask scheduler.
     progress : bool
+    keep_runs : bool
+        Whether the trajectory of each run is kept, in :func:`run_file` of the folder.
 
     Returns
     -------
@@ -54,6 +60,7 @@ def run_sweep(
         All rows of the store, sorted.
     """
     folder = writable_folder(folder)
+    kept = writable_folder(folder / RUNS).parent if keep_runs else None
     with Store(folder, sweep_record(sweeps)) as store:
         done = store.keys
         every = [(sweep, point) for sweep in sweeps for point in sweep.points()]
@@ -62,11 +69,11 @@ def run_sweep(
             from quasistatic_ref.lab.study.cluster import executor_of
 
             with executor_of(scheduler) as (executor, slots):
-                _conduct(store, todo, executor, slots, progress)
+                _conduct(store, todo, executor, slots, progress, kept)
         else:
             jobs = jobs or os.cpu_count() or 1
             with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-                _conduct(store, todo, pool, jobs, progress)
+                _conduct(store, todo, pool, jobs, progress, kept)
         return sorted(store.rows, key=key_of)
 
 
@@ -82,10 +89,21 @@ def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
     }
 
 
+def run_file(row: Row) -> str:
+    """Where the trajectory of a run is kept, in the folder of its store: named by its values."""
+    return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row).encode()).hexdigest()[:12]}.npz"
+
+
 def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
     """One run, and what it came to; a run that ends early is a result too."""
+    return sweep_run(sweep, point)[0]
+
+
+def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory | None]:
+    """The same with its trajectory; a scenario that is refused has none."""
     begin = time.perf_counter()
     outcome, reason, measures = DONE, None, {}
+    trajectory: Trajectory | None = None
     try:
         scenario = sweep_scenario(sweep, point)
         try:
@@ -96,7 +114,7 @@ def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
     except QuasistaticError as error:
         outcome, reason = REFUSED, str(error)
     row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
-    return row | {"seconds": {"call": time.perf_counter() - begin}}
+    return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
 
 
 def _conduct(
@@ -105,16 +123,23 @@ def _conduct(
     executor: Executor,
     slots: int,
     progress: bool,
+    kept: Path | None,
 ) -> None:
     left = list(reversed(todo))
-    under_way: set[Future[Row]] = set()
+    under_way: set[Future[Any]] = set()
+    call: Callable[..., Any] = sweep_row if kept is None else sweep_run
     with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
         while left or under_way:
             while left and len(under_way) < slots:
-                under_way.add(executor.submit(sweep_row, *left.pop()))
+                under_way.add(executor.submit(call, *left.pop()))
             done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
             for future in done:
-                store.add(future.result())
+                row = future.result()
+                if kept is not None:
+                    row, trajectory = row
+                    if trajectory is not None:  # before the row, which says that it is there
+                        trajectory.save(kept / run_file(row))
+                store.add(row)
                 bar.update()
 
 

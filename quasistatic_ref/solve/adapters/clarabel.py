@@ -19,8 +19,10 @@ class Clarabel(Adapter):
         for name, value in options.items():
             setattr(settings, name, value)
         P, A = program.columns()
-        m = len(program.b)
-        cones = [clarabel.NonnegativeConeT(m)] if m else []
+        balls = program.cones if isinstance(program, Program) else 0
+        flat = len(program.b) - 4 * balls
+        cones = [clarabel.SecondOrderConeT(4)] * balls
+        cones += [clarabel.NonnegativeConeT(flat)] if flat else []
         self.solver = clarabel.DefaultSolver(P, program.f, -A, -program.b, cones, settings)
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
@@ -29,7 +31,7 @@ class Clarabel(Adapter):
         p = self.program
         if not same_H:
             self.solver.update(P=p.P_data)
-        self.solver.update(q=p.f, A=-p.A_data, b=-p.b)  # -A x + s = -b, s >= 0
+        self.solver.update(q=p.f, A=-p.A_data, b=-p.b)  # -A x + s = -b, s in the cones
         solution = self.solver.solve()
         status = str(solution.status)
         x, lam, cost = np.array(solution.x), np.array(solution.z), solution.solve_time

@@ -1,13 +1,17 @@
 """The one protocol of adapters: what each is given, and what it gives back."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
-from scipy.sparse import csc_matrix
 
 from quasistatic_ref.step.data import Array, Indices
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,12 +26,15 @@ class Program:
     A : ndarray, shape (m, n_v)
         In the memory order that the adapter asks for.
     b : ndarray, shape (m,)
+    cones : int
+        How many cones s_0 >= ||(s_1, s_2, s_3)|| the first rows of s = A x - b make, four each.
     """
 
     H: Array
     f: Array
     A: Array
     b: Array
+    cones: int = 0
 
     @cached_property
     def upper(self) -> tuple[Indices, Indices]:
@@ -47,6 +54,8 @@ class Program:
 
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
         """H's upper triangle and A in compressed columns of a fixed pattern, zeros included."""
+        from scipy.sparse import csc_matrix  # not all adapters ask for it
+
         m, n = self.A.shape
         rows, _ = self.upper
         starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
@@ -79,7 +88,7 @@ class SparseProgram:
         """The whole symmetric matrix."""
         whole = self.P + self.P.T
         whole.setdiag(self.P.diagonal())
-        return csc_matrix(whole)
+        return whole.tocsc()
 
     @property
     def P_data(self) -> Array:

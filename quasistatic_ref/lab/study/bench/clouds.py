@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.lab.study.bench.grasp import Places, brute_force
+from quasistatic_ref.lab.study.bench.grasp import Places, brute_force, by_numpy
 from quasistatic_ref.lab.study.bench.timing import in_turn, microseconds, seconds
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.resources import models_folder
@@ -52,7 +52,7 @@ def clouds(at: Places, sizes: Sequence[int]) -> list[dict[str, Any]]:
     trees = {}
     for n, scenario in scenarios.items():
         trees[n] = seconds(partial(ContactTracker, scenario.pairs), time.thread_time)
-    simulators = {n: scenario.simulator() for n, scenario in scenarios.items()}
+    simulators = {n: by_numpy(scenario) for n, scenario in scenarios.items()}
     rounds = [
         {str(n): partial(simulator.step, q, g) for n, simulator in simulators.items()}
         for q, g in zip(at.q, at.goals, strict=True)

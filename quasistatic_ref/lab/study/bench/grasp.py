@@ -59,8 +59,8 @@ def places(steps: int, backend: str = "daqp") -> Places:
 
 def roads(at: Places, repeat: int) -> dict[str, Any]:
     """The step with DAQP natively, beside every other road and DAQP alone on the same program."""
-    run = _Run(at)
-    native, compiled = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
+    run = _Run(by_numpy(at.scenario), at)
+    native, through = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
     solver = native.solver
     assert isinstance(solver, NativeSolver)
@@ -70,8 +70,8 @@ def roads(at: Places, repeat: int) -> dict[str, Any]:
     # a step of a run does, and not as CVXPY left them.
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
-        "step, through CVXPY": lambda q, goal: partial(compiled.step, q, goal),
-        "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, compiled, q, goal),
+        "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
+        "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, through, q, goal),
         "hand-written qpsolvers loop": lambda q, goal: partial(hand_step, at.scenario, q, goal),
         "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
@@ -102,6 +102,45 @@ BEFORE = 5
 """Native steps before the one that is measured. The first after a step through CVXPY takes 1.4
 times as long as in a run, the second 1.2 times, the fifth as long but for a twentieth."""
 
+
+def by_numpy(scenario: Scenario) -> Simulator:
+    """The simulator of a scenario, all of whose steps are taken by NumPy."""
+    simulator = scenario.simulator()
+    simulator.fast = None
+    return simulator
+
+
+def by_compiled_code(at: Places, repeat: int) -> dict[str, float] | None:
+    """Compiled steps in turn with DAQP alone, and certified ones; None where nothing is compiled.
+
+    Returns
+    -------
+    dict of str to float
+        Medians of both and the 99th percentile of the second [us], the first over DAQP's call [-].
+    """
+    run = _Run(at.scenario.simulator(), at)
+    proved = _Run(replace(at.scenario, certify=CERTIFY[0]).simulator(), at)
+    run.step(0)
+    if run.simulator.fast is None:
+        return None
+    solver = run.simulator.solver
+    assert isinstance(solver, NativeSolver)
+    assert isinstance(solver.program, Program)
+    alone = bare_daqp(solver.program)
+    rounds: list[dict[str, Job]] = [
+        {"before": partial(run.step, k - 1), "step": partial(run.step, k), "DAQP alone": alone}
+        for k in range(1, len(at.q), 2)
+    ]
+    times = in_turn(rounds, repeat)
+    certified = in_turn([{"": partial(proved.step, k)} for k in range(len(at.q))], repeat)[""]
+    return {
+        "step": microseconds(times["step"]),
+        "over_solver": ratio(times["step"], times["DAQP alone"]),
+        "certified": microseconds(certified),
+        "certified, p99": 1e6 * float(np.quantile(certified, 0.99)),
+    }
+
+
 FEWER = {"step, CVXPY rebuilt each time": 3}
 """Every how many rounds the slow roads are taken."""
 
@@ -109,8 +148,8 @@ FEWER = {"step, CVXPY rebuilt each time": 3}
 class _Run:
     """A native run along the same targets: each step starts where the one before ended."""
 
-    def __init__(self, at: Places) -> None:
-        self.at, self.simulator, self.q, self.k = at, at.scenario.simulator(), at.q[0], 0
+    def __init__(self, simulator: Simulator, at: Places) -> None:
+        self.at, self.simulator, self.q, self.k = at, simulator, at.q[0], 0
 
     def step(self, k: int) -> None:
         """Step k; from the place recorded there, if the last one was not the one before."""
@@ -126,7 +165,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
         for name in names:
             if name not in UNFIT:
                 settings = replace(at.scenario, engine=engine, backend=name)
-                simulators[engine, name] = settings.simulator()
+                simulators[engine, name] = by_numpy(settings)
     taken = {key: np.full((len(at.q), len(PARTS)), np.inf) for key in simulators}
     failed = dict.fromkeys(simulators, 0)
     for _ in range(repeat):

@@ -16,6 +16,7 @@ BY_PART = {
     **{name: f"{{{name}:.1f}}" for name in (*PARTS, "step")},
     "unsolved": "{unsolved}",
 }
+BY_PUSH = {"engine, certify": "{how}", "median [us]": "{median:.0f}", "p99 [us]": "{p99:.0f}"}
 BY_POINTS = {
     "points": "{points}",
     "step, mean [us]": "{mean:.0f}",
@@ -68,6 +69,7 @@ def page(tables: Mapping[str, Any]) -> str:
         *_section("The step of the bunny by every road", _roads(tables)),
         *_section("By part, engine and backend [us], all in turn, caches cold", parts),
         *_section("With a certificate, native, DAQP or the default [us]", certified),
+        *_section("A planar push in the ellipsoid", _formatted(BY_PUSH, tables.get("push", []))),
         *_section("Points of the cloud", _formatted(BY_POINTS, tables["clouds"])),
         *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
         *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),

@@ -12,8 +12,15 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study import environment
 from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
 from quasistatic_ref.lab.study.bench.clouds import clouds
-from quasistatic_ref.lab.study.bench.grasp import certification, parts, places, roads
+from quasistatic_ref.lab.study.bench.grasp import (
+    by_compiled_code,
+    certification,
+    parts,
+    places,
+    roads,
+)
 from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
+from quasistatic_ref.lab.study.bench.push import pushes
 from quasistatic_ref.lab.study.large import (
     CHAINS,
     CONTACTS,
@@ -52,6 +59,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     at = places(steps)
     tell("roads")
     found["roads"] = roads(at, repeat)
+    tell("compiled")
+    found["compiled"] = by_compiled_code(at, repeat)
     tell("parts")
     some = places(4 if quick else 60)
     found["parts"] = parts(some, 1 if quick else 2)
@@ -59,6 +68,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["certification"] = certification(some, 1 if quick else 2)
     tell("mujoco")
     found["mujoco"] = mujoco_grasp(steps, repeat)
+    tell("push")
+    found["push"] = pushes(6 if quick else 60, repeat)
     tell("clouds")
     found["clouds"] = clouds(at, (2_000,) if quick else (1_000, 10_000, 100_000, 1_000_000))
     tell("sizes")

@@ -57,7 +57,7 @@ FORCES_AND_ORDERS: Final = (
         "+spin comes before -spin",
         {
             **of_rows(wrong_contacts.spins_exchanged),
-            "wrench": wrong_contacts.lam_in_order(wrong_contacts.SPINS_EXCHANGED),
+            "wrench": wrong_contacts.lam_in_order(wrong_contacts.exchanged_spins),
         },
     ),
     Hypothesis(

@@ -148,7 +148,7 @@ HYPOTHESES: Final = (
         "a contact's rows are +d1, +d2, -d1, -d2, +spin, -spin; MuJoCo's are +d1, -d1, +d2, -d2",
         {
             **of_rows(wrong_contacts.interleaved),
-            "wrench": wrong_contacts.lam_in_order(wrong_contacts.MUJOCO_ORDER),
+            "wrench": wrong_contacts.lam_in_order(wrong_contacts.mujoco_order),
         },
     ),
     Hypothesis(
@@ -167,7 +167,7 @@ HYPOTHESES: Final = (
     Hypothesis(
         "un-actuated coordinates first",
         "delta_q holds the actuated joints first, then the others",
-        {"jacobian": wrong_frames.unactuated_first},
+        {"jacobian": wrong_frames.unactuated_first, "step": wrong_frames.unactuated_step},
     ),
     Hypothesis(
         "a straight line in the place of the screw",

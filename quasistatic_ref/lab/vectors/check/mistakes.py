@@ -115,6 +115,12 @@ def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
     return False
 
 
+def predicted(layer: str, name: str, one: Failed) -> bool:
+    """Whether a mistake of that name explains an answer."""
+    known = next(hypothesis for hypothesis in HYPOTHESES if hypothesis.name == name)
+    return _predicted(layer, known, one)
+
+
 def _would_spoil(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
     """Whether every prediction is another than the answer, which is right."""
     predictions = _predictions(layer, hypothesis, one)

@@ -84,8 +84,8 @@ def of_q_next(prediction: Prediction) -> Prediction:
     def of_step(case: Json, output: Json) -> Iterable[Json]:
         given = {name: case[name] for name in ("mechanism", "q")}
         given["delta_q"] = output["delta_q"]
-        for told in prediction(given, {"q": output["q_next"]}):
-            if "q" in told:
-                yield {"q_next": told["q"]}
+        for answer in prediction(given, {"q": output["q_next"]}):
+            if "q" in answer:
+                yield {"q_next": answer["q"]}
 
     return of_step

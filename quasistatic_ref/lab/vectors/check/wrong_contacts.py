@@ -7,11 +7,10 @@ import numpy as np
 
 from quasistatic_ref.lab.vectors.check.predictions import Prediction, again, each, scaled, times
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.layers.rows import by_contact, row_count
 
 MUJOCO_ORDER: Final = (0, 2, 1, 3, 4, 5)
 """Ours of +d1 -d1 +d2 -d2 +spin -spin."""
-SPINS_EXCHANGED: Final = (0, 1, 2, 3, 5, 4)
 
 
 def _rows_case(case: Json, output: Json) -> Json:
@@ -75,8 +74,19 @@ def reversed_torque(case: Json, output: Json) -> Iterable[Json]:
 
 
 def spins_exchanged(case: Json, output: Json) -> Iterable[Json]:
-    """-spin before +spin, in the pyramid."""
-    return [_kept_rows(case, output, lambda count: SPINS_EXCHANGED[:count])]
+    """-spin before +spin, where they come last: in the pyramid and in facets."""
+    return [_kept_rows(case, output, lambda count: exchanged_spins(case, count))]
+
+
+def exchanged_spins(case: Json, count: int) -> list[int]:
+    """Rows of a contact, those after its sides the other way round."""
+    sides = row_count(case["cone"], 4)
+    return [*range(min(sides, count)), *reversed(range(sides, count))]
+
+
+def mujoco_order(case: Json, count: int) -> list[int]:
+    """Rows of a contact in MuJoCo's order."""
+    return list(MUJOCO_ORDER[:count])
 
 
 def one_point(case: Json, output: Json) -> Iterable[Json]:
@@ -167,13 +177,14 @@ def interleaved(case: Json, output: Json) -> Iterable[Json]:
     return [_kept_rows(case, output, lambda count: MUJOCO_ORDER[:count])]
 
 
-def lam_in_order(order: Sequence[int]) -> Prediction:
-    """Lam of the pyramid read in another order of its rows."""
+def lam_in_order(order: Callable[[Json, int], Sequence[int]]) -> Prediction:
+    """Lam read in another order of a contact's rows."""
 
     def prediction(case: Json, output: Json) -> Iterable[Json]:
         def read(contact: Json) -> Json:
             lam = contact["lam"]
-            return {"lam": [lam[order.index(i)] for i in range(len(lam))]}
+            places = order(case, len(lam))
+            return {"lam": [lam[places.index(i)] for i in range(len(lam))]}
 
         return [again("wrench", {**case, "contacts": each(case["contacts"], read)})]
 

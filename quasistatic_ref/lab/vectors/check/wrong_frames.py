@@ -111,15 +111,28 @@ def answered_wxyz(field: str) -> Prediction:
     return lambda case, output: [{field: wxyz(case["mechanism"], output[field])}]
 
 
-def unactuated_first(case: Json, output: Json) -> Iterable[Json]:
-    """Columns of J in the order [un-actuated; actuated]."""
-    joints = {body["name"]: bool(body.get("actuated")) for body in case["mechanism"]["bodies"]}
+def _unactuated_order(mechanism: Json) -> list[int]:
+    """Entries of delta_q in the order [un-actuated; actuated]."""
+    joints = {body["name"]: bool(body.get("actuated")) for body in mechanism["bodies"]}
     order: list[int] = []
     for actuated in (False, True):
-        for at in places(case["mechanism"]):
+        for at in places(mechanism):
             if joints[at.name] == actuated:
                 order += range(at.v.start, at.v.stop)
-    return [{"J": np.array(output["J"])[:, :, order].tolist()}]
+    return order
+
+
+def unactuated_first(case: Json, output: Json) -> Iterable[Json]:
+    """Columns of J in that order."""
+    return [{"J": np.array(output["J"])[:, :, _unactuated_order(case["mechanism"])].tolist()}]
+
+
+def unactuated_step(case: Json, output: Json) -> Iterable[Json]:
+    """J, H and g of a step in that order."""
+    order = _unactuated_order(case["mechanism"])
+    contacts = [{"J": np.array(c["J"])[:, order].tolist()} for c in output["contacts"]]
+    H, g = np.array(output["H"]), np.array(output["g"])
+    yield {"contacts": contacts, "H": H[np.ix_(order, order)].tolist(), "g": g[order].tolist()}
 
 
 def straight(tangent: str) -> Prediction:

@@ -34,9 +34,9 @@ def angular_step(case: Json, output: Json) -> Iterable[Json]:
     """The parts of a step that have to do with delta_q."""
     order = _exchanged(case["mechanism"])
     contacts = [{"J": [[row[k] for k in order] for row in c["J"]]} for c in output["contacts"]]
-    told = {"contacts": contacts, "H": [[output["H"][i][j] for j in order] for i in order]}
-    told["A"] = [[row[k] for k in order] for row in output["A"]]
-    return [told | {name: [output[name][k] for k in order] for name in ("g", "delta_q", "A_lam")}]
+    parts = {"contacts": contacts, "H": [[output["H"][i][j] for j in order] for i in order]}
+    parts["A"] = [[row[k] for k in order] for row in output["A"]]
+    return [parts | {name: [output[name][k] for k in order] for name in ("g", "delta_q", "A_lam")}]
 
 
 def torque_first(case: Json, output: Json) -> Iterable[Json]:

@@ -115,8 +115,8 @@ def one_point(case: Json, output: Json) -> Iterable[Json]:
         return {f"{s}_body": case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
 
     given = {**case, "contacts": each(output["contacts"], bodies)}
-    for told in one_point_of_J(given, output):
-        yield {"contacts": [{"J": J} for J in told["J"]]}
+    for answer in one_point_of_J(given, output):
+        yield {"contacts": [{"J": J} for J in answer["J"]]}
 
 
 def _contacts(case: Json) -> Json:

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
+from quasistatic_ref.certify.balls import square_root
 from quasistatic_ref.certify.enclosure import BITS as PROVED
 from quasistatic_ref.certify.enclosure import checked_pair, enclosed_error
 from quasistatic_ref.certify.rational import exact_form
@@ -40,7 +41,8 @@ def enclosed(step: StepData) -> Expected:
     with ctx.workprec(BITS):
         H, A = arb_mat(form.H), arb_mat(form.A)
         inverse = H.inv()
-        radius = [(2 * found.gap * inverse[v, v]).sqrt().upper() for v in range(form.n)]
+        # Where no cone bears load, the gap is a ball about zero.
+        radius = [square_root(2 * found.gap * inverse[v, v]).upper() for v in range(form.n)]
         x = arb_mat(form.n, 1, [found.x[v, 0] + arb(0, radius[v]) for v in range(form.n)])
         balls = {
             "delta_q": _in_units(x, form.x_unit),

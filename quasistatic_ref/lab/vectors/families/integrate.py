@@ -44,18 +44,18 @@ def integrate_cases() -> Iterator[Case]:
         base, count = ("fixed", "floating", "planar")[number % 3], 3 + number // 3
         why = f"a random tree of {count} bodies on a {base} base"
         name = f"integrate/tree/{base}/{number // 3}"
-        yield name, why, _at_random(rng, random_tree(rng, count, base))
+        yield name, why, step_at_random(rng, random_tree(rng, count, base))
     for number, size in enumerate((1e-2, 1e-4, 1e-7)):
         tree = {"bodies": [free_body(), *gripper()["bodies"]]}
         why = f"a gripper and a body, a step of about {size:g}: actuated coordinates come first"
-        yield f"integrate/grasp/{number}", why, _at_random(rng, tree, size)
+        yield f"integrate/grasp/{number}", why, step_at_random(rng, tree, size)
     stand = link("stand", None, "fixed")
     tree = {"bodies": [free_body(), stand, *follower("revolute", "stand", actuated=True)]}
     why = "a joint that follows another has no entry of q"
-    yield "integrate/mimic", why, _at_random(rng, tree)
+    yield "integrate/mimic", why, step_at_random(rng, tree)
 
 
-def _at_random(rng: Rng, tree: Json, size: float = 0.5) -> Json:
+def step_at_random(rng: Rng, tree: Json, size: float = 0.5) -> Json:
     """A step of about the `size` [m, rad], from a random configuration."""
     q = random_q(rng, tree)
     return {"mechanism": tree, "q": q, "delta_q": random_step(rng, tree, size)}

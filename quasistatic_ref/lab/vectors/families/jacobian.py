@@ -33,14 +33,14 @@ def jacobian_cases() -> Iterator[Case]:
             tree = random_tree(rng, 2 + number, base)
             why = f"random tree of {2 + number} bodies on a {base} base, random contacts"
             name = f"jacobian/tree/{base}/{number}"
-            yield name, why, _with_contacts(rng, tree, 2 + number % 3)
+            yield name, why, with_contacts(rng, tree, 2 + number % 3)
     for number in range(4):
         tree = {"bodies": [*gripper()["bodies"], free_body()]}
         held: Pairs = [("left", "object"), ("right", "object"), (None, "object")]
         why = "a gripper on an actuated floating base holds a free body"
-        yield f"jacobian/grasp/{number}", why, _with_contacts(rng, tree, 5, held)
+        yield f"jacobian/grasp/{number}", why, with_contacts(rng, tree, 5, held)
     for number, tree in enumerate(_chains(rng)):
-        table = _with_contacts(rng, tree, 2, [(None, "body7"), ("body7", "body3")])
+        table = with_contacts(rng, tree, 2, [(None, "body7"), ("body7", "body3")])
         why = "a chain with fixed joints in it, from end to end"
         yield f"jacobian/chain/{number}", why, table
     yield from _corners(rng)
@@ -51,7 +51,7 @@ def _one_joint(rng: Rng, kind: str, turned: bool) -> Case:
     place = {"placement": random_pose(rng)} if turned and not based else {}
     axis = few_digits(rng.uniform(-1, 1, 3)) if turned else [0.0, 1.0, 0.0]
     tree = {"bodies": [link("body", None, kind, axis=axis, actuated=turned, **place)]}
-    table = _with_contacts(rng, tree, 2, [(None, "body"), ("body", None)])
+    table = with_contacts(rng, tree, 2, [(None, "body"), ("body", None)])
     if not turned:
         straight = {"floating": [0.0] * 6 + [1.0], "planar": [0.0, 0.0, 1.0, 0.0]}
         table["q"] = straight.get(kind, [1.0, 0.0] if kind == "continuous" else [0.0])
@@ -77,25 +77,25 @@ def _chains(rng: Rng) -> Iterator[Json]:
 
 def _corners(rng: Rng) -> Iterator[Case]:
     free = {"bodies": [free_body()]}
-    table = _with_contacts(rng, free, 1, [(None, "object")])
+    table = with_contacts(rng, free, 1, [(None, "object")])
     places = {"alpha": [1000.001, -500.0, 250.0], "beta": [1000.001, -500.0, 250.002]}
     q, far = [1000.0, -500.0, 250.0, 0.1, 0.2, 0.3, 0.9], [table["contacts"][0] | places]
     why = "a contact 1000 m from the origin, 1 mm from its body's: levers cancel"
     yield "jacobian/far", why, table | {"q": q, "contacts": far}
-    same = _with_contacts(rng, {"bodies": gripper()["bodies"]}, 1, [("left", "right")])
+    same = with_contacts(rng, {"bodies": gripper()["bodies"]}, 1, [("left", "right")])
     yield "jacobian/fingers", "the two fingers of one gripper: the base does not enter", same
-    origin = _with_contacts(rng, free, 1, [(None, "object")])
+    origin = with_contacts(rng, free, 1, [(None, "object")])
     contact = origin["contacts"][0] | {"alpha": origin["q"][:3], "beta": origin["q"][:3]}
     yield "jacobian/origin", "a contact at the body's own origin", origin | {"contacts": [contact]}
     two = {"bodies": [free_body("one"), free_body("other")]}
     why = "alpha and beta far from each other: each is a point of its own body"
-    yield "jacobian/apart", why, _with_contacts(rng, two, 2, [("one", "other")])
+    yield "jacobian/apart", why, with_contacts(rng, two, 2, [("one", "other")])
     yield "jacobian/none", "no contacts: J is empty", origin | {"contacts": []}
     both = {"bodies": [free_body("free"), free_body("moved", actuated=True)]}
     why = "the actuated body comes first in delta_q, whatever the order in the file"
-    yield "jacobian/order", why, _with_contacts(rng, both, 2, [("moved", "free")])
+    yield "jacobian/order", why, with_contacts(rng, both, 2, [("moved", "free")])
     for number, z in enumerate((1.0, -1.0)):
-        table = _with_contacts(rng, free, 1, [(None, "object")])
+        table = with_contacts(rng, free, 1, [(None, "object")])
         frame = {"n": [0.0, 0.0, z], "d1": [1.0, 0.0, 0.0], "d2": [0.0, z, 0.0]}
         why = "the normal along the vertical, up and down: the spin changes its sign"
         turned = [table["contacts"][0] | frame]
@@ -103,10 +103,11 @@ def _corners(rng: Rng) -> Iterator[Case]:
     for joint in ("prismatic", "revolute"):
         tree = {"bodies": [link("stand", None, "fixed"), *follower(joint, "stand")]}
         why = f"a {joint} joint that follows another at -1/2 of it and 0.35 away, on both sides"
-        yield f"jacobian/mimic/{joint}", why, _with_contacts(rng, tree, 2, [("drive", "finger")])
+        yield f"jacobian/mimic/{joint}", why, with_contacts(rng, tree, 2, [("drive", "finger")])
 
 
-def _with_contacts(rng: Rng, tree: Json, count: int, pairs: Pairs | None = None) -> Json:
+def with_contacts(rng: Rng, tree: Json, count: int, pairs: Pairs | None = None) -> Json:
+    """The input with so many contacts at random, between these bodies or any."""
     names = [body["name"] for body in tree["bodies"]]
     contacts = []
     for k in range(count):

@@ -1,6 +1,6 @@
 """Steps that tell forces and their points of attack apart, and joints that follow others.
 
-The centre of mass is beside the origin of its body wherever a wrench or gravity acts.
+The centre of mass is not the origin of its body wherever a wrench or gravity acts.
 """
 
 from collections.abc import Iterator
@@ -28,7 +28,7 @@ WALL: Json = {"kind": "halfspace", "normal": [-1.0, 0.0, 0.0], "offset": -0.3}
 def force_cases() -> Iterator[Case]:
     """Id, provenance and input of each case."""
     pushed = [{"body": "ball", **PUSH}]
-    why = "a ball whose centre of mass is beside its centre, pushed at its centre of mass"
+    why = "a ball whose centre of mass is not its centre, pushed at its centre of mass"
     yield "step/forces/off_centre", why, ball_scene([0.0, 0.0, 0.05], wrenches=pushed, **OFF)
     why = "the same, turned: the centre of mass and the inertia turn with the body"
     turned = ball_scene([0.0, 0.0, 0.05], quaternion=TILTED, wrenches=pushed, **OFF)

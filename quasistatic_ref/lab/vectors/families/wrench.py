@@ -1,6 +1,7 @@
 """Inputs of the layer `wrench`: multipliers in every cone, on bodies that share contacts."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -23,28 +24,28 @@ def wrench_cases() -> Iterator[Case]:
     for cone in CONES:
         for rows in (4, 6):
             why = f"random multipliers with rows = {rows} in the cone {cone}"
-            yield f"wrench/cone/{cone}_{rows}", why, _random(rng, 3, cone, rows=rows)
+            yield f"wrench/cone/{cone}_{rows}", why, random_loads(rng, 3, cone, rows=rows)
     for i in range(14):
         why = "random multipliers of random contacts between three bodies and the world"
-        yield f"wrench/random/{i}", why, _random(rng, int(rng.integers(1, 9)), "pyramid")
+        yield f"wrench/random/{i}", why, random_loads(rng, int(rng.integers(1, 9)), "pyramid")
     for k, name in enumerate(("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")):
-        case = _random(rng, 1, "pyramid", rows=6)
+        case = random_loads(rng, 1, "pyramid", rows=6)
         case["contacts"][0]["lam"] = np.eye(6)[k].tolist()
         yield f"wrench/single/{k}", f"1 N s on the row {name} alone", case
     for name, fixed, why in (
         ("mu_zero", {"mu_v": 0.0, "mu_omega": 0.0, "rows": 6}, "no friction: f_n alone"),
         ("unused_mu_omega", {"mu_omega": 0.5, "rows": 4}, "rows = 4: no torque about n"),
     ):
-        yield f"wrench/corner/{name}", why, _random(rng, 2, "pyramid", **fixed)
-    opposite = _random(rng, 1, "pyramid", rows=6)
+        yield f"wrench/corner/{name}", why, random_loads(rng, 2, "pyramid", **fixed)
+    opposite = random_loads(rng, 1, "pyramid", rows=6)
     opposite["contacts"][0]["lam"] = [0.5, 0.25, 0.5, 0.25, 0.125, 0.125]
     why = "opposite rows cancel: no tangential force, no torque, f_n alone"
     yield "wrench/corner/cancelling", why, opposite
-    same = _random(rng, 2, "pyramid")
+    same = random_loads(rng, 2, "pyramid")
     for contact in same["contacts"]:
         contact |= {"alpha_body": "a", "beta_body": "b"}
     yield "wrench/corner/action_and_reaction", "both contacts between the same two bodies", same
-    long = _random(rng, 2, "pyramid") | {"h": 0.5}
+    long = random_loads(rng, 2, "pyramid") | {"h": 0.5}
     yield "wrench/corner/long_step", "h = 0.5 s: lam is not the force", long
     nothing: Json = {"h": 0.01, "cone": "pyramid", "contacts": [], "bodies": {}}
     yield "wrench/corner/no_contacts", "no contacts, no bodies", nothing
@@ -75,7 +76,8 @@ def wrench_input(at: Contacts, cone: str, h: float, lam: Array, points: Json, bo
     return {"h": h, "cone": cone, "contacts": entries, "bodies": bodies}
 
 
-def _random(rng: np.random.Generator, n_c: int, cone: str, **fixed: float) -> Json:
+def random_loads(rng: np.random.Generator, n_c: int, cone: str, **fixed: Any) -> Json:
+    """The input with multipliers at random, on contacts between three bodies and the world."""
     at = random_contacts(rng, n_c, 1, **fixed)
     names = [None, "a", "b", "c"]
     points = []

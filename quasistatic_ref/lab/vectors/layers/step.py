@@ -6,6 +6,7 @@ Contacts of a pair stand in the order of their index. Gravity acts on the un-act
 that of the others is compensated.
 """
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final
 
@@ -38,8 +39,10 @@ ROUNDINGS: Final = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 
-def expected(case_input: Json) -> Expected:
-    """All that one step comes to, and q after it."""
+def expected(
+    case_input: Json, terms: Callable[[Mechanism, Json], tuple[float, float]] | None = None
+) -> Expected:
+    """All that one step comes to, and q after it; `terms` says how large what makes H and g is."""
     tree, q = mechanism(case_input["mechanism"]), case_input["q"]
     contacts, friction, found = contacts_of(tree, case_input)
     place = {"mechanism": case_input["mechanism"], "q": q}
@@ -49,8 +52,11 @@ def expected(case_input: Json) -> Expected:
     both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
     rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
     H, g, g_size = objective(tree, case_input)
+    H_size = max([abs(x) for row in H for x in row], default=0.0)
+    if terms:
+        H_size, g_size = map(max, (H_size, g_size), terms(tree, case_input))
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
-    errors, distances = _errors(case_input, program, found, jacobian, rows, g_size)
+    errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
     solved = _solved(program, errors)
     base = {**program, "contacts": [_shown(contact) for contact in contacts]}
     base_tolerance = {
@@ -196,7 +202,12 @@ def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
 
 
 def _errors(
-    case: Json, program: Json, found: list[Chosen], jacobian: Expected, rows: Expected, size: float
+    case: Json,
+    program: Json,
+    found: list[Chosen],
+    jacobian: Expected,
+    rows: Expected,
+    sizes: tuple[float, float],
 ) -> tuple[Errors, dict[str, Tolerance]]:
     """What rounding in the layers before leaves in the program, and in the contacts."""
     points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
@@ -214,10 +225,9 @@ def _errors(
     mu = max([max(pair["mu_v"], pair["mu_omega"]) for pair in case["pairs"]], default=0.0)
     moved_J = jacobian.tolerance["J"].absolute + 2 * max(worst["alpha"], worst["beta"])
     A = (1 + 2 * mu) * (3 * moved_J + 12 * reach * worst["n"]) + rows.tolerance["A"].absolute
-    largest = max([abs(x) for row in program["H"] for x in row], default=0.0)
     return Errors(
-        H=Fraction(ROUNDINGS * EPS * largest),
-        g=Fraction(ROUNDINGS * EPS * size),
+        H=Fraction(ROUNDINGS * EPS * sizes[0]),
+        g=Fraction(ROUNDINGS * EPS * sizes[1]),
         A=Fraction(A if program["A"] else 0.0),
         b=Fraction(worst["phi"] if program["A"] else 0.0),
     ), distances

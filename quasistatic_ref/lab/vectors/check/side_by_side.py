@@ -1,4 +1,4 @@
-"""What is expected and what is given, one beside the other."""
+"""What is expected and what is given, side by side."""
 
 from quasistatic_ref.lab.vectors.check.compare import leaves
 from quasistatic_ref.lab.vectors.expected import Json
@@ -7,7 +7,7 @@ LINES = 60
 """At most so many numbers of one case are shown."""
 
 
-def beside(expected: Json, given: Json) -> list[tuple[str, ...]]:
+def side_by_side(expected: Json, given: Json) -> list[tuple[str, ...]]:
     """The table of all numbers that differ, its header first; then how many are the same."""
     ours = {_place(path): value for path, value in leaves(expected)}
     theirs = {_place(path): value for path, value in leaves(given)}

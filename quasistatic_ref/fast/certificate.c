@@ -1,0 +1,246 @@
+/* The optimum on a guessed working set, proved and rounded correctly: docs/exactness.md.
+
+   All numbers are in natural units, y = h lam: h H x - A_W'y = h g and A_W x = b_W. */
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "proof.h"
+
+int64_t proof_size(void) { return sizeof(Proof); }
+int64_t number_size(void) { return sizeof(Number); }
+
+/* The float64 nearest to unit x / h, x being known to within e; 0 if that is not shown. */
+static int nearest(const Number *x, double e, double h, double unit, double *out, int *lost)
+{
+    double c = value(x) / h, rest = 0.0;
+    if (c == 0.0) {
+        *out = 0.0;
+        return x->low == x->high && e == 0.0;
+    }
+    Float by = exact(h, lost);
+    Number divisor = number_of(&by);
+    for (int round = 0; round < 3; round++) {
+        Sum sum;
+        clear(&sum);
+        add_number(&sum, x, 1);
+        Float quotient = exact(c, lost);
+        add_product(&sum, &divisor, &quotient, -1, lost);
+        Number left = carried(&sum, lost);
+        rest = value(&left);
+        double better = c + rest / h;
+        if (better == c)
+            break;
+        c = better;
+    }
+    double above = nextafter(c, INFINITY) - c, below = c - nextafter(c, -INFINITY);
+    double gap = above < below ? above : below;
+    *out = c * unit;
+    return fabs(rest) * UP + e < h * gap / 2 * DOWN && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
+}
+
+/* gap, slip_1, slip_2 and spin of a contact, without friction's coefficients' rows, and bounds. */
+static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double *e, int *lost)
+{
+    int64_t n = s->n_v;
+    double ell = s->units[0], rho = s->units[1], of_nu[4];
+    const double *axes[3] = {s->n + 3 * c, s->d1 + 3 * c, s->d2 + 3 * c};
+    Number nu[4];
+    for (int i = 0; i < 4; i++) {
+        Sum sum;
+        clear(&sum);
+        of_nu[i] = 0.0;
+        for (int64_t v = 0; v < n; v++) {
+            double unit = s->coordinate[v] / ell, entry = s->J[n * (4 * c + i) + v];
+            if (entry == 0.0)
+                continue;
+            Float J = scaled(entry, unit, lost);
+            add_product(&sum, m->z + v, &J, 1, lost);
+            of_nu[i] += fabs(entry * unit) * m->e[v];
+        }
+        nu[i] = carried(&sum, lost);
+    }
+    double mu[4] = {1.0, s->mu_v[c], s->mu_v[c], s->mu_omega[c]};
+    for (int a = 0; a < 4; a++) {
+        Sum sum;
+        clear(&sum);
+        e[a] = 0.0;
+        for (int i = 0; i < 3 && a < 3; i++) {
+            Float axis = exact(axes[a][i], lost);
+            add_product(&sum, nu + i, &axis, 1, lost);
+            e[a] += fabs(axes[a][i]) * of_nu[i];
+        }
+        if (a == 0) {
+            Float phi = scaled(s->phi[c], 1 / (rho * ell), lost);
+            add_float(&sum, &phi, 1);
+        }
+        Number x = a == 3 ? nu[3] : carried(&sum, lost);
+        Float by = exact(mu[a], lost);
+        out[a] = a == 0 ? x : product(&x, &by, lost);
+        e[a] = (a == 3 ? of_nu[3] : e[a]) * mu[a];
+    }
+}
+
+/* Slacks of all rows; those that are not surely positive are collected. */
+static int slacks(Proof *s, Room *m, int *lost)
+{
+    double unit = s->units[0] * s->units[1];
+    int64_t last = -1, next = 0;
+    Number of[4];
+    double e[4];
+    for (int64_t r = 0; r < s->rows; r++) {
+        int64_t c = s->contact[r];
+        s->slack[r] = 0.0;
+        if (next < s->working && s->guess[next] == r) {
+            next++;
+            continue;
+        }
+        if (c != last)
+            motion(s, m, c, of, e, lost);
+        last = c;
+        Sum sum;
+        double error = 0.0;
+        clear(&sum);
+        for (int a = 0; a < 4; a++) {
+            double coefficient = s->cone[4 * s->row[r] + a];
+            Float by = exact(coefficient, lost);
+            add_product(&sum, of + a, &by, 1, lost);
+            error += fabs(coefficient) * e[a];
+        }
+        Number x = carried(&sum, lost);
+        error *= UP;
+        if (fabs(value(&x)) * DOWN <= error)
+            s->idle[s->counts[0]++] = r;
+        else if (value(&x) < 0.0)
+            return NEGATIVE;
+        else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
+            return OPEN_NUMBER;
+    }
+    return DECIDED;
+}
+
+/* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
+   that couples them to others. There H x = 0, and H is definite. */
+static void at_rest(const Proof *s, const Room *m, char *rest)
+{
+    int64_t n = s->n_v, k = s->working;
+    for (int64_t v = 0; v < n; v++) {
+        rest[v] = m->g[v].low == m->g[v].high;
+        for (int64_t w = 0; w < k; w++)
+            rest[v] = rest[v] && m->A[w * n + v].low == m->A[w * n + v].high;
+    }
+    for (int found = 1; found;) {
+        found = 0;
+        for (int64_t v = 0; v < n; v++)
+            for (int64_t j = 0; rest[v] && j < n; j++)
+                if (!rest[j] && s->hessian_values[v * n + j] != 0.0)
+                    rest[v] = 0, found = 1;
+    }
+}
+
+/* delta_q, the multipliers of the working set and A'lam, rounded. Coordinates that are not surely
+   other than zero are collected. */
+static int rounded(Proof *s, Room *m, int *lost)
+{
+    int64_t n = s->n_v, k = s->working;
+    double ell = s->units[0], rho = s->units[1];
+    for (int64_t r = 0; r < s->rows; r++)
+        s->lam[r] = 0.0;
+    for (int64_t w = 0; w < k; w++) {
+        double *lam = s->lam + s->guess[w];
+        if (!nearest(m->z + n + w, m->e[n + w], *s->h, rho / ell, lam, lost))
+            return OPEN_NUMBER;
+        if (!(*lam > 0.0))
+            return NOT_PRESSED;
+    }
+    at_rest(s, m, m->rests);
+    for (int64_t v = 0; v < n; v++) {
+        double S = s->coordinate[v], error = 0.0;
+        if (m->rests[v]) {
+            s->delta_q[v] = s->net[v] = 0.0;
+            continue;
+        }
+        for (int64_t w = 0; w < k; w++)
+            error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
+        if (fabs(value(m->z + v)) * DOWN <= m->e[v]) {
+            s->still[s->counts[1]++] = v;
+            s->delta_q[v] = 0.0;
+        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * S, s->delta_q + v, lost))
+            return OPEN_NUMBER;
+        if (!nearest(m->net + v, error * UP, *s->h, rho / S, s->net + v, lost))
+            return OPEN_NUMBER;
+    }
+    return DECIDED;
+}
+
+static int proved(Proof *s, Room *m)
+{
+    int lost = 0;
+    int64_t n = s->n_v, N = n + s->working;
+    s->counts[0] = s->counts[1] = 0;
+    load(s, m->g, &lost);
+    for (int64_t i = 0; i < n; i++)
+        m->r[i] = m->g[i];
+    system_of(s, m, &lost);
+    memcpy(m->copy, m->K, (size_t)(N * N) * sizeof(double));
+    if (lost)
+        return LOST;
+    if (!inverse(m->copy, m->R, N))
+        return SINGULAR;
+    for (int round = 0; round < ROUNDS; round++) {
+        double most = 0.0;
+        for (int64_t i = 0; i < N; i++) {
+            m->rest[i] = value(m->r + i);
+            most = fabs(m->rest[i]) > most ? fabs(m->rest[i]) : most;
+        }
+        if (most < ldexp(1.0, -REFINED))
+            break;
+        corrected(s, m, &lost);
+    }
+    for (int64_t i = 0; i < N; i++)
+        m->rest[i] = value(m->r + i) * UP;
+    defect(m->R, m->K, N, m->G);
+    if (lost)
+        return LOST;
+    if (!error_bounds(m->R, m->G, m->rest, N, m->e))
+        return OPEN_BOUND;
+    int code = rounded(s, m, &lost);
+    if (code == DECIDED)
+        code = slacks(s, m, &lost);
+    if (code == DECIDED && (s->counts[1] || !spanned(s, m->table, m->pivot)))
+        code = TO_BE_IMPLIED;
+    return lost ? LOST : code;
+}
+
+/* Whether the guess is proved to be a working set of the optimum: DECIDED, or why it is not. */
+int proof(Proof *s)
+{
+    size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
+    size_t numbers = 2 * n + k * n + 2 * N, doubles = 4 * N * N + 2 * N;
+    size_t integers = (k + 1) * width + k;
+    size_t bytes = numbers * sizeof(Number) + doubles * sizeof(double) + N * sizeof(Float)
+                 + integers * sizeof(int64_t) + n;
+    char *at = calloc(bytes, 1);
+    if (!at)
+        return NO_MEMORY;
+    Room m;
+    m.g = (Number *)at;
+    m.net = m.g + n;
+    m.A = m.net + n;
+    m.z = m.A + k * n;
+    m.r = m.z + N;
+    m.K = (double *)(m.r + N);
+    m.R = m.K + N * N;
+    m.G = m.R + N * N;
+    m.copy = m.G + N * N;
+    m.rest = m.copy + N * N;
+    m.e = m.rest + N;
+    m.change = (Float *)(m.e + N);
+    m.table = (int64_t *)(m.change + N);
+    m.pivot = m.table + (k + 1) * width;
+    m.rests = (char *)(m.pivot + k);
+    int code = proved(s, &m);
+    free(at);
+    return code;
+}

@@ -1,0 +1,150 @@
+/* Numbers of fixed point that are never rounded: whole multiples of 2^-672.
+
+   A Number is the sum of d[j] 2^(56 (j - 12)) over its digits from `low` to below `high`; digits
+   are from -2^55 to 2^55. A float64 has two digits. Products are collected in a Sum, whose digits
+   have room for 2^15 of them. Whatever would not fit, below the grid or beyond the last digit, is
+   noted in `lost`, and what was computed is then worth nothing. */
+
+#ifndef FIXED_POINT_H
+#define FIXED_POINT_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { BITS = 56, FRACTION = 12, DIGITS = 15 };
+
+typedef struct { int low, high; int64_t d[DIGITS]; } Number;
+typedef struct { int start; int64_t d[2]; } Float;
+typedef struct { __int128 d[DIGITS]; } Sum;
+
+/* The digits of a float64. What lies below 2^-grid is cut off where `cut` is set, else lost. */
+static inline Float digits_of(double x, int grid, int cut, int *lost)
+{
+    Float f = {0, {0, 0}};
+    if (x == 0.0)
+        return f;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    int exponent = (int)(bits >> 52 & 2047); /* x = +- m 2^(exponent - 1075) */
+    int64_t m = (int64_t)((bits & (((uint64_t)1 << 52) - 1)) | (uint64_t)1 << 52);
+    int place = exponent - 1075 + BITS * FRACTION; /* of m's last bit, above the grid of all */
+    int below = BITS * FRACTION - grid - place;
+    if (exponent == 0 || place >= BITS * (DIGITS - 2)) { /* subnormal, or too large, or no number */
+        *lost = 1;
+        return f;
+    }
+    if (below > 0) {
+        int64_t kept = below > 53 ? 0 : (m >> below) << below;
+        if (kept != m && !cut)
+            *lost = 1;
+        m = kept;
+        if (m == 0)
+            return f;
+        if (place < 0) { /* the last bits are zero now */
+            m >>= -place;
+            place = 0;
+        }
+    }
+    int shift = place % BITS;
+    int64_t low = (int64_t)(((uint64_t)m << shift) & (((uint64_t)1 << BITS) - 1));
+    int64_t high = shift ? m >> (BITS - shift) : 0;
+    f.start = place / BITS;
+    f.d[0] = x < 0.0 ? -low : low;
+    f.d[1] = x < 0.0 ? -high : high;
+    return f;
+}
+
+static inline Float exact(double x, int *lost) { return digits_of(x, BITS * FRACTION, 0, lost); }
+
+static inline void clear(Sum *sum) { memset(sum, 0, sizeof *sum); }
+
+static inline void add_float(Sum *sum, const Float *f, int sign)
+{
+    sum->d[f->start] += sign * f->d[0];
+    sum->d[f->start + 1] += sign * f->d[1];
+}
+
+static inline void add_number(Sum *sum, const Number *x, int sign)
+{
+    for (int j = x->low; j < x->high; j++)
+        sum->d[j] += sign * x->d[j];
+}
+
+static inline void add_product(Sum *sum, const Number *x, const Float *f, int sign, int *lost)
+{
+    if (!f->d[0] && !f->d[1])
+        return;
+    int by = f->start - FRACTION;
+    if (x->low + by >= 0 && x->high + by < DIGITS) {
+        int64_t low = sign * f->d[0], high = sign * f->d[1];
+        for (int j = x->low; j < x->high; j++) {
+            sum->d[j + by] += (__int128)x->d[j] * low;
+            sum->d[j + by + 1] += (__int128)x->d[j] * high;
+        }
+        return;
+    }
+    for (int j = x->low; j < x->high; j++)
+        for (int k = 0; k < 2; k++) {
+            if (!x->d[j] || !f->d[k])
+                continue;
+            if (j + by + k < 0 || j + by + k >= DIGITS)
+                *lost = 1;
+            else
+                sum->d[j + by + k] += (__int128)(sign * x->d[j]) * f->d[k];
+        }
+}
+
+static inline Number carried(const Sum *sum, int *lost)
+{
+    Number x = {0, 0, {0}};
+    __int128 carry = 0;
+    int any = 0;
+    for (int j = 0; j < DIGITS; j++) {
+        __int128 digit = sum->d[j] + carry;
+        carry = (digit + ((__int128)1 << (BITS - 1))) >> BITS;
+        x.d[j] = (int64_t)(digit - carry * ((__int128)1 << BITS));
+        if (x.d[j]) {
+            if (!any)
+                x.low = j;
+            any = 1;
+            x.high = j + 1;
+        }
+    }
+    if (carry)
+        *lost = 1;
+    return x;
+}
+
+static inline Number number_of(const Float *f)
+{
+    Sum sum;
+    int none = 0;
+    clear(&sum);
+    add_float(&sum, f, 1);
+    return carried(&sum, &none);
+}
+
+static inline Number product(const Number *x, const Float *f, int *lost)
+{
+    Sum sum;
+    clear(&sum);
+    add_product(&sum, x, f, 1, lost);
+    return carried(&sum, lost);
+}
+
+/* The value, to a relative 2^-50: the first digit is at least twice what follows. */
+static inline double value(const Number *x)
+{
+    static const double weight[DIGITS] = {
+        0x1p-672, 0x1p-616, 0x1p-560, 0x1p-504, 0x1p-448, 0x1p-392, 0x1p-336, 0x1p-280,
+        0x1p-224, 0x1p-168, 0x1p-112, 0x1p-56, 1.0, 0x1p56, 0x1p112,
+    };
+    int last = x->high - 4 > x->low ? x->high - 4 : x->low;
+    double sum = 0.0;
+    for (int j = x->high - 1; j >= last; j--)
+        sum = sum * 0x1p56 + (double)x->d[j];
+    return x->high > x->low ? sum * weight[last] : 0.0;
+}
+
+#endif

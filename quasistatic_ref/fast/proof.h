@@ -1,0 +1,68 @@
+/* What the files of a proof have in common. */
+
+#ifndef PROOF_H
+#define PROOF_H
+
+#include <stdint.h>
+
+#include "fixed_point.h"
+
+enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, NOT_PRESSED, NEGATIVE, TO_BE_IMPLIED };
+
+/* Bits to which the solution is refined, and of the grid of its corrections. */
+enum { REFINED = 160, GRID = 280, ROUNDS = 12 };
+
+#define UP (1 + 0x1p-40)   /* for the rounding of sums of non-negative float64 numbers */
+#define DOWN (1 - 0x1p-40)
+#define FLOOR 0x1p-250     /* a residual that is added, so that no bound is zero */
+#define NORMAL 0x1p-900    /* numbers beyond this have exact neighbours and multiples */
+
+/* One for one the fields of Proof in certificate.py. */
+typedef struct {
+    int64_t n_a, n_v, n_c, rows, working;
+    /* h; the units S, and {length, size}: powers of two. */
+    const double *h, *coordinate, *units;
+    const double *K_q, *M_u, *delta_q_bar_a, *tau_a, *tau_u;
+    const double *phi, *n, *d1, *d2, *J, *mu_v, *mu_omega;
+    /* The cone: four coefficients of each row; the same times one factor, as integers. */
+    const double *cone;
+    const int64_t *integers;
+    /* Of each row its contact and its number there; the guess. */
+    const int64_t *contact, *row, *guess;
+    /* h H: kept while H is the same. Room for Numbers. */
+    void *hessian;
+    double *hessian_values;
+    /* The answer, in SI units. */
+    double *delta_q, *lam, *net, *slack;
+    /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
+       many of both. */
+    int64_t *idle, *still, *counts;
+} Proof;
+
+/* What one proof computes. */
+typedef struct {
+    Number *g, *A, *z, *r, *net;
+    double *K, *R, *G, *rest, *e, *copy;
+    Float *change;
+    int64_t *table, *pivot;
+    char *rests;
+} Room;
+
+/* x in other units, `by` being a power of two. */
+static inline Float scaled(double x, double by, int *lost)
+{
+    double y = x * by;
+    if (x != 0.0 && !(fabs(y) > NORMAL && fabs(y) < 1 / NORMAL))
+        *lost = 1;
+    return exact(y, lost);
+}
+
+void load(const Proof *s, Number *g, int *lost);
+void system_of(const Proof *s, Room *m, int *lost);
+void corrected(const Proof *s, Room *m, int *lost);
+int inverse(double *a, double *R, int64_t n);
+void defect(const double *R, const double *K, int64_t n, double *G);
+int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
+int spanned(const Proof *s, int64_t *table, int64_t *pivot);
+
+#endif

@@ -1,0 +1,85 @@
+/* Tangents, J, A and b of contacts from their closest points: Eqs. (2)-(8). */
+
+#include "scene.h"
+
+/* contact/jacobian: tangents. */
+static void tangents(const double *n, double *d1, double *d2)
+{
+    int axis = fabs(n[1]) < fabs(n[0]) ? 1 : 0;
+    if (fabs(n[2]) < fabs(n[axis]))
+        axis = 2;
+    double length = sqrt(1 - n[axis] * n[axis]);
+    for (int i = 0; i < 3; i++)
+        d1[i] = ((i == axis ? 1.0 : 0.0) - n[axis] * n[i]) / length;
+    int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    d2[axis] = 0.0 / length; /* n x axis */
+    d2[next] = (n[last] + 0.0) / length;
+    d2[last] = (0.0 - n[next]) / length;
+}
+
+/* contact/jacobian: [nu; n'omega] of a body that all columns move, at the point r. */
+static void columns_at(const double *col, int64_t n_x, const double *r, const double *n, double *out)
+{
+    const double *w = col + 3 * n_x;
+    for (int64_t x = 0; x < n_x; x++) {
+        double w0 = w[x], w1 = w[n_x + x], w2 = w[2 * n_x + x];
+        out[x] = ADDED(-r[1], w2, ADDED(r[2], w1, col[x] + 0.0));
+        out[n_x + x] = ADDED(r[0], w2, ADDED(-r[2], w0, col[n_x + x] + 0.0));
+        out[2 * n_x + x] = ADDED(-r[0], w1, ADDED(r[1], w0, col[2 * n_x + x] + 0.0));
+        out[3 * n_x + x] = ADDED(n[2], w2, ADDED(n[1], w1, ADDED(n[0], w0, 0.0)));
+    }
+}
+
+/* contact/jacobian: J of one contact. Columns that mimic others are added to theirs. */
+static void jacobian(const Scene *s, const double *col, int64_t c, double *own, double *J)
+{
+    int64_t n_x = s->n_x, n_v = s->n_v;
+    double *of_alpha = own, *of_beta = own + 4 * n_x;
+    columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
+    columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
+    for (int64_t i = 0; s->mimics && i < 4 * n_v; i++)
+        J[i] = 0.0;
+    for (int i = 0; i < 4; i++) /* Eqs. (2)-(3) */
+        for (int64_t x = 0; x < n_x; x++) {
+            double f = s->moves_beta[c * n_x + x] * of_beta[i * n_x + x]
+                     - s->moves_alpha[c * n_x + x] * of_alpha[i * n_x + x];
+            double *entry = J + i * n_v + s->owner[x];
+            *entry = s->mimics ? *entry + f : f;
+        }
+}
+
+/* step/friction: frame_jacobian of one axis, times a coefficient of friction. */
+static void motion_along(const double *axis, const double *J, int64_t n_v, double mu, double *out)
+{
+    for (int64_t v = 0; v < n_v; v++)
+        out[v] = mu * ((axis[0] * J[v] + axis[1] * J[n_v + v]) + axis[2] * J[2 * n_v + v]);
+}
+
+/* The tangents, J, A and b of all contacts from their closest points. */
+void contact_rows(Scene *s)
+{
+    int64_t n_v = s->n_v, n_x = s->n_x, row = 0;
+    double *col = s->work, *own = col + 6 * n_x, *motion = own + 8 * n_x;
+    for (int64_t x = 0; x < n_x; x++)
+        for (int i = 0; i < 6; i++)
+            col[i * n_x + x] = s->column[x][i];
+    for (int64_t c = 0; c < s->n_c; c++) {
+        double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c, *J = s->J + 4 * n_v * c;
+        tangents(s->n + 3 * c, d1, d2);
+        jacobian(s, col, c, own, J);
+        motion_along(s->n + 3 * c, J, n_v, 1.0, motion);
+        motion_along(d1, J, n_v, s->mu_v[c], motion + n_v);
+        motion_along(d2, J, n_v, s->mu_v[c], motion + 2 * n_v);
+        for (int64_t v = 0; v < n_v; v++)
+            motion[3 * n_v + v] = s->mu_omega[c] * J[3 * n_v + v];
+        for (int64_t i = 0; i < s->rows[c]; i++, row++) { /* Eqs. (4)-(8) */
+            double *A = s->A + n_v * row;
+            for (int64_t v = 0; v < n_v; v++)
+                A[v] = motion[v];
+            for (int k = 0; k < 3; k++)
+                for (int64_t v = 0; s->has[3 * i + k] && v < n_v; v++)
+                    A[v] = A[v] + s->coefficient[3 * i + k] * motion[(k + 1) * n_v + v];
+            s->b[row] = -s->phi[c];
+        }
+    }
+}

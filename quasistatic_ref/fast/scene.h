@@ -1,0 +1,61 @@
+/* What the files of a step's data have in common.
+
+   Each function does what a Python function of the same task does, in the same order of operations,
+   so that the bits are the same; the comments name it. Products of matrices, which Python leaves to
+   BLAS, are sums from zero over rising indices: with one rounding for each product and sum
+   (-DFUSED), or with two. products.py finds out which of them NumPy has. */
+
+#ifndef SCENE_H
+#define SCENE_H
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+
+#if FLT_EVAL_METHOD != 0
+#error "float64 operations must be rounded to float64"
+#endif
+
+#ifdef FUSED
+#define ADDED(x, y, sum) fma(x, y, sum)
+#else
+#define ADDED(x, y, sum) ((sum) + (x) * (y))
+#endif
+
+enum { ROUNDED_BOX, HALF_SPACE, CYLINDER };
+
+/* One for one the fields of Scene in scene.py. */
+typedef struct {
+    int64_t pairs, n_c, n_v, n_x, links, mimics;
+    /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */
+    const double *const *R, *const *t, *const *column;
+    /* Of each pair: the two shapes' links and places on them (3 x 4), solid first. */
+    const int64_t *link_solid, *link_cloud;
+    const double *on_solid, *on_cloud;
+    /* The solid: its kind, and numbers that belong to the kind. */
+    const int64_t *kind;
+    const double *size; /* 4 of each: half extents and ball; normal and offset; radius, half length */
+    const double *sign; /* of the solid's normal in the contact's */
+    /* The short list: points x, y, z apart, their numbers, and the bounds of all others. */
+    const int64_t *first, *length, *index;
+    const double *x, *y, *z;
+    const int64_t *bounds;
+    const double *slope, *offset;
+    /* Where the contacts of the pair go, and how many. */
+    const int64_t *start, *count;
+    /* Of each column: the coordinate that it belongs to. */
+    const int64_t *owner;
+    /* Of each contact: which columns move its bodies, friction, number of rows. */
+    const double *moves_alpha, *moves_beta, *mu_v, *mu_omega;
+    const int64_t *rows;
+    /* The cone: coefficients of slip_1, slip_2, spin in each row, and which of them it has. */
+    const double *coefficient;
+    const int64_t *has;
+    /* Written at each step. */
+    double *world, *nearest; /* 24 for each pair; as many as the largest count */
+    int64_t *rank, *point;
+    double *phi, *n, *alpha, *beta, *d1, *d2, *J, *A, *b;
+    double *work; /* 14 n_x + 4 n_v */
+} Scene;
+
+#endif

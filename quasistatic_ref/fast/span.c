@@ -1,0 +1,70 @@
+/* Whether rows combine those of the working set by how the rows of a contact are combined. */
+
+#include "proof.h"
+
+/* Entries of the four generators of a contact's rows: gap, two slips, and a spin that contacts of
+   equal or opposite spins and one coefficient have in common. certify/dependence. */
+static void generators(const Proof *s, int64_t r, int64_t *x)
+{
+    int64_t c = s->contact[r], n_v = s->n_v, owner = c, sign = 1;
+    const int64_t *entry = s->integers + 4 * s->row[r];
+    for (int64_t i = 0; i < 4 * s->n_c; i++)
+        x[i] = 0;
+    x[3 * c] = entry[0];
+    x[3 * c + 1] = s->mu_v[c] != 0.0 ? entry[1] : 0;
+    x[3 * c + 2] = s->mu_v[c] != 0.0 ? entry[2] : 0;
+    if (s->mu_omega[c] == 0.0 || entry[3] == 0)
+        return;
+    const double *spin = s->J + n_v * (4 * c + 3);
+    for (int64_t d = 0; d < c && owner == c; d++) {
+        const double *other = s->J + n_v * (4 * d + 3);
+        int same = s->mu_omega[d] == s->mu_omega[c], opposite = same;
+        for (int64_t v = 0; v < n_v && (same || opposite); v++) {
+            same = same && spin[v] == other[v];
+            opposite = opposite && spin[v] == -other[v];
+        }
+        if (same || opposite) {
+            owner = d;
+            sign = same ? 1 : -1;
+        }
+    }
+    x[3 * s->n_c + owner] = sign * entry[3];
+}
+
+/* Whether the idle rows combine those of the working set, whatever J is; 0 also where integers
+   grow. */
+int spanned(const Proof *s, int64_t *table, int64_t *pivot)
+{
+    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0], *x = table + k * width;
+    if (!count)
+        return 1;
+    for (int64_t w = 0; w < k + count; w++) {
+        generators(s, w < k ? s->guess[w] : s->idle[w - k], x);
+        for (int64_t i = 0; i < (w < k ? w : k); i++) {
+            const int64_t *held = table + i * width;
+            int64_t a = x[pivot[i]], p = held[pivot[i]];
+            if (a == 0)
+                continue;
+            for (int64_t j = 0; j < width; j++) {
+                int64_t one, two;
+                if (__builtin_mul_overflow(x[j], p, &one) || __builtin_mul_overflow(held[j], a, &two)
+                    || __builtin_sub_overflow(one, two, x + j))
+                    return 0;
+            }
+        }
+        int64_t first = -1;
+        for (int64_t j = width - 1; j >= 0; j--)
+            if (x[j])
+                first = j;
+        if (w >= k && first >= 0)
+            return 0;
+        if (w < k) {
+            if (first < 0)
+                return 0;
+            for (int64_t j = 0; j < width; j++)
+                table[w * width + j] = x[j];
+            pivot[w] = first;
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,39 @@
+"""``run SCENARIO --sweep``: a grid of runs, one table and one trajectory a run."""
+
+import argparse
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.many import TABLE, simulate_many, swept_values
+from quasistatic_ref.lab.study.sweep import DONE
+from quasistatic_ref.simulate.settings import parsed
+
+MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
+"""What is printed of each run; the rest is in the table."""
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run all of them; those that are there are not run again. Status 1 if any was not done."""
+    if options.view or options.strict:
+        other = "--view" if options.view else "--strict"
+        raise InputError("is of one run; leave out --sweep", field=other)
+    fixed = (setting.partition("=") for setting in shared.scenario_settings(options))
+    variations = {key: [parsed(value)] for key, _, value in fixed}
+    variations |= dict(map(swept_values, options.sweeps))
+    rows = simulate_many(
+        options.scenario, variations, options.out,
+        workers=options.jobs, scheduler=options.scheduler, progress=not options.quiet,
+    )  # fmt: skip
+    failed = sum(row["outcome"] != DONE for row in rows)
+    if options.json:
+        shared.print_json({"runs": len(rows), "failed": failed, "store": str(options.out)})
+        return int(failed > 0)
+    swept = [name for name, values in variations.items() if len(values) > 1]
+    table: list[tuple[str, ...]] = [(*swept, "outcome", *MEASURES)]
+    for row in rows:
+        found = (row["measures"].get(name) for name in MEASURES)
+        cells = ("-" if v is None else f"{v:.4g}" for v in found)
+        table.append((*(f"{row['values'][name]}" for name in swept), row["outcome"], *cells))
+    shared.print_rows(table)
+    print(f"{len(rows)} runs, {failed} of which not done; wrote {options.out / TABLE}")
+    return int(failed > 0)

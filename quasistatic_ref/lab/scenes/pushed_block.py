@@ -1,0 +1,107 @@
+"""A block on one soft contact, pushed off its centre by a round finger: steps of six variables."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.systems import (
+    cloud_on,
+    joint_text,
+    link_text,
+    robot_text,
+    system_of,
+    world_plane,
+)
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array
+
+SIDE, HEIGHT, RADIUS = 0.1, 0.04, 0.01
+"""Of the block and of the finger [m]."""
+
+H, STIFFNESS, MU_V, MU_OMEGA, MU_FINGER = 0.01, 2000.0, 0.35, 0.012, 0.5
+"""Time step [s], of the finger [N/m]; friction of the support [-], [m] and of the finger [-]."""
+
+ASIDE, SPEED = 0.02, 0.02
+"""The finger's distance from the line through the centre of mass [m]; its speed [m/s]."""
+
+SMALL = (1e-4, 1e-4, 1e-4)
+BLOCK = robot_text(
+    link_text("ground", 1.0, SMALL), link_text("at_x", 1e-3, SMALL), link_text("at_y", 1e-3, SMALL),
+    link_text("at_z", 1e-3, SMALL),
+    link_text("block", 0.8, (1e-3, 1e-3, 1.3e-3), f'<box size="{SIDE} {SIDE} {HEIGHT}"/>'),
+    joint_text("x", "prismatic", "ground", "at_x"),
+    joint_text("y", "prismatic", "at_x", "at_y", "0 1 0"),
+    joint_text("z", "prismatic", "at_y", "at_z", "0 0 1"),
+    joint_text("turn", "continuous", "at_z", "block", "0 0 1"),
+)  # fmt: skip
+"""It stays level: x, y, z and a turn about z."""
+
+FINGER = robot_text(
+    link_text("rail", 1.0, SMALL), link_text("carriage", 0.1, SMALL),
+    link_text("finger", 0.1, SMALL, f'<sphere radius="{RADIUS}"/>'),
+    joint_text("along", "prismatic", "rail", "carriage"),
+    joint_text("across", "prismatic", "carriage", "finger", "0 1 0"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class PushedBlock:
+    """The simulator, and where the finger goes.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+        Where it starts.
+    """
+
+    simulator: Simulator
+    q: Array
+
+    def goal(self, k: int) -> Array:
+        """Target of the finger at the end of step k, from 0, shape (2,) [m]."""
+        goal: Array = self.q[:2] + np.array([SPEED * H * (k + 1), 0.0])
+        return goal
+
+    def run(self, steps: int) -> list[StepResult]:
+        """So many steps from the start."""
+        q, results = self.q, []
+        for k in range(steps):
+            results.append(self.simulator.step(q, self.goal(k)))
+            q = results[-1].q
+        return results
+
+
+def pushed_block(
+    certify: str = CERTIFY[0], engine: str | None = None, solver: str | None = None
+) -> PushedBlock:
+    """The scene at rest, the finger at the block's face.
+
+    Parameters
+    ----------
+    certify, engine, solver : str
+        As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    """
+    reach = -(SIDE / 2 + RADIUS)
+    system = system_of(
+        {"hand": FINGER, "block": BLOCK},
+        hand={"base": "fixed", "actuated": ["along", "across"], "xyz": (reach, ASIDE, HEIGHT / 2)},
+        block={"base": "fixed", "actuated": [], "xyz": (0.0, 0.0, HEIGHT / 2)},
+    )
+    shapes = {shape.link: shape for shape in system.shapes}
+    finger, block = (shapes[system.link(name)] for name in ("hand/finger", "block/block"))
+    foot = cloud_on(system, "block/block", [[0.0, 0.0, -HEIGHT / 2]])
+    pairs = [
+        ContactPair("support", world_plane(), foot, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("push", finger, block, MU_FINGER, 0.0, 4, 1),
+    ]
+    simulator = Simulator(
+        system, pairs, h=H, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
+        cone=ELLIPSOID, certify=certify, engine=engine, solver=solver,
+    )  # fmt: skip
+    return PushedBlock(simulator, system.q_start)

@@ -1,0 +1,82 @@
+"""What ``vectors challenge`` does, once its options are read."""
+
+import argparse
+import sys
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import json_read
+from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
+from quasistatic_ref.lab.vectors.challenge.live import asked_again, challenge
+from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
+from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.serve import served
+from quasistatic_ref.lab.vectors.check.verdict import DIGITS
+
+
+def challenged(options: argparse.Namespace) -> int:
+    """Serve, ask one case again, or challenge; the exit status.
+
+    Raises
+    ------
+    InputError
+        Of options that cannot be, and of a program that does not start.
+    """
+    if options.serve is not None:
+        served(sys.stdin, sys.stdout, options.serve)
+        return 0
+    if options.program is None:
+        raise InputError("is missing: the program that is challenged", field="--command")
+    for name in ("cases", "seconds", "timeout", "jobs", "digits"):
+        value = getattr(options, name)
+        if value is not None and not 0 < value < float("inf"):
+            raise InputError("must be positive", field=f"--{name}", value=value)
+    if options.seed < 0:
+        raise InputError("must be 0 or more", field="--seed", value=options.seed)
+    if options.digits is not None and options.digits > DIGITS:
+        raise InputError(f"must be at most {DIGITS:g}", field="--digits", value=options.digits)
+    program = Program(options.program, options.timeout)
+    if options.again is not None:
+        record = json_read(options.again)
+        if not isinstance(record, dict) or record.get("format") != FORMAT:
+            raise InputError("is no counterexample", file=options.again)
+        outcome = asked_again(program, record, options.digits)
+    else:
+        outcome = challenge(
+            program,
+            layers=options.layers,
+            cases=options.cases,
+            seconds=options.seconds,
+            seed=options.seed,
+            digits=options.digits,
+            jobs=options.jobs,
+            first=options.first,
+            say=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
+        )
+    _shown(outcome, options)
+    return outcome.status
+
+
+def _shown(outcome: Outcome, options: argparse.Namespace) -> None:
+    """Print what was found, and write its counterexamples."""
+    written = [] if options.again else [
+        finding.written(options.out, options.program) for finding in outcome.findings
+    ]  # fmt: skip
+    if options.json:
+        record = {
+            "implementation": outcome.implementation,
+            "asked": dict(outcome.asked),
+            "findings": [finding.record for finding in outcome.findings],
+        }
+        shared.print_json(record | {"remarks": outcome.remarks})
+        return
+    if not options.quiet or outcome.findings:
+        shared.print_rows(outcome.rows)
+    for finding in outcome.findings:
+        print(f"quasistatic-ref: {finding.title}", file=sys.stderr)
+        for sentence in finding.sentences:
+            print(f"    {sentence}", file=sys.stderr)
+    for remark in outcome.remarks:
+        print(f"quasistatic-ref: {remark}", file=sys.stderr)
+    for path in written:
+        print(path)

@@ -1,0 +1,91 @@
+"""What a challenge found: each by its mistake and field, with the smallest case that shows it."""
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from quasistatic_ref.files import text_written
+from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.step.show import aligned
+
+RECORD = "counterexample.json"
+FORMAT = "quasistatic-ref/counterexample"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that a program does wrong.
+
+    Parameters
+    ----------
+    layer : str
+    kind : str
+        ``wrong``, ``error``, ``crash``, ``hang``, ``garbage`` or ``stray``.
+    field : str
+        What fails first; empty if nothing was compared.
+    mistakes : tuple of str
+        Names of what explains it; none if nothing does.
+    sentences : tuple of str
+        What is right instead, for each.
+    reason : str
+        What was seen in the case.
+    case : dict
+        The smallest input that shows it.
+    expected, given : object
+        Outputs, side by side.
+    first : str
+        The id of the case in which it was found.
+    cases : int
+        In how many cases it was seen.
+    """
+
+    layer: str
+    kind: str
+    field: str
+    mistakes: tuple[str, ...]
+    sentences: tuple[str, ...]
+    reason: str
+    case: Json
+    expected: Json
+    given: Json
+    first: str
+    cases: int
+
+    @property
+    def name(self) -> str:
+        """Of its folder: the mistake or the field, e.g. ``rows_A_sign-of-b``."""
+        words = (self.layer, self.field or self.kind, *self.mistakes[:1])
+        return "_".join(re.sub(r"[^A-Za-z0-9]+", "-", word).strip("-") for word in words)
+
+    @property
+    def title(self) -> str:
+        """One line: the layer, the mistake, what was seen."""
+        looks = f"looks like {' or '.join(self.mistakes)}: " if self.mistakes else ""
+        times = "" if self.kind == "stray" else f", {self.cases} cases"
+        return f"{self.layer}: {looks}{self.reason} (first in {self.first}{times})"
+
+    @property
+    def record(self) -> dict[str, Json]:
+        """As it stands in JSON."""
+        return {
+            "format": FORMAT,
+            "version": 1,
+            **{key: getattr(self, key) for key in self.__dataclass_fields__},
+            "mistakes": list(self.mistakes),
+            "sentences": list(self.sentences),
+        }
+
+    def written(self, folder: Path, command: str) -> Path:
+        """Write its folder: the record, and a page with the line that runs it again."""
+        place = folder / self.name
+        text_written(place / RECORD, json.dumps(self.record, indent=1, allow_nan=True) + "\n")
+        again = f"quasistatic-ref vectors challenge --command {command!r} --again {place / RECORD}"
+        lines = [f"# {self.layer}: {', '.join(self.mistakes) or self.field or self.kind}", ""]
+        lines += [*self.sentences, "", f"Seen: {self.reason}. Again:", "", f"    {again}", ""]
+        lines += ["The input", "", f"    {json.dumps(self.case)}", ""]
+        if self.expected is not None and self.given is not None:
+            table = aligned(side_by_side(self.expected, self.given))
+            lines += ["Expected, and given", "", *(f"    {row}" for row in table), ""]
+        return text_written(place / "README.md", "\n".join(lines)).parent

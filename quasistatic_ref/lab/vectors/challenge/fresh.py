@@ -1,0 +1,219 @@
+"""A case of a layer for any seed: from the families of the vectors, easy ones first.
+
+Easy is one contact, few bodies and numbers of one digit; then come cases as the vectors have them,
+then those that are degenerate, badly scaled, or without solution.
+"""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_step
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
+from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
+from quasistatic_ref.lab.vectors.challenge.terms import terms
+from quasistatic_ref.lab.vectors.challenge.valid import is_valid
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families import rows as rows_family
+from quasistatic_ref.lab.vectors.families.distance import SHAPES, mixed_points
+from quasistatic_ref.lab.vectors.families.integrate import step_at_random
+from quasistatic_ref.lab.vectors.families.jacobian import with_contacts
+from quasistatic_ref.lab.vectors.families.mechanisms import (
+    few_digits,
+    follower,
+    free_body,
+    link,
+    random_pose,
+    random_tree,
+)
+from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
+from quasistatic_ref.lab.vectors.families.steps import program
+from quasistatic_ref.lab.vectors.families.wrench import CONES, random_loads
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.layers import step as step_layer
+from quasistatic_ref.step.data import Contacts
+
+EASY, PLAIN, HARD = 0, 1, 2
+"""How hard cases are: one contact and round numbers; as the vectors have them; corners."""
+TRIES: Final = 20
+"""Inputs that are drawn until one is valid; most are at once."""
+
+
+def fresh_case(name: str, seed: tuple[int, ...], level: int) -> tuple[Json, Json]:
+    """An input of a layer and what is expected of it: the same for the same seed.
+
+    Parameters
+    ----------
+    name : str
+        A layer.
+    seed : tuple of int
+    level : int
+        EASY, PLAIN or HARD.
+
+    Raises
+    ------
+    RuntimeError
+        If no draw gives a valid input.
+    """
+    for number in range(TRIES):
+        rng = np.random.default_rng([*seed, LAYERS.index(name), number])
+        case = MAKERS[name](rng, level)
+        if level == EASY:
+            case = rounded_case(name, case)
+        record = record_of(name, case)
+        if record is not None:
+            return case, record
+    raise RuntimeError(f"no case of the layer {name} in {TRIES} draws: its maker is at fault")
+
+
+def record_of(name: str, case: Json) -> Json | None:
+    """What is expected of an input; None if it is none, or if rounding decides its answer."""
+    if not is_valid(name, case):
+        return None
+    try:
+        step = name == "step"
+        found = step_layer.expected(case, terms) if step else layer(name).expected(case)
+    except (QuasistaticError, ArithmeticError, ValueError, IndexError, KeyError):
+        return None
+    record = found.json()
+    for tolerance in record["tolerance"].values():
+        tolerance["absolute"] *= MARGIN
+    output, flags = record["output"], record["flags"]
+    if name == "step" and (flags["tie"] or not _definite(output["H"])):
+        return None
+    beyond = max(map(abs, output.get("delta_q", [])), default=0.0) > FARTHEST
+    return None if beyond else record
+
+
+MARGIN: Final = 4.0
+"""Tolerances are so many times those of the vectors [-], each of which some programs have met."""
+FARTHEST: Final = 1e3
+"""A step of more [m, rad] is one of contacts that all but contradict each other: in float64 they
+do."""
+
+
+def _definite(H: Json) -> bool:
+    return not H or bool(np.linalg.eigvalsh(np.array(H)).min() > 0)
+
+
+def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
+    n_c = 1 if level == EASY else int(rng.integers(1, 5))
+    found = random_contacts(rng, n_c, n_v)
+    if level < HARD:
+        return found
+    kind = rng.integers(8)
+    changes = (
+        {"phi": np.zeros(n_c)},
+        {"phi": np.full(n_c, 1e3)},
+        {"mu_v": np.zeros(n_c)},
+        {"mu_omega": np.zeros(n_c)},
+        {"mu_v": np.full(n_c, 1e5)},
+        {"mu_v": np.full(n_c, 1e-9)},
+        {"phi": np.full(n_c, -1e-3)},
+        {},
+    )[kind]
+    return repeated(found, [0, *range(n_c - 1)] if kind == 7 else range(n_c), **changes)
+
+
+def _rows(rng: Rng, level: int) -> Json:
+    at = _contacts(rng, level, int(rng.integers(1, 3 if level == EASY else 9)))
+    return rows_family.rows_input(at, str(rng.choice(rows_family.CONES)))
+
+
+def _qp(rng: Rng, level: int) -> Json:
+    if level == HARD and rng.integers(4) == 0:
+        return program(aligned_grasp_step(rng, grip=int(rng.integers(2, 6)), floor=2))
+    n_a, n_u = (int(v) for v in rng.integers(0, 2 if level == EASY else 4, 2))
+    n_u += n_a + n_u == 0
+    if level == PLAIN and rng.integers(4) == 0:
+        at = _contacts(rng, PLAIN, n_a + n_u)
+        at = repeated(at, range(at.n_c), phi=abs(at.phi))
+        return program(random_step(rng, n_a, n_u, at, cone="ellipsoid"))
+    kind = int(rng.integers(3)) if level == HARD else -1  # one trouble at a time
+    ratio = 10.0 ** int(rng.integers(9)) if kind == 0 else 1.0
+    at = _contacts(rng, HARD if kind == 1 else min(level, PLAIN), n_a + n_u)
+    found = program(random_step(rng, n_a, n_u, at, ratio))
+    if kind == 2:  # a row and its opposite, that leave no room
+        found["A"].append([-x for x in found["A"][0]])
+        found["b"].append(-found["b"][0] + 1e-3)
+    return found
+
+
+def _wrench(rng: Rng, level: int) -> Json:
+    cone = "pyramid" if level == EASY else str(rng.choice(CONES))
+    case = random_loads(rng, 1 if level == EASY else int(rng.integers(1, 6)), cone)
+    return {**case, "h": float(rng.choice([0.01, 0.02, 0.005, 0.1]))}
+
+
+def _tree(rng: Rng, level: int) -> Json:
+    kinds = ("revolute", "prismatic", "continuous", "planar", "floating")
+    if level == EASY:
+        joint = str(rng.choice(kinds))
+        return {"bodies": [link("body", None, joint, actuated=bool(rng.integers(2)))]}
+    tree = random_tree(rng, int(rng.integers(1, 6)), str(rng.choice(["fixed", *kinds[3:]])))
+    if rng.integers(3) == 0:
+        joint = str(rng.choice(["revolute", "prismatic"]))
+        tree["bodies"] += follower(
+            joint, tree["bodies"][-1]["name"], actuated=bool(rng.integers(2))
+        )
+    if rng.integers(3) == 0:
+        tree["bodies"].append(free_body("other", actuated=bool(rng.integers(2))))
+    return tree
+
+
+def _jacobian(rng: Rng, level: int) -> Json:
+    return with_contacts(rng, _tree(rng, level), 1 if level == EASY else int(rng.integers(1, 4)))
+
+
+def _integrate(rng: Rng, level: int) -> Json:
+    size = (0.5, 0.5, 10.0 ** -int(rng.integers(9)))[level]
+    return step_at_random(rng, _tree(rng, level), size)
+
+
+def _selection(rng: Rng, level: int) -> Json:
+    size, k = int(rng.integers(2, (6, 20, 60)[level])), int(rng.integers(1, 6))
+    unit = (0.25, 1e-3, 2.0**-10)[level]
+    draw = rng.standard_normal if level == PLAIN else lambda n: rng.integers(-3, 4, n)
+    return {"phi": [(unit * draw(size)).tolist()], "k": k}
+
+
+def _shape(rng: Rng, kind: str) -> Json:
+    """A shape of the family, of other lengths."""
+    factor = float(rng.choice([0.5, 1.0, 2.0, 0.1]))
+    scaled = {"radius", "length", "offset", "size", "half_axes", "vertices"}
+    return {
+        key: np.multiply(factor, value).tolist() if key in scaled else value
+        for key, value in SHAPES[kind].items()
+    }
+
+
+def _distance(rng: Rng, level: int) -> Json:
+    easy = ("sphere", "halfspace", "box")
+    kinds = [str(kind) for kind in rng.choice(easy if level == EASY else list(SHAPES), 2)]
+    kinds = ["sphere" if kind == "halfspace" and i else kind for i, kind in enumerate(kinds)]
+    if level == EASY and kinds[0] == "box":
+        kinds[1] = "sphere"
+    sides = [_shape(rng, kind) for kind in kinds]
+    if level == HARD and rng.integers(4) == 0:
+        sides[1] = {"kind": "cloud", "points": mixed_points(rng, 5)}
+    sides = sides[:: 1 if rng.integers(2) else -1]
+    places = [random_pose(rng, 0.6) for _ in sides]
+    if level == HARD and rng.integers(4) == 0:
+        places = [{**place, "xyz": few_digits(1e4 * np.array(place["xyz"]))} for place in places]
+    named = zip(("alpha", "beta"), sides, places, strict=True)
+    return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
+
+
+MAKERS: Final[dict[str, Callable[[Rng, int], Json]]] = {
+    "distance": _distance,
+    "selection": _selection,
+    "jacobian": _jacobian,
+    "rows": _rows,
+    "qp": _qp,
+    "wrench": _wrench,
+    "integrate": _integrate,
+    "step": lambda rng, level: random_scene(rng, level == HARD),
+}

@@ -1,0 +1,119 @@
+"""Inputs that are simpler than one: fewer contacts and bodies, poses that are none, fewer digits.
+
+A move need not give a valid input: what is none is not asked.
+"""
+
+import copy
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.vectors.challenge.fewer import fewer_bodies, fewer_coordinates, fewer_parts
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, UPRIGHT
+
+KEPT: Final = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
+"""Fields whose numbers are no lengths, or that change together."""
+FRAME: Final = ("n", "d1", "d2")
+ONES: Final = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")
+Path = tuple[str | int, ...]
+
+
+def few(value: Json, digits: int) -> Json:
+    """All numbers of a value with so many significant digits."""
+    if isinstance(value, dict):
+        return {key: v if key in KEPT else few(v, digits) for key, v in value.items()}
+    if isinstance(value, list):
+        return [few(v, digits) for v in value]
+    return float(f"{value:.{digits}g}") + 0.0 if isinstance(value, float) else value
+
+
+def rounded_case(name: str, case: Json) -> Json:
+    """The same with numbers of one digit and frames along the axes; a whole step as it is."""
+    if name == "step":
+        return case  # rounded, what nearly touches would not
+    changed = few(case, 1)
+    for contact in changed.get("contacts", []):
+        contact |= axes_of(contact)
+    return changed
+
+
+def axes_of(contact: Json) -> Json:
+    """A frame along the axes, n along the nearest."""
+    n = np.array(contact["n"])
+    axis = int(np.abs(n).argmax())
+    along = np.sign(n[axis]) * np.eye(3)[axis]
+    d1 = np.eye(3)[int(np.abs(along).argmin())]
+    frame = zip(FRAME, (along, d1, np.cross(along, d1)), strict=True)
+    return {key: (value + 0.0).tolist() for key, value in frame}
+
+
+def simpler_poses(case: Json) -> Iterator[Json]:
+    """Each pose as that of the origin, or without its turn; each frame along the axes."""
+    for path, value in nodes(case):
+        if isinstance(value, dict) and "quaternion" in value:
+            if value != ORIGIN:
+                yield replaced(case, path, ORIGIN)
+                yield replaced(case, (*path, "quaternion"), UPRIGHT)
+        elif isinstance(value, dict) and set(FRAME) <= set(value):
+            frame = axes_of(value)
+            if any(frame[key] != value[key] for key in FRAME):
+                yield replaced(case, path, {**value, **frame})
+
+
+def simpler_fields(case: Json) -> Iterator[Json]:
+    """Numbers that are one, a paper's cone, and points that are at the origin."""
+    for path, value in nodes(case):
+        if path and path[-1] in ONES and value != 1.0:
+            yield replaced(case, path, 1.0)
+    if "cone" in case and case["cone"] != "pyramid":
+        yield {**case, "cone": "pyramid"}
+
+
+def simpler_numbers(case: Json) -> Iterator[Json]:
+    """All numbers, those of a list, or one: of few digits, or none."""
+    for digits in (1, 2, 3):
+        yield few(case, digits)
+    for path, value in nodes(case):
+        if path and path[-1] not in KEPT and not set(path) & set(FRAME):
+            if isinstance(value, list) and value and not isinstance(value[0], dict | str):
+                yield replaced(case, path, _none(value))
+                for digits in (1, 2, 3):
+                    yield replaced(case, path, few(value, digits))
+            elif isinstance(value, float) and value:
+                for other in (0.0, few(value, 1), few(value, 2), few(value, 3)):
+                    yield replaced(case, path, other)
+
+
+def _none(value: Json) -> Json:
+    return [_none(v) for v in value] if isinstance(value, list) else 0.0
+
+
+def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
+    """Every part of a case with its place, the whole before what is in it."""
+    yield path, value
+    inside = enumerate(value) if isinstance(value, list) else ()
+    for key, inner in value.items() if isinstance(value, dict) else inside:
+        yield from nodes(inner, (*path, key))
+
+
+def replaced(case: Json, path: Path, value: Json) -> Json:
+    """A copy with another value in one place."""
+    changed = copy.deepcopy(case)
+    inside = changed
+    for key in path[:-1]:
+        inside = inside[key]
+    inside[path[-1]] = copy.deepcopy(value)
+    return changed
+
+
+MOVES: Final[tuple[Callable[[Json], Iterator[Json]], ...]] = (
+    fewer_parts,
+    fewer_bodies,
+    fewer_coordinates,
+    simpler_poses,
+    simpler_fields,
+    simpler_numbers,
+)
+"""The greatest first."""

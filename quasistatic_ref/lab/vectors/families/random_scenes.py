@@ -1,0 +1,138 @@
+"""Random scenes of the layer `step`: mechanisms of every kind that nearly touch something.
+
+A ball on a body and a plane, or another ball, are put where the gap between them is small; centres
+of mass are not at origins, wrenches act on any body, and gravity is along any direction.
+"""
+
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.scenes.at_random import Rng
+from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.mechanisms import (
+    few_digits,
+    follower,
+    free_body,
+    link,
+    mass,
+    random_q,
+    random_quaternion,
+    random_tree,
+)
+from quasistatic_ref.lab.vectors.families.step_scenes import GRAVITY, on, scene
+from quasistatic_ref.lab.vectors.layers.step import shape_pose
+
+CONES: Final = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "frictionless")
+GAPS: Final = (0.0005, 0.0, -0.0005, 0.01)
+"""[m]"""
+
+
+def random_scene(rng: Rng, hard: bool) -> Json:
+    """The input of a case; a hard one has more bodies, or too little room."""
+    kind = rng.integers(5)
+    match kind:
+        case 0:
+            tree = [{**free_body("body0"), **mass(rng)}]
+        case 1:
+            stand = link("stand", None, "fixed")
+            joint, actuated = str(rng.choice(["prismatic", "revolute"])), bool(rng.integers(2))
+            tree = [stand, *(b | mass(rng) for b in follower(joint, "stand", actuated=actuated))]
+        case 2:
+            return _many_points(rng)
+        case _:
+            base = str(rng.choice(["fixed", "floating", "planar"]))
+            count = int(rng.integers(2, 5 if hard else 4))
+            tree = random_tree(rng, count, base, masses=True)["bodies"]
+            tree[-1]["joint"] = "revolute" if tree[-1]["joint"] == "fixed" else tree[-1]["joint"]
+    if kind != 0 and hard and rng.integers(2):
+        tree.append({**free_body("other"), **mass(rng)})
+    bodies = {"bodies": tree}
+    q, n_a = random_q(rng, bodies), mechanism(bodies).n_a
+    stiff = few_digits(rng.uniform(5, 500, n_a), 0)
+    n_q_a = sum(b.q.stop - b.q.start for b in mechanism(bodies).bodies if _drives(b.table))
+    case = scene(
+        tree,
+        {},
+        q,
+        pairs=[],
+        K_q=np.diag(stiff).tolist(),
+        q_bar_a=few_digits(np.array(q[:n_q_a]) + rng.uniform(-0.02, 0.02, n_q_a)),
+        cone=str(rng.choice(CONES)),
+        gravity=GRAVITY if rng.integers(2) else few_digits(rng.uniform(-10, 10, 3), 1),
+    )
+    pushed = [body["name"] for body in tree if "com" in body and rng.integers(3) == 0]
+    if pushed:
+        case["wrenches"] = [
+            {
+                "body": name,
+                "force": few_digits(rng.uniform(-3, 3, 3), 2),
+                "torque": few_digits(rng.uniform(-0.1, 0.1, 3), 3),
+            }
+            for name in pushed
+        ]
+    _touch(rng, case, tree[-1]["name"], hard)
+    return case
+
+
+def _drives(body: Json) -> bool:
+    return bool(body.get("actuated")) and body["joint"] != "fixed" and "mimic" not in body
+
+
+def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
+    friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
+    rows = int(rng.choice([4, 6, 6]))
+    pair = {"name": name, "alpha": alpha, "beta": beta, "mu_v": friction[0], "rows": rows, "k": k}
+    return {**pair, "mu_omega": friction[1]}
+
+
+def _plane(rng: Rng, through: list[float], depth: float) -> Json:
+    """A half-space whose surface is `depth` [m] below a point; its normal has any length."""
+    normal = np.array(few_digits(rng.uniform([-1.0, -1.0, -0.5], [1.0, 1.0, 1.5]), 2))
+    length = float(np.linalg.norm(normal))
+    offset = few_digits([normal @ np.array(through) - length * depth], 5)[0]
+    return {"kind": "halfspace", "normal": normal.tolist(), "offset": offset}
+
+
+def _touch(rng: Rng, case: Json, body: str, hard: bool) -> None:
+    """Put a ball on a body, and a plane or another ball where it nearly touches."""
+    radius = few_digits(rng.uniform(0.02, 0.08, 1), 3)[0]
+    ball = on(body, {"kind": "sphere", "radius": radius}, few_digits(rng.uniform(0, 0.1, 1))[0])
+    case["shapes"]["ball"] = ball
+    centre = shape_pose(mechanism(case["mechanism"]), case["q"], ball)["xyz"]
+    gap = float(rng.choice(GAPS))
+    if rng.integers(3):
+        case["shapes"]["floor"] = on(None, _plane(rng, centre, radius + gap))
+    else:
+        away = rng.uniform(-1, 1, 3)
+        away *= (radius + 0.05 + gap) / np.linalg.norm(away)
+        place = {"xyz": few_digits(centre - away, 5), "quaternion": random_quaternion(rng)}
+        case["shapes"]["floor"] = on(None, {"kind": "sphere", "radius": 0.05}) | {"pose": place}
+    alpha, beta = ("floor", "ball") if rng.integers(3) else ("ball", "floor")
+    case["pairs"].append(_pair(rng, "floor", alpha, beta))
+    if hard and rng.integers(3) == 0:
+        case["shapes"]["lid"] = on(None, _plane(rng, centre, radius + float(rng.choice(GAPS))))
+        case["pairs"].append(_pair(rng, "lid", "lid", "ball"))
+    if hard and rng.integers(6) == 0:  # the same plane from the other side, 2 mm too near
+        floor = case["shapes"]["floor"]["shape"]
+        if floor["kind"] == "halfspace":
+            length = float(np.linalg.norm(floor["normal"]))
+            normal = [-x for x in floor["normal"]]
+            shift = length * (2 * radius + gap - 0.002)
+            lid = {"kind": "halfspace", "normal": normal, "offset": -floor["offset"] - shift}
+            case["shapes"]["lid"] = on(None, lid)
+            case["pairs"] = [*case["pairs"][:1], _pair(rng, "lid", "lid", "ball")]
+
+
+def _many_points(rng: Rng) -> Json:
+    """A brick, or a body given by points, over a plane: the nearest are kept."""
+    body = {**free_body("body0"), **mass(rng)}
+    q = random_q(rng, {"bodies": [body]})
+    shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
+    if rng.integers(2):
+        points = [few_digits(point) for point in rng.uniform(-0.1, 0.1, (12, 3))]
+        shape = {"kind": "cloud", "points": points}
+    shapes = {"body": on("body0", shape), "floor": on(None, _plane(rng, q[:3], 0.08))}
+    pairs = [_pair(rng, "floor", "floor", "body", int(rng.integers(2, 5)))]
+    return scene([body], shapes, q, pairs=pairs)

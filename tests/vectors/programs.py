@@ -1,0 +1,106 @@
+"""Programs that are challenged: each a few lines of Python, that answer well or not."""
+
+import sys
+
+ANSWERS = """
+import json, sys
+def right(case):  # the layer selection
+    groups = case["input"]["phi"]
+    order = [sorted(range(len(phi)), key=lambda i: (phi[i], i)) for phi in groups]
+    return {"indices": [one[:case["input"]["k"]] for one in order]}
+def say(id, **what):
+    print(json.dumps({"id": id, **what}), flush=True)
+cases = map(json.loads, sys.stdin)
+"""
+
+PROGRAMS = {
+    "right": "for case in cases: say(case['id'], output=right(case))",
+    "declares": """
+print(json.dumps({"protocol": 1, "implementation": "mine 3", "layers": ["selection"]}), flush=True)
+for case in cases: say(case["id"], output=right(case))
+""",
+    "wrong": "for case in cases: say(case['id'], output={'indices': [[0]]})",
+    "crashes": """
+for number, case in enumerate(cases):
+    if number % 4 == 3: raise SystemExit("out of memory, or so")
+    say(case["id"], output=right(case))
+""",
+    "is killed": """
+import os, signal
+for number, case in enumerate(cases):
+    if number % 4 == 3: os.kill(os.getpid(), signal.SIGSEGV)
+    say(case["id"], output=right(case))
+""",
+    "hangs": """
+import time
+for number, case in enumerate(cases):
+    if number == 3: time.sleep(100)
+    say(case["id"], output=right(case))
+""",
+    "does not flush": """
+sys.stdout = open(1, "w", buffering=65536)
+for case in cases: print(json.dumps({"id": case["id"], "output": right(case)}))
+""",
+    "prints garbage": """
+for number, case in enumerate(cases):
+    if number % 3 == 2: print("NaN detected, resetting", flush=True)
+    say(case["id"], output=right(case))
+""",
+    "prints nothing else": """
+while True: print("hello")
+""",
+    "prints a line without end": """
+sys.stdin.readline()
+while True: sys.stdout.write("x" * 65536)
+""",
+    "answers twice": """
+for case in cases:
+    say(case["id"], output=right(case))
+    say(case["id"], output=right(case))
+""",
+    "answers late": """
+import time
+before = None
+for number, case in enumerate(cases):
+    if number == 1: before = case; continue
+    if before: say(before["id"], output=right(before)); before = None
+    say(case["id"], output=right(case))
+""",
+    "answers out of order": """
+cases = list(map(json.loads, [sys.stdin.readline()]))
+say("selection/another", output=right(cases[0]))
+say(cases[0]["id"], output=right(cases[0]))
+for case in map(json.loads, sys.stdin): say(case["id"], output=right(case))
+""",
+    "floods its standard error": """
+for case in cases:
+    sys.stderr.write("warning: tolerance not reached\\n" * 20000)
+    say(case["id"], output=right(case))
+""",
+    "does not read": """
+import time
+time.sleep(100)
+""",
+    "refuses": "for case in cases: say(case['id'], error='not today')",
+    "supports nothing": "for case in cases: say(case['id'], unsupported=True)",
+    "answers neither": "for case in cases: say(case['id'], answer=right(case))",
+    "declares nonsense": """
+print(json.dumps({"protocol": 1, "tangent": "sideways"}), flush=True)
+for case in cases: say(case["id"], output=right(case))
+""",
+    "ends at once": "raise SystemExit('licence expired')",
+    "starts another": """
+import subprocess
+child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+for number, case in enumerate(cases):
+    if number == 3: import time; time.sleep(100)
+    say(case["id"], output=right(case))
+""",
+}
+
+
+def command(name, folder):
+    """The command of one of them."""
+    path = folder / "program.py"
+    path.write_text(ANSWERS + PROGRAMS[name])
+    return f"{sys.executable} {path}"
