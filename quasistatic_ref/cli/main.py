@@ -50,7 +50,7 @@ class Parser(argparse.ArgumentParser):
             hint = suggestion(unknown[1], re.findall(r"\w+", choices))
         elif unknown := re.search(r"unrecognized arguments: --([\w-]+)(?: ([^\s=]+)(?!\S))?", said):
             hint = nearest_name(f"--{unknown[1]}", self._option_string_actions)
-            if "'--set'" in hint and unknown[2]:  # --steps 5
+            if unknown[2] and "--set" in self._option_string_actions and _is_field(unknown[1]):
                 hint = f"; did you mean '--set {unknown[1]}={unknown[2]}'?"
         elif unknown := re.search(r"unrecognized arguments: ([\w.]+=\S+)", message):
             hint = f"; did you mean '--set {unknown[1]}'?"
@@ -62,6 +62,12 @@ class Parser(argparse.ArgumentParser):
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return found, unknown
+
+
+def _is_field(name: str) -> bool:
+    """Whether it is a field of scenarios, as of --steps 5."""
+    tables = import_module("quasistatic_ref.simulate.scenario_table")
+    return name in tables.TABLES[tables.TOP]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
