@@ -13,7 +13,13 @@ MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run all of them; those that are there are not run again. Status 1 if any was not done."""
+    """Run all of them; those that are there are not run again. Status 1 if any was not done.
+
+    Raises
+    ------
+    InputError
+        If an option is of one run alone, or a sweep is none.
+    """
     if options.view or options.strict:
         other = "--view" if options.view else "--strict"
         raise InputError("is of one run; leave out --sweep", field=other)

@@ -28,7 +28,10 @@ STILL = 1e-9
 
 
 def least_mu_omega(mu_v: Array) -> Array:
-    """The least mu_omega [m] that holds the bar, by (R21); infinite where no torsion does."""
+    """The least mu_omega (N,) [m] that holds the bar at mu_v (N,), shape (N,); infinite where none.
+
+    By (R21).
+    """
     left = N - M * GRAVITY / (2 * mu_v)  # what the squeeze leaves for torsion
     return np.divide(M * GRAVITY * D / 2, left, out=np.full_like(left, np.inf), where=left > 0)
 

@@ -81,6 +81,11 @@ def simulate_many(
 def swept_values(text: str) -> tuple[str, list[float | str]]:
     """Field and values of ``FIELD=FIRST:LAST:COUNT`` or ``FIELD=VALUE,VALUE,...``.
 
+    Raises
+    ------
+    InputError
+        If it reads otherwise.
+
     Examples
     --------
     >>> swept_values("contacts.grip.mu_omega=0:0.04:5")
