@@ -235,7 +235,6 @@ MEANT = {
         "; 45 degrees",
         "d of 0, 5, 20 and 50 mm",
         "a patch of 5 mm",
-        "not its own gap but 16 times",
     ],
     "docs/conventions.md": [
         "more by 0.1 %",
