@@ -88,6 +88,7 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
 
     Examples
     --------
+    >>> from quasistatic_ref.lab.study.many import swept_values
     >>> swept_values("contacts.grip.mu_omega=0:0.04:5")
     ('contacts.grip.mu_omega', [0.0, 0.01, 0.02, 0.03, 0.04])
     >>> swept_values("cone=pyramid,product")
