@@ -51,8 +51,7 @@ PAGE = """# What an installation holds, and that it works
 
 Written by `python -m validation.check_installs --out validation/results/installs.md`. Each line is
 a fresh environment that holds the wheel with one extra (`base`: none), its size that of the whole
-environment, pip included. The largest parts are packages; lines that name `cmeel.prefix` are older,
-and theirs are folders. The commands are those of `validation/installs.py` when the line was
+environment, pip included. The commands are those of `validation/installs.py` when the line was
 written; the times are those of one machine with 2 cores that were busy otherwise. What has no line
 was not tried.
 
