@@ -178,6 +178,11 @@ RESULTS = (
         ("validation/results/hostile_steps.md",),
     ),
     Result(
+        "mutations",
+        ("validation.mutations", "--stale"),
+        ("validation/results/mutations.md",),
+    ),
+    Result(
         "bench",
         (CLI, "bench", "--out", "validation/benchmarks"),
         ("validation/benchmarks",),

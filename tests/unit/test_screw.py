@@ -17,7 +17,7 @@ CONTINUOUS = Joint("wheel", "continuous", False, slice(1, 3), slice(1, 2))
 
 
 def screw(v, w):
-    """exp of the 4 x 4 matrix of a twist: its rotation matrix and its translation."""
+    """The exponential of the 4 x 4 matrix of a twist: its rotation matrix and its translation."""
     x, y, z = w
     with mpmath.workdps(40):
         twist = [[0, -z, y, v[0]], [z, 0, -x, v[1]], [-y, x, 0, v[2]], [0, 0, 0, 0]]
