@@ -68,7 +68,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 26
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 28
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -150,6 +150,14 @@ def test_the_cloud_is_as_high_as_its_lowest_point_and_phi_is_predicted_to_first_
 def test_the_first_slip_is_shorter_than_coulomb_s_and_the_last_is_coulomb_s():
     # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
     pairs("coulomb_against_convex_slip", atol=0.0, rtol=ROUNDING)
+
+
+def test_J_of_two_moving_bodies_is_beta_s_less_alpha_s():
+    pairs("two_moving_bodies", atol=ROUNDING)
+
+
+def test_a_free_body_falls_without_a_turn_by_the_coupling_of_M_u():
+    pairs("mass_of_a_free_body", atol=ROUNDING)
 
 
 def test_a_twist_leads_along_an_arc():

@@ -13,6 +13,8 @@ EXAMPLES: Final = (
     "finger_spring_block",
     "the_step_loop",
     "phi_and_j_of_a_cloud",
+    "two_moving_bodies",
+    "mass_of_a_free_body",
     "a_screw",
     "block_on_an_incline",
     "pushed_block",
