@@ -263,6 +263,10 @@ MEANT = {
     "docs/lecture.md": [
         "$K_q$ = 500 N/m whose target is 4 mm ahead, and 1 mm ahead",
         "$\\delta q_a = \\phi$ = 1 mm, and $N = K_q(\\delta\\bar q_a - \\phi)$ = 500 N/m x 3 mm",
+        "$\\delta\\bar q_a$ = 4 mm is how far",
+        "Take a ball of 10 mm",
+        "on its face x = -50 mm",
+        "opening by 1 mm moves each finger 0.5 mm away",
         "A wheel of radius r = 50 mm",
         "With h = 10 ms instead",
     ],
