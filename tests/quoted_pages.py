@@ -71,7 +71,8 @@ QUOTED = {
         ("each finger presses with {:.1f} N, the gripper rises at {:.0f} mm/s",
          lambda: [of.pressed(), 40 / 2.2]),
         ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass (towards its "
-         "tail, along the world's +x; it looks to -x); each finger comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
+         "tail, along the world's +x; it looks to -x); each finger "
+         "comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
          "behind it",
          lambda: of.levers()[:3]),
         ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
@@ -121,8 +122,9 @@ QUOTED = {
         ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
          "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),
         ("tau_n over the vertical force is {:.0f} mm", lambda: [of.levers()[4]]),
-        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model asks m v / h = {:.2f} N "
-         "besides the {:.2f} N of the weight", lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
+        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model asks "
+         "m v / h = {:.2f} N besides the {:.2f} N of the weight",
+         lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
         ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
         ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
         ("here from {:.1f} times the threshold on",  # (R7) and (R8) at 20 degrees, mu_v = 0.5
