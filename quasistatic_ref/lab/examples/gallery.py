@@ -9,6 +9,7 @@ EXAMPLES: Final = (
     "block_on_a_table",
     "six_rows_of_a_contact",
     "cone_surfaces",
+    "section_of_a_cone",
     "contact_geometry",
     "finger_spring_block",
     "the_step_loop",
