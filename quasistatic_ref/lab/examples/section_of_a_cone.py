@@ -1,4 +1,4 @@
-"""A section of three friction cones: how much torque a contact bears beside a sideways force.
+"""A section of three friction cones: the torque that a contact bears with a sideways force.
 
 At a normal force of 1 N and f_2 = 0: the octahedron of the six rows is a square on its corner here,
 for f_1 and the torque share the normal force, (R9); the ellipsoid is a circle; in the product each
@@ -43,14 +43,14 @@ def holds(f_1: float, tau_n: float, cone: str, mu_v: float, mu_omega: float) -> 
 
 
 def main() -> Numbers:
-    """The largest torque beside half of the largest force, each followed by its formula."""
+    """The largest torque with half of the largest force, each followed by its formula."""
     formulas = {"pyramid": 1 - 0.5, "ellipsoid": float(np.sqrt(1 - 0.5**2)), "product": 1.0}
     found: Numbers = {}
     for cone, formula in formulas.items():
         limit = threshold(
             lambda tau, cone=cone: not holds(0.5, tau, cone, MU_V, MU_OMEGA), 0.1, 1.5, PRECISION
         )
-        found[f"torque beside half of the force, {cone} [-]"] = limit
+        found[f"torque with half of the force, {cone} [-]"] = limit
         found[f"by its section, {cone} [-]"] = formula
     return found
 
