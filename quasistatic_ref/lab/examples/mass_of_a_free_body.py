@@ -98,7 +98,8 @@ def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEP
         at = system.kinematics(q)
         R, t = at.R[link], at.t[link]
         ends.append(np.array([t, t + R @ (2 * c)]))
-        q = system.integrate(q, h**2 * np.linalg.solve(M_u, weight(M, c, R)))
+        free = np.linalg.solve(M_u, weight(M, c, R))
+        q = system.integrate(q, np.asarray(h**2 * free, dtype=np.float64))
     return ends
 
 

@@ -42,15 +42,28 @@ def holds(f_1: float, tau_n: float, cone: str, mu_v: float, mu_omega: float) -> 
     return bool(np.abs(solve_step(step.replace(cone=cone)).delta_q).max() < STILL)
 
 
+def largest_torque(f_1: float, cone: str) -> float:
+    """The torque over mu_omega f_n [-] from which on a sphere slips, by bisection on steps.
+
+    Parameters
+    ----------
+    f_1 : float
+        Over mu_v f_n [-].
+    cone : str
+    """
+
+    def slips(tau_n: float) -> bool:
+        return not holds(f_1, tau_n, cone, MU_V, MU_OMEGA)
+
+    return threshold(slips, 0.1, 1.5, PRECISION)
+
+
 def main() -> Numbers:
     """The largest torque with half of the largest force, each followed by its formula."""
     formulas = {"pyramid": 1 - 0.5, "ellipsoid": float(np.sqrt(1 - 0.5**2)), "product": 1.0}
     found: Numbers = {}
     for cone, formula in formulas.items():
-        limit = threshold(
-            lambda tau, cone=cone: not holds(0.5, tau, cone, MU_V, MU_OMEGA), 0.1, 1.5, PRECISION
-        )
-        found[f"torque with half of the force, {cone} [-]"] = limit
+        found[f"torque with half of the force, {cone} [-]"] = largest_torque(0.5, cone)
         found[f"by its section, {cone} [-]"] = formula
     return found
 
