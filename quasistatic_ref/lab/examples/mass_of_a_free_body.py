@@ -26,7 +26,7 @@ M, LENGTH, TILT, H, STEPS = 0.5, 0.2, 20.0, 0.02, 9
 
 
 def rod(length: float = LENGTH, tilt: float = TILT) -> tuple[System, Array, Array, Array]:
-    """A rod along its x, whose origin is at its end: system, q, c [m], inertia about c [kg m^2].
+    """A rod along its x, whose origin is at its end.
 
     Parameters
     ----------
@@ -34,6 +34,11 @@ def rod(length: float = LENGTH, tilt: float = TILT) -> tuple[System, Array, Arra
         [m].
     tilt : float
         Of its x below the horizontal [deg].
+
+    Returns
+    -------
+    tuple of System and ndarray, shapes (n_q,), (3,), (3, 3)
+        The system and q; centre of mass in the rod's frame [m], inertia about it [kg m^2].
     """
     inertia, c = M * length**2 / 12 * np.array([1e-3, 1, 1]), np.array([length / 2, 0, 0])
     system = system_of({"rod": body_text(M, inertia, com=c)})
