@@ -68,8 +68,11 @@ QUOTED = {
     ],
     "docs/quickstart.md": [
         ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
-        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass; "
-         "each finger comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
+        ("each finger presses with {:.1f} N, the gripper rises at {:.0f} mm/s",
+         lambda: [of.pressed(), 40 / 2.2]),
+        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass (towards its "
+         "tail, along the world's +x; it looks to -x); each finger "
+         "comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
          "behind it",
          lambda: of.levers()[:3]),
         ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
@@ -81,8 +84,11 @@ QUOTED = {
         ("the origin of the bunny's frame, {:.0f} mm below its centre of mass",
          lambda: [of.levers()[3]]),
         ("a foot stays on the floor until t = {:.2f} s", lambda: [of.foot_on_the_floor()]),
-        ("During the lift this drag is {:.2f} N, {:.1f} % of the friction that the grip can bear; "
-         "at most it is {:.1f} %", lambda: [of.drag()[0], *(100 * of.drag()[i] for i in (2, 3))]),
+        ("weighted by the load, is 2/3 r where the pressure is even, and 3 pi / 16 r = {:.2f} r",
+         lambda: [3 * math.pi / 16]),
+        ("During the lift this drag is {:.2f} N, {:.1f} % of the friction that the grip can bear, "
+         "2 x 0.6 x {:.1f} N; at most it is {:.1f} %",
+         lambda: [of.drag()[0], 100 * of.drag()[2], of.pressed(), 100 * of.drag()[3]]),
         ("Above {:.0f} % a run warns", lambda: [100 * SLOW]),
         ("its angle, {:.2f} degrees,", lambda: [of.since_the_start()]),
     ],
@@ -116,8 +122,9 @@ QUOTED = {
         ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
          "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),
         ("tau_n over the vertical force is {:.0f} mm", lambda: [of.levers()[4]]),
-        ("the fingers lift the bunny at {:.0f} mm/s, for which the model asks m v / h = {:.2f} N "
-         "besides the {:.2f} N of the weight", lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
+        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model asks "
+         "m v / h = {:.2f} N besides the {:.2f} N of the weight",
+         lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
         ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
         ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
         ("here from {:.1f} times the threshold on",  # (R7) and (R8) at 20 degrees, mu_v = 0.5
@@ -247,7 +254,9 @@ MEANT = {
         "with h = 10 ms",
         "with h = 1 ms",
         "with h = 5 ms",
-        "mu_omega = 20 mm",
+        "with mu_v = 0.5 and mu_omega = 20 mm press with 5 N",
+        "50 mm from its centre of mass, with mu_v = 0.5 and mu_omega = 20 mm:",
+        "its point r = (30, -20, -10) mm",
         "Use 1, 2 and 4 mm",
         "the rotation for 2 mm",
     ],
@@ -263,6 +272,10 @@ MEANT = {
     "docs/lecture.md": [
         "$K_q$ = 500 N/m whose target is 4 mm ahead, and 1 mm ahead",
         "$\\delta q_a = \\phi$ = 1 mm, and $N = K_q(\\delta\\bar q_a - \\phi)$ = 500 N/m x 3 mm",
+        "$\\delta\\bar q_a$ = 4 mm is how far",
+        "Take a ball of 10 mm",
+        "on its face x = -50 mm",
+        "opening by 1 mm moves each finger 0.5 mm away",
         "A wheel of radius r = 50 mm",
         "With h = 10 ms instead",
     ],
@@ -272,6 +285,7 @@ MEANT = {
         "0.5 times the normal force",
         "r = 12 mm",
         "the gripper rises by 40 mm",
+        "and a step is h = 10 ms",
         "the one with 3 mm",
     ],
     "docs/studies.md": [

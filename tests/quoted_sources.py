@@ -61,6 +61,12 @@ def levers():
     return 1e3 * np.array([middle, *points, c[2], np.abs(wrench[loaded, 3]).sum() / up])
 
 
+def pressed():
+    """With how much each finger presses at step 137 [N]: their mean."""
+    _, run = grasp("with torsion")
+    return run["wrench"][LIFTING][run["rows"] == 6, 2].sum() / 2
+
+
 def weight_alone():
     """mu_omega [mm] that (R9) asks for where step 137's load is that of the weight alone."""
     _, run = grasp("with torsion")

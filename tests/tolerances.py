@@ -9,7 +9,7 @@ ROUNDING: Final = 1e-12
 """The same finite sum of at most some hundred terms of size one, added up in another order."""
 
 OPTIMUM: Final = 1e-6
-"""Agreement of any backend with the truth in the one definition of error (issue 2)."""
+"""Agreement of any backend with the truth in the one definition of error."""
 
 ACTIVE_SET: Final = 1e-9
 """Agreement of two solves by an active-set method at 1e-12: conditioning costs three digits."""
@@ -52,8 +52,8 @@ ENCLOSED: Final = 1e-13
 """Error of an enclosed answer, in the one definition: what the package itself promises."""
 
 SIGNED_DISTANCE: Final = 1e-12
-"""Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre
-(issue 2): some ten operations, each of 1e-16."""
+"""Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre:
+some ten operations, each of 1e-16."""
 
 NORMAL_NEAR_AXIS: Final = 1e-9
 """Normals [-] of points as near as 1e-3 to where the normal turns: 1e-12 m over that distance."""

@@ -1,4 +1,4 @@
-"""Lecture 3: phi and J of a cloud
+"""Lecture 3: phi and J of a cloud, of two bodies, and the mass matrix
 
 A body known by points touches the floor z = 0. Its twist is along and about its own axes.
 """
@@ -21,6 +21,8 @@ PAIR = qr.ContactPair("floor", FLOOR, CLOUD, mu_v=0.5, mu_omega=0.0, rows=4, k=5
 SIMULATOR = qr.Simulator(SYSTEM, [PAIR], h=0.01, K_q=np.zeros((0, 0)))
 FOUND = SIMULATOR.step(SYSTEM.q_start, np.zeros(0)).step.contacts
 NUMBERS = [int(name.rsplit("/", 1)[1]) for name in FOUND.name]
+SCENE = qr.load_scenario("bunny_grasp", ["steps=1"])  # its palm's axes are the world's
+GRASP = SCENE.run(progress=False).step_data(0)
 
 # %% task
 """phi of every point [m], for a body with the orientation R whose origin is at T."""
@@ -79,6 +81,47 @@ check(
         np.allclose(jacobian(POINTS[k], R, np.array([0, 0, 1.0])), J, atol=1e-12)
         for k, J in zip(NUMBERS, FOUND.J, strict=True)
     ),
+)
+
+# %% task
+"""The grasp's coordinates are the palm's twist, the width, the bunny's twist. The width is the
+opening of the fingers along y: each goes by half of it, the left one to +y. Its column in J for a
+contact of the left finger, then of the right one, shape (2, 4). Fingers are alpha's bodies."""
+WIDTH = np.zeros((2, 4))
+
+# %% answer
+WIDTH = np.array([[0, -0.5, 0, 0], [0, 0.5, 0, 0]])
+
+# %% check
+check("two bodies", lambda: np.allclose(GRASP.contacts.J[[5, 10], :, 6], WIDTH, atol=1e-12))
+
+# %% task
+"""M_u of a free body of mass m [kg], with its centre of mass at c in its frame [m] and its inertia
+about this [kg m^2], shape (6, 6)."""
+
+
+def mass_matrix(m, c, inertia):
+    return np.eye(6)
+
+
+# %% answer
+def mass_matrix(m, c, inertia):
+    C = np.cross(np.eye(3), c).T  # omega x c = C omega
+    return np.block([[m * np.eye(3), m * C], [m * C.T, inertia + m * C.T @ C]])
+
+
+# %% check
+MASS, C_OF_MASS = 0.2, np.array([-0.00367084888, -0.0125927824, 0.052680309])  # bunny.urdf
+INERTIA = 1e-6 * np.array(
+    [
+        [251.967737, -3.83968262, 79.9697697],
+        [-3.83968262, 416.239415, -2.71989227],
+        [79.9697697, -2.71989227, 321.749049],
+    ]
+)
+check(
+    "M_u",
+    lambda: np.allclose(mass_matrix(MASS, C_OF_MASS, INERTIA), GRASP.M_u, rtol=0, atol=1e-12),
 )
 
 # %% task

@@ -19,6 +19,7 @@ from quasistatic_ref.lab.examples import (
     grasp_against_mu_omega,
     grasp_rotation,
     hold_or_slip,
+    section_of_a_cone,
     solver_digits,
 )
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
@@ -68,7 +69,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 26
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 29
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -105,6 +106,10 @@ def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
     found = numbers("cone_surfaces")
     expected = [4 / 3, 2 * 2, 4 / 3 * np.pi]  # base 2, height 2 for the prism
     np.testing.assert_allclose(list(found.values()), expected, rtol=ROUNDING)
+
+
+def test_torque_and_force_share_the_normal_force_as_the_section_of_each_cone_says():
+    pairs("section_of_a_cone", atol=2 * section_of_a_cone.PRECISION)
 
 
 def test_the_drawn_contact_is_that_of_the_definitions():
@@ -150,6 +155,14 @@ def test_the_cloud_is_as_high_as_its_lowest_point_and_phi_is_predicted_to_first_
 def test_the_first_slip_is_shorter_than_coulomb_s_and_the_last_is_coulomb_s():
     # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
     pairs("coulomb_against_convex_slip", atol=0.0, rtol=ROUNDING)
+
+
+def test_J_of_two_moving_bodies_is_beta_s_less_alpha_s():
+    pairs("two_moving_bodies", atol=ROUNDING)
+
+
+def test_a_free_body_falls_without_a_turn_by_the_coupling_of_M_u():
+    pairs("mass_of_a_free_body", atol=ROUNDING)
 
 
 def test_a_twist_leads_along_an_arc():

@@ -167,6 +167,7 @@ def test_a_style_is_a_file_that_pyplot_reads(name):
     with plt.style.context(style_file(name)):
         cycle = plt.rcParams["axes.prop_cycle"].by_key()
         assert plt.rcParams["pdf.fonttype"] == 42  # outlines that journals accept
+        assert plt.rcParams["svg.fonttype"] == "none"  # text as text
     assert len(cycle["color"]) == len(set(map(str, cycle["linestyle"]))) == 6
 
 
