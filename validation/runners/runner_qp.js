@@ -77,7 +77,7 @@ function nonnegativeLeastSquares(E, f) {
     const r = E.reduce((rest, c, j) => (y[j] ? sub(rest, scale(c, y[j])) : rest), f);
     const gradient = E.map((c, j) => (passive.includes(j) ? -Infinity : dot(c, r)));
     const entering = gradient.indexOf(Math.max(...gradient));
-    if (!E.length || gradient[entering] <= 1e-11) break;
+    if (!E.length || gradient[entering] <= 1e-14) break;
     passive.push(entering);
     let z;
     for (;;) {
@@ -87,7 +87,8 @@ function nonnegativeLeastSquares(E, f) {
         return [y, passive];
       }
       if (z.every((x) => x > 0)) break;
-      const ratio = z.map((x, i) => (x <= 0 ? y[passive[i]] / (y[passive[i]] - x) : Infinity));
+      // Where both are 0, as of a column that depends on others, there is no way to go.
+      const ratio = z.map((x, i) => (x <= 0 ? y[passive[i]] / (y[passive[i]] - x) || 0 : Infinity));
       const t = Math.min(...ratio);
       passive.forEach((j, i) => { y[j] = ratio[i] <= t ? 0 : y[j] + t * (z[i] - y[j]); });
       passive = passive.filter((_, i) => ratio[i] > t);

@@ -7,10 +7,33 @@ Its passive set then gives the answer once more, from the equations of the activ
 
 import numpy as np
 
-ACTIVE = 1e-11
+ACTIVE = 1e-14
 """A gradient below this, in a problem scaled to one, is rounding."""
 NOTHING = 1e-7
 """A residual below this is none: the rows contradict each other. It is 1 / |u| otherwise."""
+
+
+def least_squares(E, f, limit=1e-15):
+    """The y of least |E y - f|, by Householder's method with column pivoting.
+
+    Columns that depend on others get 0.
+    """
+    R, r, order, rank = E.copy(), f.copy(), np.arange(E.shape[1]), 0
+    for k in range(min(E.shape)):
+        size = np.linalg.norm(R[k:, k:], axis=0)
+        best = k + int(np.argmax(size))
+        if size.max() <= limit * abs(R[0, 0]) * (k > 0):
+            break
+        R[:, [k, best]], order[[k, best]] = R[:, [best, k]], order[[best, k]]
+        v = R[k:, k].copy()
+        v[0] += np.copysign(np.linalg.norm(v), v[0])
+        v *= np.sqrt(2 / (v @ v))
+        R[k:] -= np.outer(v, v @ R[k:])
+        r[k:] -= v * (v @ r[k:])
+        rank = k + 1
+    y = np.zeros(E.shape[1])
+    y[order[:rank]] = np.linalg.solve(np.triu(R[:rank, :rank]), r[:rank])
+    return y
 
 
 def nonnegative_least_squares(E, f):
@@ -24,7 +47,7 @@ def nonnegative_least_squares(E, f):
             break
         passive.append(entering)
         while True:
-            z = np.linalg.lstsq(E[:, passive], f, rcond=None)[0]
+            z = least_squares(E[:, passive], f)
             if passive[-1] == entering and z[-1] <= 0:  # it was rounding after all
                 passive.pop()
                 return y, passive
@@ -32,7 +55,8 @@ def nonnegative_least_squares(E, f):
                 break
             old = y[passive]
             falling = np.flatnonzero(z <= 0)
-            ratio = old[falling] / (old[falling] - z[falling])
+            way = old[falling] - z[falling]  # none where both are 0
+            ratio = np.divide(old[falling], way, out=np.zeros(len(falling)), where=way > 0)
             t = ratio.min()
             y[passive] = old + t * (z - old)
             gone = [passive[falling[i]] for i in np.flatnonzero(ratio <= t)]
