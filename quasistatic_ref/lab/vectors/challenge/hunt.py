@@ -30,7 +30,7 @@ MORE: Final = 12
 MOST: Final = 10
 """Findings that are written at most."""
 GIVEN_UP: Final = 3
-"""Crashes, hangs or lines of garbage after which a layer is no longer asked."""
+"""Crashes, hangs, late answers or lines of garbage after which a layer is no longer asked."""
 
 Task = tuple[str, tuple[int, ...], int]
 """Layer, seed, level."""
@@ -94,7 +94,7 @@ class Hunt:
             self.outcome.remarks.append(f"it was started {self.program.starts} times")
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
-                self.outcome.remarks.append(f"{layer} was asked no longer: it did not come back")
+                self.outcome.remarks.append(f"{layer} was asked no longer: it did not come back in time")
             elif self.outcome.asked[layer] and not self.goes_on(layer):
                 self.outcome.remarks.append(f"{layer} is not supported")
         return self.outcome
@@ -115,7 +115,7 @@ class Hunt:
         if reply.kind != "output":
             self.outcome.verdicts[layer, reply.kind] += 1
             if reply.kind != "unsupported":
-                self._troubles[layer] += reply.kind in ("crash", "hang", "garbage")
+                self._troubles[layer] += reply.kind in ("crash", "hang", "late", "garbage")
                 self._trouble(reply.kind, layer, id, reply.said, case)
             return
         one = self._judged(id, layer, case, record, reply)
