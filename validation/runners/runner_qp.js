@@ -127,7 +127,8 @@ function optimum(H, g, A, b) {
   const f = [...g.map(() => 0), 1];
   const [y, passive] = nonnegativeLeastSquares(E, f);
   const rest = E.reduce((r, c, j) => sub(r, scale(c, y[j])), f);
-  if (Math.hypot(...rest) < 1e-7) {
+  // More rows than unknowns bear load only where nothing satisfies them.
+  if (Math.hypot(...rest) < 1e-7 || passive.length > g.length) {
     const proof = y.map((x, i) => x / size[i]);
     return [null, scale(proof, 1 / largest(proof))];
   }
@@ -173,10 +174,13 @@ function newton(H, g, blocks, x, impulse) {
   const n = g.length, inner = impulse.map((p) => p[0] - Math.hypot(...p.slice(1)));
   const most = largest(impulse.map((p) => p[0]));
   const bears = range(blocks.length).filter((j) => impulse[j][0] > 1e-9 * most);
-  const tips = bears.filter((j) => inner[j] > 1e-6 * impulse[j][0]);
+  const motion = (j) => add(times(blocks[j].F, x), blocks[j].f);
+  // A cone that does not move is at its tip, whatever cuts bear its load; it may be, if it hardly does.
+  const free = backward(cholesky(H), forward(cholesky(H), g));
+  const moves = largest(blocks.flatMap(({ F, f }) => add(times(F, free), f)));
+  const tips = bears.filter((j) => largest(motion(j)) <= (inner[j] > 1e-6 * impulse[j][0] ? 1e-6 : 1e-9) * moves);
   const sides = bears.filter((j) => !tips.includes(j));
   let mu = sides.map((j) => impulse[j][0]), multipliers = [];
-  const motion = (j) => add(times(blocks[j].F, x), blocks[j].f);
   for (let k = 0; k < 12; k++) {
     const W = H.map((row) => [...row]), C = [], c = [];
     sides.forEach((j, i) => {

@@ -97,7 +97,8 @@ def optimum(H, g, A, b):
     f = np.zeros(len(E))
     f[-1] = 1.0
     y, passive = nonnegative_least_squares(E, f)
-    if np.linalg.norm(E @ y - f) < NOTHING:
+    # More rows than unknowns bear load only where nothing satisfies them.
+    if np.linalg.norm(E @ y - f) < NOTHING or len(passive) > len(g):
         return None, y / size / np.max(y / size)
     x, part = equality_answer(H, g, A[passive], b[passive])
     lam = np.zeros(m)
@@ -142,8 +143,12 @@ def newton(H, g, F, f, x, impulse):
     """KKT equations of the cones that bear load, at their tip (z = 0) or on their side."""
     bears = impulse[:, 0] > 1e-9 * impulse[:, 0].max(initial=0.0)
     inner = impulse[:, 0] - np.linalg.norm(impulse[:, 1:], axis=1)
-    tips = np.flatnonzero(bears & (inner > 1e-6 * impulse[:, 0]))
-    sides = np.flatnonzero(bears & (inner <= 1e-6 * impulse[:, 0]))
+    # A cone that does not move is at its tip, whatever cuts bear its load; it may be, if it
+    # hardly does.
+    moves = np.abs(F @ np.linalg.solve(H, g) + f).max(initial=0.0)
+    near = np.where(inner > 1e-6 * impulse[:, 0], 1e-6, 1e-9) * moves
+    at_tip = np.abs(F @ x + f).max(axis=1, initial=0.0) <= near
+    tips, sides = np.flatnonzero(bears & at_tip), np.flatnonzero(bears & ~at_tip)
     mu = impulse[sides, 0].copy()
     for _ in range(12):
         z = F @ x + f
