@@ -19,6 +19,12 @@ PROGRAMS = {
 print(json.dumps({"protocol": 1, "implementation": "mine 3", "layers": ["selection"]}), flush=True)
 for case in cases: say(case["id"], output=right(case))
 """,
+    "declares another layer": """
+print(json.dumps({"protocol": 1, "layers": ["selection"]}), flush=True)
+for case in cases:
+    if case["layer"] != "selection": say(case["id"], error="what is that?")
+    else: say(case["id"], output=right(case))
+""",
     "wrong": "for case in cases: say(case['id'], output={'indices': [[0]]})",
     "crashes": """
 for number, case in enumerate(cases):
