@@ -438,7 +438,8 @@ def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
 @pytest.mark.parametrize(
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
+    + [["study", "report"], ["study", "pack"], ["study", "export"]]
+    + [["vectors", name] for name in ("check", "report", "pack", "challenge")],
     ids=" ".join,
 )
 def test_every_command_takes_quiet(words, capsys):

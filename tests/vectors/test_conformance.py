@@ -236,6 +236,10 @@ def test_layers_that_name_two_programs_are_said_to_be_of_both(tmp_path):
     found, files = made(answers, tmp_path / "out")
     assert found.implementation == "other and one"
     assert "| name in the answers to selection | other |" in files["report.md"]
+    answered(answers, ["selection"], name="an\x00other\n")
+    found = conformance(answers, VECTORS, "mine")
+    page = next(p for p in written(found, answers, tmp_path / "out") if p.name == "report.md")
+    assert "| name in the answers to selection | an other |" in page.read_text()
 
 
 def test_the_command_says_what_was_passed_and_ends_with_the_status_of_the_check(tmp_path, capsys):

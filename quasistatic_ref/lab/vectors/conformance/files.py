@@ -112,6 +112,12 @@ def record_of(found: Conformance, hashes: Mapping[str, str]) -> dict[str, Json]:
     }
 
 
+def _on_one_line(name: str) -> str:
+    """A name as it stands in a table, whatever characters it has."""
+    shown = "".join(c if c.isprintable() else " " for c in name)
+    return " ".join(shown.split())[:LONGEST] or "-"
+
+
 def _hash(path: Path) -> str:
     return hashlib.sha256(bytes_read(path)).hexdigest()
 
@@ -123,7 +129,7 @@ def _versions(
     names = {layer: answers.implementation for layer, answers in declared.items()}
     own = [
         (f"name in the answers to {', '.join(layer for layer in names if names[layer] == name)}",
-         " ".join(name.split())[:LONGEST] or "-")
+         _on_one_line(name))
         for name in dict.fromkeys(names.values())
     ]  # fmt: skip
     versions = (
