@@ -16,7 +16,7 @@ ACTIONS = {
     "own": "write this package's own float64 answers, as anybody else's",
     "pack": "write the vectors as one archive to be kept, with its SHA-256",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
-    "harvest": "collect the inputs anew: for a release of the vectors",
+    "harvest": "collect the inputs again: for a release of the vectors",
 }
 OUT = {"own": "answers", "report": "conformance", "pack": "."}
 """Where an action writes; ``vectors`` otherwise."""
