@@ -100,7 +100,7 @@ def test_the_archive_holds_the_folder_its_licences_and_sums_that_hold(tmp_path):
     assert "LICENSE.md" in inside
 
 
-def test_the_licences_beside_the_vectors_are_those_of_the_repository():
+def test_the_licences_of_the_vectors_are_those_of_the_repository():
     bunny = "models/bunny_grasp/LICENSE-stanford-bunny.md"
     for own, here in (
         ("LICENSE", "LICENSE-BSD-3-Clause.txt"),

@@ -62,7 +62,7 @@ class Picture:
 
     @property
     def file(self) -> str:
-        """Its file, beside a page in Markdown."""
+        """Its file, as a page in Markdown names it."""
         return f"{self.folder}{self.name}.{self.ending}"
 
 

@@ -20,7 +20,7 @@ SUMS: Final = "SHA256SUMS"
 
 
 def packed(vectors: Path, out: Path) -> tuple[Path, str]:
-    """Write ``quasi-dynamic-vectors-N.zip``, and beside it its SHA-256; the archive, and that.
+    """Write ``quasi-dynamic-vectors-N.zip``, and next to it its SHA-256; return both.
 
     Parameters
     ----------
