@@ -21,6 +21,7 @@ from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
 from tests import quoted_sources as of
 from tests import quoted_speed as speed
+from tests import quoted_vectors as vectors
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.study import test_known_issues as known_issues
@@ -219,9 +220,6 @@ QUOTED = {
          lambda: [of.one_in(of.highs_unsolved())]),
         ("{:.0f} to {:.0f} times as fast by the backend", of.native_gains),
     ],
-    "docs/guides/check_your_implementation.md": [
-        *(("| `{}` | {} |", lambda layer=layer: [layer, of.cases_of(layer)]) for layer in LAYERS),
-    ],
 }  # fmt: skip
 
 OTHERS = {
@@ -229,6 +227,7 @@ OTHERS = {
     "docs/exactness.md": digits.quoted,
     "docs/conventions.md": options.quoted,
     "docs/solver_study.md": lambda: solver_study.HELD,
+    **vectors.HELD,
 }
 
 MEANT = {

@@ -79,6 +79,10 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref completion bash",
         "quasistatic-ref vectors own --layer qp --out answers",
         "quasistatic-ref vectors check answers",
+        "quasistatic-ref vectors report answers --implementation 'own answers' --out conformance",
+        "quasistatic-ref vectors pack --out archive",
+        "quasistatic-ref vectors challenge --layer rows --cases 12 "
+        "--command 'quasistatic-ref vectors challenge --serve own' --out counterexamples",
         "quasistatic-ref validate incline_sliding",
         "quasistatic-ref figures block_on_a_table",
         "python -m quasistatic_ref.lab.examples.door",

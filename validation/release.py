@@ -84,6 +84,11 @@ RESULTS = (
         ("validation/results/planted_bugs.md",),
     ),
     Result(
+        "challenges",
+        ("validation.challenges", "--out", "validation/results/challenges.md"),
+        ("validation/results/challenges.md",),
+    ),
+    Result(
         "claims",
         (CLI, "validate", "--out", "{temporary}"),
         ("validation/claims.md", "validation/figures"),

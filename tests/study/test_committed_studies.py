@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.lab.study.page_markdown import markdown_page
+from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.solver_report import solver_report
 from quasistatic_ref.lab.study.store import rows_read, study_read

@@ -12,8 +12,8 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.figures import faults
 from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
-from quasistatic_ref.lab.study.page_html import html_page
-from quasistatic_ref.lab.study.page_markdown import markdown_page
+from quasistatic_ref.lab.page.html import html_page
+from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.statistics import performance_ratios, shifted_geometric_mean
 from tests.study import made_store, plain_report

@@ -8,8 +8,8 @@ from matplotlib import pyplot as plt
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.figures.study_images import drawn
+from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.pack import shorter
-from quasistatic_ref.lab.study.page_markdown import markdown_page
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.store import rows_read
 from tests.study import made_store, plain_report

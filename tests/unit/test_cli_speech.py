@@ -58,7 +58,8 @@ def test_what_is_inspected_fits_a_terminal(name, capsys):
 @pytest.mark.parametrize(
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
+    + [["study", "report"], ["study", "pack"], ["study", "export"]]
+    + [["vectors", name] for name in ("check", "report", "pack", "challenge")],
     ids=" ".join,
 )
 def test_every_command_takes_quiet(words, capsys):

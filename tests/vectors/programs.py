@@ -19,6 +19,12 @@ PROGRAMS = {
 print(json.dumps({"protocol": 1, "implementation": "mine 3", "layers": ["selection"]}), flush=True)
 for case in cases: say(case["id"], output=right(case))
 """,
+    "declares another layer": """
+print(json.dumps({"protocol": 1, "layers": ["selection"]}), flush=True)
+for case in cases:
+    if case["layer"] != "selection": say(case["id"], error="what is that?")
+    else: say(case["id"], output=right(case))
+""",
     "wrong": "for case in cases: say(case['id'], output={'indices': [[0]]})",
     "crashes": """
 for number, case in enumerate(cases):
@@ -46,6 +52,18 @@ for number, case in enumerate(cases):
     if number % 3 == 2: print("NaN detected, resetting", flush=True)
     say(case["id"], output=right(case))
 """,
+    "prints what is no text": """
+for number, case in enumerate(cases):
+    if number == 2: sys.stdout.buffer.write(bytes(range(128, 200)) + b"[" * 5000 + b"\\n")
+    sys.stdout.flush()
+    say(case["id"], output=right(case))
+""",
+    "closes its output": """
+import os, time
+for number, case in enumerate(cases):
+    if number == 3: os.close(1); time.sleep(100)
+    say(case["id"], output=right(case))
+""",
     "prints nothing else": """
 while True: print("hello")
 """,
@@ -60,6 +78,11 @@ for case in cases:
 """,
     "answers late": """
 import time
+for number, case in enumerate(cases):
+    if number % 4 == 3: time.sleep(0.75)
+    say(case["id"], output=right(case))
+""",
+    "holds one answer back": """
 before = None
 for number, case in enumerate(cases):
     if number == 1: before = case; continue

@@ -11,12 +11,14 @@ from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from tests.vectors.programs import command
 
-HANGS = ("hangs", "does not flush", "answers late", "does not read", "starts another")
-"""What waits for an answer that does not come, for a fifth of a second; others wait for ten."""
+HANGS = ("hangs", "does not flush", "holds one answer back", "does not read", "starts another")
+"""What waits for an answer that does not come."""
+SECONDS = {**dict.fromkeys(HANGS, 0.2), "answers late": 0.5}
+"""For an answer, ten for others. The late one comes after 0.75, and is a hang after 1."""
 
 
 def outcome(name, folder):
-    program = Program(command(name, folder), timeout=0.2 if name in HANGS else 10.0)
+    program = Program(command(name, folder), timeout=SECONDS.get(name, 10.0))
     return challenge(program, layers=["selection"], cases=12)
 
 
@@ -37,12 +39,14 @@ def test_a_program_that_is_right_is_left_alone(name, tmp_path):
     [
         ("crashes", "crash", "ended with status 1: out of memory, or so"),
         ("is killed", "crash", "ended by SIGSEGV"),
-        ("hangs", "hang", "no answer within 0.2 s"),
+        ("hangs", "hang", "no answer within 0.4 s"),
         ("does not flush", "hang", "is each line flushed?"),
         ("prints garbage", "stray", "printed 'NaN detected, resetting', which is no JSON"),
         ("prints nothing else", "garbage", "printed 'hello', which is no JSON"),
         ("answers twice", "stray", "answered 'selection/easy/0-0-0' twice"),
-        ("answers late", "hang", "no answer within"),
+        ("holds one answer back", "hang", "no answer within"),
+        ("prints what is no text", "stray", "which is no JSON object on a line"),
+        ("closes its output", "crash", "closed its output"),
         ("answers out of order", "stray", "answered 'selection/another', which was not asked"),
         ("refuses", "error", "not today"),
         ("answers neither", "garbage", "an answer has output, error or unsupported"),
@@ -66,11 +70,22 @@ def test_after_a_crash_the_other_cases_are_still_judged(tmp_path):
     assert any("was started" in remark for remark in found.remarks)
 
 
+def test_a_program_that_is_late_goes_on_and_its_other_answers_are_judged(tmp_path):
+    found = outcome("answers late", tmp_path)
+    # Each fourth of 12 cases is late: three, after the last of which the layer is given up.
+    assert found.verdicts["selection", "late"] == GIVEN_UP
+    assert found.verdicts["selection", "passed"] == 12 - GIVEN_UP
+    assert not any("was started" in remark for remark in found.remarks)
+    (finding,) = found.findings
+    assert (finding.kind, found.status) == ("late", 1)
+    assert finding.reason.endswith("s; 0.5 s are allowed")
+
+
 def test_a_layer_that_does_not_come_back_is_given_up(tmp_path):
     found = outcome("does not read", tmp_path)
     assert kinds(found) == {"hang"}
     assert found.asked["selection"] == GIVEN_UP
-    assert "selection was asked no longer: it did not come back" in found.remarks
+    assert "selection was asked no longer: it did not come back in time" in found.remarks
 
 
 def test_a_flood_of_errors_holds_nothing_up_and_is_said(tmp_path):
@@ -91,6 +106,13 @@ def test_a_program_that_supports_nothing_is_asked_no_further(tmp_path):
     assert found.remarks == ["selection is not supported"]
     assert found.asked["selection"] < 12
     assert found.status == 0
+
+
+def test_layers_that_it_does_not_declare_are_not_asked_and_said_not_to_be_supported(tmp_path):
+    program = Program(command("declares another layer", tmp_path))
+    found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
+    assert (found.findings, +found.asked) == ([], {"selection": 12})
+    assert found.remarks == ["rows is not supported", "wrench is not supported"]
 
 
 @pytest.mark.parametrize(

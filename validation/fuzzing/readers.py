@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
-from quasistatic_ref.lab.study.page_markdown import markdown_page
+from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problem_set, problems_read
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.spec import FAMILIES, TestSet, solver_study, study_kind, study_tables

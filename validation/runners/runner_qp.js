@@ -77,7 +77,7 @@ function nonnegativeLeastSquares(E, f) {
     const r = E.reduce((rest, c, j) => (y[j] ? sub(rest, scale(c, y[j])) : rest), f);
     const gradient = E.map((c, j) => (passive.includes(j) ? -Infinity : dot(c, r)));
     const entering = gradient.indexOf(Math.max(...gradient));
-    if (!E.length || gradient[entering] <= 1e-11) break;
+    if (!E.length || gradient[entering] <= 1e-14) break;
     passive.push(entering);
     let z;
     for (;;) {
@@ -87,7 +87,8 @@ function nonnegativeLeastSquares(E, f) {
         return [y, passive];
       }
       if (z.every((x) => x > 0)) break;
-      const ratio = z.map((x, i) => (x <= 0 ? y[passive[i]] / (y[passive[i]] - x) : Infinity));
+      // Where both are 0, as of a column that depends on others, there is no way to go.
+      const ratio = z.map((x, i) => (x <= 0 ? y[passive[i]] / (y[passive[i]] - x) || 0 : Infinity));
       const t = Math.min(...ratio);
       passive.forEach((j, i) => { y[j] = ratio[i] <= t ? 0 : y[j] + t * (z[i] - y[j]); });
       passive = passive.filter((_, i) => ratio[i] > t);
@@ -126,7 +127,8 @@ function optimum(H, g, A, b) {
   const f = [...g.map(() => 0), 1];
   const [y, passive] = nonnegativeLeastSquares(E, f);
   const rest = E.reduce((r, c, j) => sub(r, scale(c, y[j])), f);
-  if (Math.hypot(...rest) < 1e-7) {
+  // More rows than unknowns bear load only where nothing satisfies them.
+  if (Math.hypot(...rest) < 1e-7 || passive.length > g.length) {
     const proof = y.map((x, i) => x / size[i]);
     return [null, scale(proof, 1 / largest(proof))];
   }
@@ -172,10 +174,13 @@ function newton(H, g, blocks, x, impulse) {
   const n = g.length, inner = impulse.map((p) => p[0] - Math.hypot(...p.slice(1)));
   const most = largest(impulse.map((p) => p[0]));
   const bears = range(blocks.length).filter((j) => impulse[j][0] > 1e-9 * most);
-  const tips = bears.filter((j) => inner[j] > 1e-6 * impulse[j][0]);
+  const motion = (j) => add(times(blocks[j].F, x), blocks[j].f);
+  // A cone that does not move is at its tip, whatever cuts bear its load; it may be, if it hardly does.
+  const free = backward(cholesky(H), forward(cholesky(H), g));
+  const moves = largest(blocks.flatMap(({ F, f }) => add(times(F, free), f)));
+  const tips = bears.filter((j) => largest(motion(j)) <= (inner[j] > 1e-6 * impulse[j][0] ? 1e-6 : 1e-9) * moves);
   const sides = bears.filter((j) => !tips.includes(j));
   let mu = sides.map((j) => impulse[j][0]), multipliers = [];
-  const motion = (j) => add(times(blocks[j].F, x), blocks[j].f);
   for (let k = 0; k < 12; k++) {
     const W = H.map((row) => [...row]), C = [], c = [];
     sides.forEach((j, i) => {

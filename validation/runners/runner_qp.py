@@ -7,10 +7,33 @@ Its passive set then gives the answer once more, from the equations of the activ
 
 import numpy as np
 
-ACTIVE = 1e-11
+ACTIVE = 1e-14
 """A gradient below this, in a problem scaled to one, is rounding."""
 NOTHING = 1e-7
 """A residual below this is none: the rows contradict each other. It is 1 / |u| otherwise."""
+
+
+def least_squares(E, f, limit=1e-15):
+    """The y of least |E y - f|, by Householder's method with column pivoting.
+
+    Columns that depend on others get 0.
+    """
+    R, r, order, rank = E.copy(), f.copy(), np.arange(E.shape[1]), 0
+    for k in range(min(E.shape)):
+        size = np.linalg.norm(R[k:, k:], axis=0)
+        best = k + int(np.argmax(size))
+        if size.max() <= limit * abs(R[0, 0]) * (k > 0):
+            break
+        R[:, [k, best]], order[[k, best]] = R[:, [best, k]], order[[best, k]]
+        v = R[k:, k].copy()
+        v[0] += np.copysign(np.linalg.norm(v), v[0])
+        v *= np.sqrt(2 / (v @ v))
+        R[k:] -= np.outer(v, v @ R[k:])
+        r[k:] -= v * (v @ r[k:])
+        rank = k + 1
+    y = np.zeros(E.shape[1])
+    y[order[:rank]] = np.linalg.solve(np.triu(R[:rank, :rank]), r[:rank])
+    return y
 
 
 def nonnegative_least_squares(E, f):
@@ -24,7 +47,7 @@ def nonnegative_least_squares(E, f):
             break
         passive.append(entering)
         while True:
-            z = np.linalg.lstsq(E[:, passive], f, rcond=None)[0]
+            z = least_squares(E[:, passive], f)
             if passive[-1] == entering and z[-1] <= 0:  # it was rounding after all
                 passive.pop()
                 return y, passive
@@ -32,7 +55,8 @@ def nonnegative_least_squares(E, f):
                 break
             old = y[passive]
             falling = np.flatnonzero(z <= 0)
-            ratio = old[falling] / (old[falling] - z[falling])
+            way = old[falling] - z[falling]  # none where both are 0
+            ratio = np.divide(old[falling], way, out=np.zeros(len(falling)), where=way > 0)
             t = ratio.min()
             y[passive] = old + t * (z - old)
             gone = [passive[falling[i]] for i in np.flatnonzero(ratio <= t)]
@@ -73,7 +97,8 @@ def optimum(H, g, A, b):
     f = np.zeros(len(E))
     f[-1] = 1.0
     y, passive = nonnegative_least_squares(E, f)
-    if np.linalg.norm(E @ y - f) < NOTHING:
+    # More rows than unknowns bear load only where nothing satisfies them.
+    if np.linalg.norm(E @ y - f) < NOTHING or len(passive) > len(g):
         return None, y / size / np.max(y / size)
     x, part = equality_answer(H, g, A[passive], b[passive])
     lam = np.zeros(m)
@@ -118,8 +143,12 @@ def newton(H, g, F, f, x, impulse):
     """KKT equations of the cones that bear load, at their tip (z = 0) or on their side."""
     bears = impulse[:, 0] > 1e-9 * impulse[:, 0].max(initial=0.0)
     inner = impulse[:, 0] - np.linalg.norm(impulse[:, 1:], axis=1)
-    tips = np.flatnonzero(bears & (inner > 1e-6 * impulse[:, 0]))
-    sides = np.flatnonzero(bears & (inner <= 1e-6 * impulse[:, 0]))
+    # A cone that does not move is at its tip, whatever cuts bear its load; it may be, if it
+    # hardly does.
+    moves = np.abs(F @ np.linalg.solve(H, g) + f).max(initial=0.0)
+    near = np.where(inner > 1e-6 * impulse[:, 0], 1e-6, 1e-9) * moves
+    at_tip = np.abs(F @ x + f).max(axis=1, initial=0.0) <= near
+    tips, sides = np.flatnonzero(bears & at_tip), np.flatnonzero(bears & ~at_tip)
     mu = impulse[sides, 0].copy()
     for _ in range(12):
         z = F @ x + f

@@ -7,8 +7,8 @@ def run_report(options: argparse.Namespace) -> int:
     """Write ``report.html``, ``report.md`` and ``figures``."""
     from quasistatic_ref.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.lab.figures.study_images import images
-    from quasistatic_ref.lab.study.page_html import html_page
-    from quasistatic_ref.lab.study.page_markdown import markdown_page
+    from quasistatic_ref.lab.page.html import html_page
+    from quasistatic_ref.lab.page.markdown import markdown_page
     from quasistatic_ref.lab.study.report import study_report
 
     report = study_report(options.store)

@@ -1,4 +1,4 @@
-"""``vectors check|challenge|generate|own|export|harvest``: for other implementations."""
+"""``vectors check|report|challenge|...``: for other implementations."""
 
 import argparse
 import sys
@@ -6,16 +6,20 @@ from collections.abc import Callable
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.resources import vectors_folder
+from quasistatic_ref.lab.commands.vectors_report import run_pack, run_report, vectors_given
 
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
+    "report": "write what an implementation passed: a page, a badge, and a record",
     "challenge": "ask a program new cases, and show the smallest that it gets wrong",
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
+    "pack": "write the vectors as one archive to be kept, with its SHA-256",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
     "harvest": "collect the inputs again: for a release of the vectors",
 }
+OUT = {"own": "answers", "report": "conformance", "pack": "."}
+"""Where an action writes; ``vectors`` otherwise."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -33,13 +37,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                 metavar="FOLDER",
                 help="folder of vectors; by default those that come along",
             )
-        if name == "check":
+        if name in ("check", "report"):
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
             shared.add(action, "--json")
-            _add_choices(action)
             _add_digits(action)
+        if name == "check":
+            _add_choices(action)
         else:
-            shared.add(action, "--out", default="answers" if name == "own" else "vectors")
+            shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
+        if name == "report":
+            words = "its name and version; by default as the answers name themselves"
+            action.add_argument("--implementation", metavar="NAME", help=words)
         if name in ("check", "own"):
             _add_layers(action)
 
@@ -94,7 +102,7 @@ def _challenge(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
 
-    source, only = _source(options), options.case or options.only
+    source, only = vectors_given(options), options.case or options.only
     report = check_answers(options.answers, source, options.layers, only=only,
                            digits=options.digits)  # fmt: skip
     if options.json:
@@ -129,7 +137,7 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
 def _generate(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.generate import generated
 
-    return _counted(generated(_source(options), options.out, not options.quiet), options.out)
+    return _counted(generated(vectors_given(options), options.out, not options.quiet), options.out)
 
 
 def _harvest(options: argparse.Namespace) -> int:
@@ -145,7 +153,7 @@ def _own(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.layers import LAYERS
 
     names = [check_layer(name) for name in options.layers or LAYERS]
-    for path in own_written(_source(options), options.out, names, not options.quiet):
+    for path in own_written(vectors_given(options), options.out, names, not options.quiet):
         print(path)
     return 0
 
@@ -153,14 +161,10 @@ def _own(options: argparse.Namespace) -> int:
 def _export(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.parquet import exported_programs, npz_written, parquet_written
 
-    programs = exported_programs(_source(options))
+    programs = exported_programs(vectors_given(options))
     print(parquet_written(options.out / "quasistatic_ref.parquet", programs))
     print(npz_written(options.out / "quasistatic_ref.npz", programs))
     return 0
-
-
-def _source(options: argparse.Namespace) -> Path:
-    return vectors_folder() if options.vectors is None else options.vectors
 
 
 def _counted(counts: dict[str, int], folder: Path) -> int:
@@ -172,9 +176,11 @@ def _counted(counts: dict[str, int], folder: Path) -> int:
 
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
+    "report": run_report,
     "challenge": _challenge,
     "generate": _generate,
     "own": _own,
+    "pack": run_pack,
     "export": _export,
     "harvest": _harvest,
 }

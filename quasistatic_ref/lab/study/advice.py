@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.study.columns import Columns, Where, chosen, common, groups, size
 from quasistatic_ref.lab.study.page import (
-    Table,
     digits,
     filter_words,
     milliseconds,

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.page import Report
+from quasistatic_ref.lab.page.parts import Report
 from quasistatic_ref.lab.study.problems import FACTS
 from quasistatic_ref.lab.study.schema import FACT, check_solver_rows, check_sweep_rows
 from quasistatic_ref.lab.study.solver_report import solver_report

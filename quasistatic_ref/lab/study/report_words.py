@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.lab.study.page import Table
+from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.study.statistics import SHIFT
 
 

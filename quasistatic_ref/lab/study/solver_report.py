@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
 from quasistatic_ref.lab.study.advice import advice, advice_table, options_table
 from quasistatic_ref.lab.study.columns import (
     Columns,
@@ -17,7 +18,7 @@ from quasistatic_ref.lab.study.columns import (
     matrix,
     size,
 )
-from quasistatic_ref.lab.study.page import Block, Picture, Report, Section, filter_words
+from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
     limitations,
     method,

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.study.columns import Columns, Where, chosen, common, groups, size
 from quasistatic_ref.lab.study.grade import NOT_RUN, OUTCOMES
-from quasistatic_ref.lab.study.page import Table, digits, filter_words, milliseconds, percent
+from quasistatic_ref.lab.study.page import digits, filter_words, milliseconds, percent
 from quasistatic_ref.lab.study.statistics import LOW, shifted_geometric_mean, success
 
 LEVELS = (3.0, 6.0, 9.0)

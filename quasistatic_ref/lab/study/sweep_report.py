@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from quasistatic_ref.lab.study.page import Block, Picture, Report, Section, Table
+from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
 from quasistatic_ref.lab.study.report_words import place_tables, sweep_method
 from quasistatic_ref.lab.study.store import Row
 

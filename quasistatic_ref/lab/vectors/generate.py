@@ -10,7 +10,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import (
-    VERSION,
     Case,
     answers_written,
     expected_text,
@@ -18,14 +17,11 @@ from quasistatic_ref.lab.vectors.files import (
     lines,
 )
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.progress import progress_bar
 
-COPIED: Final = ("README.md", "LICENSE*", "inputs/*.json", "schemas/*.json")
+COPIED: Final = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
-MANIFEST: Final = "manifest.json"
-FORMAT: Final = "quasistatic-ref/vectors-manifest"
-RELEASE: Final = 3
-"""Counted up whenever an input or an expected output changes."""
 
 
 def expected_record(name: str, case: Case) -> dict[str, Json]:
@@ -117,5 +113,5 @@ def manifest_text(files: dict[str, bytes]) -> str:
         for path, content in files.items()
         if path.startswith("expected/")
     }
-    record: dict[str, Json] = {"format": FORMAT, "version": VERSION, "release": RELEASE}
+    record: dict[str, Json] = {"format": FORMAT, "version": FORMAT_VERSION, "release": RELEASE}
     return lines({**record, "cases": cases, "files": listed}, listed=("files",))

@@ -22,7 +22,7 @@ class Finding:
     ----------
     layer : str
     kind : str
-        ``wrong``, ``error``, ``crash``, ``hang``, ``garbage`` or ``stray``.
+        ``wrong``, ``error``, ``crash``, ``hang``, ``late``, ``garbage`` or ``stray``.
     field : str
         What fails first; empty if nothing was compared.
     mistakes : tuple of str

@@ -30,7 +30,7 @@ MORE: Final = 12
 MOST: Final = 10
 """Findings that are written at most."""
 GIVEN_UP: Final = 3
-"""Crashes, hangs or lines of garbage after which a layer is no longer asked."""
+"""Crashes, hangs, late answers or lines of garbage after which a layer is no longer asked."""
 
 Task = tuple[str, tuple[int, ...], int]
 """Layer, seed, level."""
@@ -60,6 +60,7 @@ class Hunt:
         self._right: dict[str, list[Failed]] = {name: [] for name in LAYERS}
         self._known: set[tuple[str, str]] = set()
         self._troubles: Counter[str] = Counter()
+        self._wanted: set[str] = set()
         self._shrinks, self._began = 0, time.monotonic()
 
     @property
@@ -75,6 +76,7 @@ class Hunt:
 
     def play(self, tasks: Sequence[Task]) -> None:
         """Ask one round, and look into what failed."""
+        self._wanted |= {layer for layer, _, _ in tasks}
         self._ask(tasks)
         new = [layer for layer in LAYERS if self._new(layer)]
         for layer in new:
@@ -94,8 +96,10 @@ class Hunt:
             self.outcome.remarks.append(f"it was started {self.program.starts} times")
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
-                self.outcome.remarks.append(f"{layer} was asked no longer: it did not come back")
-            elif self.outcome.asked[layer] and not self.goes_on(layer):
+                self.outcome.remarks.append(
+                    f"{layer} was asked no longer: it did not come back in time"
+                )
+            elif layer in self._wanted and not self.goes_on(layer):
                 self.outcome.remarks.append(f"{layer} is not supported")
         return self.outcome
 
@@ -110,12 +114,15 @@ class Hunt:
     def ask(self, id: str, layer: str, case: Json, record: Json) -> None:
         """Ask one case, and keep what came of it."""
         reply = self.program.ask(id, layer, case)
+        if layer not in self.program.layers:  # as it declared before its first answer
+            self.outcome.asked[layer] -= 1
+            return
         for said in reply.strays:
             self._trouble("stray", layer, id, said, case)
         if reply.kind != "output":
             self.outcome.verdicts[layer, reply.kind] += 1
             if reply.kind != "unsupported":
-                self._troubles[layer] += reply.kind in ("crash", "hang", "garbage")
+                self._troubles[layer] += reply.kind in ("crash", "hang", "late", "garbage")
                 self._trouble(reply.kind, layer, id, reply.said, case)
             return
         one = self._judged(id, layer, case, record, reply)

@@ -1,7 +1,7 @@
 """A program that answers line by line, started again whenever it has to be.
 
-Whatever it does, crash, hang, print what is no answer, answer twice or late, or flood its standard
-error, is survived and said.
+Whatever it does, crash, hang, print what is no answer, answer twice, late or what nobody asked, or
+flood its standard error, is survived and said.
 """
 
 import contextlib
@@ -26,6 +26,8 @@ START: Final = 6.0
 """The first answer may take so many times longer [-]: a program starts, perhaps compiles itself."""
 LINE: Final = 64 * 2**20
 """Longest line of an answer [bytes]; the answer to 1,000 contacts has a hundredth."""
+GRACE: Final = 1.0
+"""So many times the time for an answer [-] is a late one still waited for: then it is a hang."""
 STRAY: Final = 20
 """Lines that are no answer to the case, after which the program is started again."""
 FLOOD: Final = 2**20
@@ -41,14 +43,14 @@ class Reply:
     Parameters
     ----------
     kind : str
-        ``output``, ``error``, ``unsupported``; or what went wrong: ``crash``, ``hang``,
+        ``output``, ``error``, ``unsupported``; or what went wrong: ``crash``, ``hang``, ``late``,
         ``garbage``.
     output : object
         Of an ``output``.
     said : str
         Of an error, or of what went wrong.
     strays : tuple of str
-        What else it answered meanwhile: twice, late, to a case that nobody asked.
+        What else it answered meanwhile: twice, to a case that nobody asked.
     """
 
     kind: str
@@ -78,7 +80,7 @@ class Program:
         self._timeout, self._warming = timeout, (START - 1) * timeout
         self._process: subprocess.Popen[bytes] | None = None
         self._heard = False
-        self._asked: dict[str, str] = {}  # id -> answered, or late
+        self._answered: set[str] = set()
         self.said = Answers()
         self.layers: tuple[str, ...] = LAYERS
         self.flood = 0
@@ -101,27 +103,28 @@ class Program:
         """
         if self._process is None:
             self._start()
-        allowed, began = self._timeout + self._warming, time.monotonic()
+        began = time.monotonic()
+        allowed = self._timeout + (0.0 if self._heard else self._warming)
+        waited = allowed + GRACE * self._timeout
         line = json.dumps({"id": id, "layer": layer, "input": case}, allow_nan=False)
         self._inbox.put(line.encode() + b"\n")
-        self._asked[id] = "late"
         strays: list[str] = []
-        until = began + (allowed if not self._heard else self._timeout)
         while True:
+            left = began + waited - time.monotonic()
             try:
-                got = self._lines.get(timeout=max(until - time.monotonic(), 1e-3))
+                got = self._lines.get(timeout=max(left, 1e-3))
             except queue.Empty:
                 self._stop()
-                why = f"no answer within {self._timeout:g} s; is each line flushed?"
+                why = f"no answer within {waited:g} s; is each line flushed?"
                 return Reply("hang", said=why, strays=tuple(strays))
             if got is None:
                 return self._crash(strays)
-            warming = not self._heard
+            warming, took = not self._heard, time.monotonic() - began
             reply = self._reply(id, got, strays)
             if reply is not None:
                 if warming:  # started again, it may take twice that
-                    self._warming = 2 * (time.monotonic() - began)
-                return reply
+                    self._warming = 2 * took
+                return reply if took <= allowed else _late(reply, took, allowed)
             if len(strays) >= STRAY:
                 self._stop()
                 return Reply("garbage", said=strays[0], strays=tuple(strays[:1]))
@@ -142,14 +145,11 @@ class Program:
         self._heard = True
         name = record.get("id")
         if name != id:
-            known = self._asked.get(str(name))
-            what = {
-                "answered": f"answered {name!r} twice",
-                "late": f"answered {name!r} late: it was no longer waited for",
-            }.get(known or "", f"answered {str(name)[:40]!r}, which was not asked")
-            strays.append(what)
+            twice = str(name) in self._answered
+            what = f"{name!r} twice" if twice else f"{str(name)[:40]!r}, which was not asked"
+            strays.append(f"answered {what}")
             return None
-        self._asked[id] = "answered"
+        self._answered.add(id)
         others = tuple(strays)
         if record.get("unsupported") is True:
             return Reply("unsupported", strays=others)
@@ -246,6 +246,12 @@ class Program:
             if pipe is not None and not thread.is_alive():
                 with contextlib.suppress(OSError, ValueError):
                     pipe.close()
+
+
+def _late(reply: Reply, took: float, allowed: float) -> Reply:
+    """What an answer is that came too late: not judged."""
+    said = f"answered after {took:.3g} s; {allowed:g} s are allowed"
+    return Reply("late", said=said, strays=reply.strays)
 
 
 def _fed(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:

@@ -84,7 +84,10 @@ def judged(
     if digits is None or verdict.verdict != FAILED:
         return verdict
     loose = case_verdict(layer, case, loosened(record, digits), answer)
-    return verdict if loose.verdict == FAILED else acceptable(f"right to {digits:g} digits")
+    if loose.verdict == FAILED:
+        return verdict
+    right = acceptable(f"right to {digits:g} digits", loose.digits)
+    return replace(right, without=loose.without, loose=True)
 
 
 def absent(expected: Json, answer: Json) -> tuple[str, ...]:

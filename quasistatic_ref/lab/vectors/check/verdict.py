@@ -72,6 +72,8 @@ class Verdict:
         Fewest correct digits of a field that was compared number by number.
     without : tuple of str
         Fields of a whole step that are not answered, of which nothing is said.
+    loose : bool
+        Whether it is acceptable only because fewer digits than float64's were asked for.
     """
 
     id: str
@@ -80,6 +82,7 @@ class Verdict:
     field: str = ""
     digits: float | None = None
     without: tuple[str, ...] = ()
+    loose: bool = False
 
     @property
     def record(self) -> dict[str, Json]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
-from quasistatic_ref.lab.study.page import Block, Picture, Report, Table
+from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
 
 
 def html_page(report: Report, images: Mapping[str, bytes]) -> str:
@@ -54,10 +54,14 @@ def _text(words: str) -> str:
 def _figure(picture: Picture, svg: bytes) -> str:
     source = "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
     return (
-        f'<figure><img alt="{escape(picture.caption)}" src="{source}">'
-        f'<figcaption>{_text(picture.caption)} <span class="rows">Rows: '
-        f"{_text(picture.where)}.</span></figcaption></figure>"
+        f"<figure><img{' class=natural' if picture.natural else ''} "
+        f'alt="{escape(picture.caption)}" src="{source}">'
+        f"<figcaption>{_text(picture.caption)}{_rows(picture.where)}</figcaption></figure>"
     )
+
+
+def _rows(where: str) -> str:
+    return f' <span class="rows">Rows: {_text(where)}.</span>' if where else ""
 
 
 def _table(table: Table) -> str:
@@ -67,8 +71,8 @@ def _table(table: Table) -> str:
         for row in table.rows
     ]
     return (
-        f'<div class="wide"><table><caption><b>{_text(table.title)}</b> <span class="rows">Rows: '
-        f"{_text(table.where)}.</span></caption><thead><tr>{head}</tr></thead>"
+        f'<div class="wide"><table><caption><b>{_text(table.title)}</b>{_rows(table.where)}'
+        f"</caption><thead><tr>{head}</tr></thead>"
         f"<tbody>{''.join(body)}</tbody></table></div>"
     )
 

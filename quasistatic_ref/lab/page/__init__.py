@@ -1,0 +1,1 @@
+"""Reports as data, written as HTML and as Markdown."""

@@ -1,0 +1,1 @@
+"""What an implementation passed, said exactly: a page, a badge, a record."""
