@@ -124,7 +124,15 @@ def sizes_of(step: StepData, coordinate: Array, length: float, size: float) -> S
         column_terms=max(_most_rows(blocks, step.counts), step.n_a),
         usable=True,
     )
-    largest = (blocks.J, sizes.mu, sizes.load, sizes.coordinate, of_load, coordinate, np.array(step.h))
+    largest = (
+        blocks.J,
+        sizes.mu,
+        sizes.load,
+        sizes.coordinate,
+        of_load,
+        coordinate,
+        np.array(step.h),
+    )
     usable = all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in largest)
     return replace(sizes, usable=usable)
 
@@ -132,4 +140,6 @@ def sizes_of(step: StepData, coordinate: Array, length: float, size: float) -> S
 def _most_rows(blocks: Blocks, counts: Indices) -> int:
     """Most rows of A in which one coordinate moves."""
     rows = np.broadcast_to(counts[:, None], blocks.column.shape)
-    return int(np.bincount(blocks.column.ravel(), rows.ravel(), minlength=1)[: blocks.n_v].max(initial=0))
+    return int(
+        np.bincount(blocks.column.ravel(), rows.ravel(), minlength=1)[: blocks.n_v].max(initial=0)
+    )

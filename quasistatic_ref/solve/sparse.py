@@ -1,7 +1,8 @@
 """Large steps: the sparse standard form handed to a backend's own interface.
 
 As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the entries that are
-there. Nothing here is certified exactly: residuals are what can be computed at this size.
+there. Nothing here is certified exactly: residuals, and a bound of the error
+(:mod:`~quasistatic_ref.certify.sparse_bound`), are what can be computed at this size.
 """
 
 import math
@@ -28,15 +29,22 @@ GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_re
 """Options that ask for a duality gap: Clarabel's, then PIQP's."""
 
 
+MOST_ITERATIONS = 100
+"""Of an interior point: one that has a gap to reach and does not in 40 stalls. It is then tried
+with other options, for which it would be late after 500."""
+
+
 def reachable(options: Options, rows: int) -> Options:
-    """The same options, with a duality gap that rounding does not hide.
+    """The same options, with a duality gap that rounding does not hide, or without iterations lost.
 
     The gap is a difference of sums over all rows, of terms near one in natural units: rounding
     leaves some 2^-52 of each. Asked for less, Clarabel takes 20 to 30 more steps in search of a
     lucky one, and PIQP all that it may.
     """
     least = rows * float(np.finfo(np.float64).eps)
-    return options | {name: max(options[name], least) for name in GAPS if name in options}
+    gaps = {name: max(options[name], least) for name in GAPS if name in options}
+    most = {"max_iter": min(options["max_iter"], MOST_ITERATIONS)} if gaps else {}
+    return options | gaps | most
 
 
 class SparseSolver(NativeSolver):

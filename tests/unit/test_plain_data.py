@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
@@ -27,7 +26,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.posed import PosedStep
-from tests.helpers import changed, contacts_of, pinch, random_step
+from tests.helpers import always_in_blocks, changed, contacts_of, pinch, random_step
 from tests.scenes import chain_scene, written_scenario
 
 ROUND_TRIPS = {
@@ -55,7 +54,7 @@ def sparse_step():
     """A step whose contacts are in blocks, as its simulator poses it."""
     some = pile((2, 1, 2), certify="off")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sparse_jacobian, "SPARSE_FROM", 0)
+        always_in_blocks(patch)
         return copy.copy(some.simulator).step(some.q, np.zeros(0), some.force).step
 
 
