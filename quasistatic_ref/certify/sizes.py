@@ -6,10 +6,12 @@ is off by at most :math:`\gamma_D = D u / (1 - D u)` times the sum of the sizes 
 a factor of :math:`1 - \gamma_D` at most. What underflows is off by TINY at most.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from quasistatic_ref.certify.outward import above
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.friction import cone_matrix
@@ -35,7 +37,7 @@ def rounding(terms: int, sizes: Array) -> Array:
     """What sums of so many terms may be off by, from the sums of sizes, as they are computed."""
     D = terms + ROUNDINGS
     part = D * UNIT / (1 - 2 * D * UNIT)  # gamma_D / (1 - gamma_D)
-    return np.nextafter(np.nextafter(part, np.inf) * sizes + TINY, np.inf)
+    return above(math.nextafter(part, math.inf) * sizes + TINY)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,22 +126,14 @@ def sizes_of(step: StepData, coordinate: Array, length: float, size: float) -> S
         column_terms=max(_most_rows(blocks, step.counts), step.n_a),
         usable=True,
     )
-    largest = (
-        blocks.J,
-        sizes.mu,
-        sizes.load,
-        sizes.coordinate,
-        of_load,
-        coordinate,
-        np.array(step.h),
-    )
-    usable = all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in largest)
+    largest = (blocks.J, sizes.mu, sizes.load, sizes.coordinate, of_load, coordinate)
+    usable = step.h <= LARGEST
+    usable = usable and all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in largest)
     return replace(sizes, usable=usable)
 
 
 def _most_rows(blocks: Blocks, counts: Indices) -> int:
     """Most rows of A in which one coordinate moves."""
     rows = np.broadcast_to(counts[:, None], blocks.column.shape)
-    return int(
-        np.bincount(blocks.column.ravel(), rows.ravel(), minlength=1)[: blocks.n_v].max(initial=0)
-    )
+    of_coordinates = np.bincount(blocks.column.ravel(), rows.ravel(), minlength=blocks.n_v)
+    return int(of_coordinates[: blocks.n_v].max(initial=0))

@@ -135,8 +135,8 @@ def _piqp(accuracy: float) -> Attempts:
     # 7e-8 to 4e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
-    # With so little a step of a heap now and then stalls, which its own regularisation solves.
-    own = {"reg_lower_limit": 1e-10, "reg_finetune_lower_limit": 1e-13}
+    # With so little a step of a heap now and then stalls, which its own settings solve.
+    own = {"reg_lower_limit": 1e-10, "reg_finetune_lower_limit": 1e-13, "preconditioner_iter": 10}
     # The gap is a difference of sums over all rows: with thousands of rows rounding alone leaves
     # 1e-14 to 4e-13 of it, at an answer that is right to 1e-14.
     rounded = dict.fromkeys(gap, accuracy)
