@@ -174,8 +174,17 @@ UNSEEN: Final = 1e-11
 sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
 jump in them), and the bound takes two of them and two transformed points."""
 
-SPARSE_FROM: Final = 10_000
-"""Entries of a step's dense J, 4 n_c n_v, from which steps that are not certified are sparse.
+SPARSE_FROM: Final = 1_000
+"""Entries of a step's dense J, 4 n_c n_v, from which Clarabel and OSQP get sparse matrices.
 
-A row of 8 boxes has 11,520: PIQP takes as long either way, Clarabel and OSQP are faster sparse.
-bunny_grasp has 780."""
+Between 2 boxes in a row (576), where dense ones take less time, and 3 (1,440), where sparse ones do
+(validation/results/large_steps.md). bunny_grasp has 780."""
+
+SPARSE_FROM_PIQP: Final = 10_000
+"""The same for PIQP, whose dense method is faster: between 6 boxes in a row (6,336) and 8
+(11,520)."""
+
+DENSE_BELOW: Final = 150_000
+"""Entries below which runs that certify nothing and name no backend stay with DAQP and dense
+matrices. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one
+of 32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""

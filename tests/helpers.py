@@ -5,7 +5,10 @@ import numpy as np
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
-from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.simulate import simulator
+from quasistatic_ref.solve.engines import sparse_from
+from quasistatic_ref.step.blocks import Blocks
+from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 ROADS = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
@@ -15,6 +18,19 @@ JUDGE = "daqp"
 def changed(contacts, **changes):
     """A copy of contacts with some fields changed, checked as any other."""
     return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
+
+
+def always_in_blocks(patch):
+    """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
+    patch.setattr(simulator, "sparse_from", lambda *asked: min(sparse_from(*asked), 1))
+
+
+def in_blocks(step):
+    """The same step with all columns of J as blocks."""
+    c = step.contacts
+    blocks = Blocks(np.tile(np.arange(step.n_v), (c.n_c, 1)), c.J, step.n_v)
+    own = (c.name, c.phi, c.n, c.d1, c.d2, blocks, c.mu_v, c.mu_omega, c.rows)
+    return step.replace(contacts=SparseContacts(*own))
 
 
 def random_frame(rng):

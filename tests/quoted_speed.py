@@ -3,6 +3,9 @@
 from tests.quoted import cell, cells, said
 
 PROFILE, BENCH = "validation/step_profile.md", "validation/benchmarks/bench.md"
+LARGE, HEAP = "validation/results/large_steps.md", "5 x 5 x 4"
+SHOWN = ("1", "3", "8", "16", "24", "32", "3 x 3 x 3", "4 x 4 x 3")
+"""Boxes, in the table of docs/speed.md."""
 PAPERS = 90
 """The paper's bound of its average step [us]."""
 NAMES = {
@@ -47,19 +50,50 @@ def distances():
     return said(PROFILE, r"evaluates (\d+) signed distances, with the tracker (\d+) in the mean")
 
 
+def sparse(boxes, backend, column):
+    return cell(LARGE, "Sparse steps", (boxes, backend), column)
+
+
+def of_ways(boxes):
+    """A row of the table of dense and sparse steps, as the page has it."""
+    ways = ("daqp dense", "piqp dense", "piqp sparse", "clarabel dense", "clarabel sparse")
+    (row,) = (r for r in cells(LARGE, "Dense and sparse") if r["boxes"] == boxes)
+    return f"| {boxes} | {row['entries of J']} | {' | '.join(row[way] for way in ways)} |"
+
+
 def chains():
-    rows = [r for r in cells(BENCH, "Rows of boxes") if int(r["bodies"]) >= 10]
-    assert [r["bodies"] for r in rows] == ["10", "20", "40", "80", "160"]
-    steps = [float(r["step [ms]"]) for r in rows]
-    memory = [float(rows[i]["memory [MB]"]) for i in (0, -1)]
-    times = ", ".join(f"{ms:.1f}" if ms < 9.95 else f"{ms:.0f}" for ms in steps)
-    return times, *memory, promise("exponent in bodies, chains")
+    boxes = ("10", "20", "40", "80", "160")
+    times = [sparse(n, "piqp", "off [ms]") for n in boxes]
+    found = [exponent(what, b) for what, b in BOTH]
+    return ", ".join(f"{ms:.1f}" if ms < 9.95 else f"{ms:.0f}" for ms in times), *found
+
+
+BOTH = (("bodies", "piqp"), ("bodies", "clarabel"), ("contacts", "piqp"), ("contacts", "clarabel"))
+
+
+def exponent(what, backend):
+    return cell(LARGE, "Promises", f"exponent in {what}, {backend}", "measured")
 
 
 def heap():
-    (largest,) = (r for r in cells(BENCH, "Heaps") if r["bodies"] == "5 x 5 x 4")
-    size = (int(largest[c]) for c in ("contacts", "coordinates", "rows"))
-    return *size, float(largest["step [ms]"])
+    columns = ("first [ms]", "off [ms]", "off p99 [ms]", "residual [ms]")
+    of_piqp = [sparse(HEAP, "piqp", c) for c in columns]
+    size = [int(sparse(HEAP, "piqp", c)) for c in ("contacts", "coordinates", "rows")]
+    return *size, *of_piqp, sparse(HEAP, "clarabel", "first [ms]")
+
+
+def bounds():
+    """The heap's cost of a bound [ms], and the largest bound of PIQP's answers."""
+    rows = [r for r in cells(LARGE, "Sparse steps") if r["backend"] == "piqp"]
+    assert {r["without bound"] for r in rows} == {"0"}
+    assert {r["unsolved"] for r in rows} == {"0"}
+    return [max(float(r["largest error bound"]) for r in rows)]
+
+
+def clarabel_dense():
+    """How many times as long Clarabel takes for a row of 8 boxes if its arrays are dense."""
+    (row,) = (r for r in cells(LARGE, "Dense and sparse") if r["boxes"] == "8")
+    return [float(row["clarabel dense"]) / float(row["clarabel sparse"])]
 
 
 HELD = [
@@ -72,11 +106,15 @@ HELD = [
      lambda: parts("Medians", "daqp", "distances")[1:]),
     ("the solve is {:.0f} % with the tracker and {:.0f} % without",
      lambda: parts("Means", "osqp", "solve [%]")),
-    ("take about {} ms a step ({:.1f} to {:.1f} MB at once), {:.2f} as an exponent in bodies",
-     chains),
-    ("Of 16 boxes with 62 to 992 contacts: {:.2f} in contacts",
-     lambda: [promise("exponent in contacts, chains")]),
-    ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms", heap),
+    *((of_ways(n), list) for n in SHOWN),
+    ("take about {} ms a step, {:.2f} as an exponent in bodies; Clarabel {:.2f}. Of 16 boxes with "
+     "62 to 992 contacts: {:.2f} in contacts, Clarabel {:.2f}", chains),
+    ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms at first with PIQP, "
+     "{:.0f} ms over 100 steps (99th percentile {:.0f}), {:.0f} ms with the bound; {:.0f} ms at "
+     "first with Clarabel", heap),
+    ("at most {:.0e} in all of these scenes with PIQP", bounds),
+    ("Clarabel takes {:.1f} times as long for a row of 8 boxes if its arrays are dense",
+     clarabel_dense),
     ("takes {:.1f} times the bare DAQP call", lambda: [promise("step over the bare solver")]),
     ("through CVXPY {:.1f} times as long", lambda: [promise("through CVXPY over native")]),
     ("**Compiled**, a step takes {:.0f} us, less than the paper's 90 us on another machine, and "

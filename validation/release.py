@@ -113,6 +113,12 @@ RESULTS = (
         output="validation/results/options_of_backends.csv",
     ),
     Result(
+        "large_steps",
+        ("validation.large_steps",),
+        ("validation/results/large_steps.md",),
+        output="validation/results/large_steps.md",
+    ),
+    Result(
         "curved_pairs",
         ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
         ("validation/results/curved_pairs.md",),

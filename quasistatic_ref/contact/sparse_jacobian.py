@@ -9,7 +9,6 @@ from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.data import Indices, Mask, SparseContacts
-from quasistatic_ref.tolerances import SPARSE_FROM
 
 
 class BlockGeometry:
@@ -69,19 +68,19 @@ class BlockGeometry:
 
 
 def contact_geometry(
-    layout: ContactLayout, motion: Motion, blocks: bool
+    layout: ContactLayout, motion: Motion, sparse_from: int
 ) -> ContactGeometry | BlockGeometry:
-    """The geometry of contacts: in blocks where these are allowed, and J is as large as to pay.
+    """The geometry of contacts: in blocks where J is large.
 
     Parameters
     ----------
     layout : ContactLayout
     motion : Motion
-    blocks : bool
-        Whether the steps' solver takes blocks.
+    sparse_from : int
+        Entries of J from which the steps' solver takes blocks; 0 if it takes none.
     """
     entries = 4 * len(layout.rows) * motion.coordinates.shape[1]
-    form = BlockGeometry if blocks and entries >= SPARSE_FROM else ContactGeometry
+    form = BlockGeometry if 0 < sparse_from <= entries else ContactGeometry
     return form(layout, motion)
 
 

@@ -23,8 +23,8 @@ from quasistatic_ref.solve.engines import (
     check_solver,
     default_backend,
     default_engine,
-    may_be_sparse,
     solver_for,
+    sparse_from,
 )
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -117,14 +117,16 @@ class Simulator:
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
         self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
-        self.backend = default_backend(engine, cone, certify) if solver is None else solver
+        blocks = extension is None and system.rigid
+        entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
+        default = default_backend(engine, cone, certify, entries)
+        self.backend = default if solver is None else solver
         self.engine = default_engine(self.backend, cone) if engine is None else engine
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
-        blocks = may_be_sparse(self.engine, self.backend, certify, cone)
-        blocks = blocks and extension is None and system.rigid
-        self.geometry = contact_geometry(self.layout, system.motion, blocks)
+        least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
+        self.geometry = contact_geometry(self.layout, system.motion, least)
         fast = compiled("step")
         self.fast: CompiledStep | None = None if fast is None else fast.compiled_step(self)
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
 Attempts = tuple[Options, ...]
@@ -44,8 +45,9 @@ class Backend:
         interior point a warm start reuses the set-up, not the point.)
     adapter : str
         Class in ``adapters/NAME.py``, where the native engine reaches it.
-    sparse : bool
-        Whether that class takes sparse matrices, too.
+    sparse : int
+        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices where
+        steps are not certified exactly; 0 if it takes none.
     cvxpy : bool
         Whether CVXPY has an interface to it.
     package : str
@@ -69,7 +71,7 @@ class Backend:
     time_limit: str = ""
     warm: tuple[str, ...] = ()
     adapter: str = ""
-    sparse: bool = False
+    sparse: int = 0
     cvxpy: bool = True
     package: str = ""
     required: bool = False
@@ -133,10 +135,12 @@ def _piqp(accuracy: float) -> Attempts:
     # 7e-8 to 4e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
+    # With so little a step of a heap now and then stalls, which its own settings solve.
+    own = {"reg_lower_limit": 1e-10, "reg_finetune_lower_limit": 1e-13, "preconditioner_iter": 10}
     # The gap is a difference of sums over all rows: with thousands of rows rounding alone leaves
     # 1e-14 to 4e-13 of it, at an answer that is right to 1e-14.
     rounded = dict.fromkeys(gap, accuracy)
-    return (common | gap, common | rounded)
+    return (common | gap, common | rounded, common | rounded | own)
 
 
 def _tolerances(*names: str, **others: Any) -> Callable[[float], Options]:
@@ -174,12 +178,13 @@ BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
         Backend("clarabel", "interior point", _clarabel, _plain_clarabel, adapter="Clarabel",
-                sparse=True, time_limit="time_limit", warm=("cvxpy",), required=True, cones=True),
+                sparse=SPARSE_FROM, time_limit="time_limit", warm=("cvxpy",), required=True,
+                cones=True),
         # At 1e-12 OSQP leaves more steps of bunny_grasp unsolved (docs/conventions.md).
-        Backend("osqp", "operator splitting", _osqp, _plain_osqp, adapter="Osqp", sparse=True,
-                floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
+        Backend("osqp", "operator splitting", _osqp, _plain_osqp, adapter="Osqp",
+                sparse=SPARSE_FROM, floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
         Backend("piqp", "proximal interior point", _piqp, _plain_proximal, adapter="Piqp",
-                sparse=True, warm=("cvxpy",), required=True),
+                sparse=SPARSE_FROM_PIQP, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
         Backend("daqp", "dual active set", _once(_daqp), _daqp,
                 adapter="Daqp", warm=("qpsolvers",), required=True),
@@ -201,7 +206,9 @@ UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
 DEFAULT = "clarabel"
 """Of a single step, through CVXPY: it takes every cone and every extension."""
 DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT
-"""Of certified runs, natively: their steps are the fastest, and have the same bits with any."""
+"""Of small steps of runs, natively: the fastest; certified ones have the same bits with any."""
+DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
+"""Of large steps that are not certified exactly: sparse, in half of the time of DEFAULT."""
 NONE = "none"
 """No backend: the exact method from a cold start."""
 

@@ -1,10 +1,13 @@
 """The word `engine` of scenarios and the command line: it chooses the class of a solver."""
 
+import math
+
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
+    DEFAULT_OF_LARGE,
     DEFAULT_OF_RUNS,
     NONE,
     QPSOLVERS,
@@ -14,6 +17,7 @@ from quasistatic_ref.solve.native import NativeSolver, check_native, native_back
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
 
 CVXPY, NATIVE = "cvxpy", "native"
 ENGINES = (CVXPY, NATIVE)
@@ -35,14 +39,22 @@ def check_solver(name: str, engine: str, cone_name: str) -> None:
         backend(name)
 
 
-def default_backend(engine: str | None, cone_name: str, certify: str) -> str:
-    """The backend of a simulator that names none.
+def default_backend(engine: str | None, cone_name: str, certify: str, entries: int = 0) -> str:
+    """The backend of a simulator that names none: that of a single step, or natively the fastest.
 
-    Natively, where every step is certified from rows: the fastest, since the bits are the same
-    with any. Otherwise that of a single step, which takes all cones, extensions and large steps.
+    Parameters
+    ----------
+    engine : str or None
+    cone_name : str
+    certify : str
+    entries : int
+        Of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0.
     """
-    certified = certify == "full" and cone(cone_name).polyhedral
-    return DEFAULT_OF_RUNS if certified and engine != CVXPY else DEFAULT
+    if engine == CVXPY or not cone(cone_name).polyhedral:
+        return DEFAULT
+    # Rows that are certified exactly are dense, and have the same bits with any backend.
+    sparse = {"full": math.inf, "residual": SPARSE_FROM_PIQP, "off": DENSE_BELOW}
+    return DEFAULT_OF_LARGE if entries >= sparse.get(certify, math.inf) else DEFAULT_OF_RUNS
 
 
 def default_engine(name: str, cone_name: str) -> str:
@@ -92,7 +104,10 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     return CvxpySolver(step, name)
 
 
-def may_be_sparse(engine: str, name: str, certify: str, cone_name: str) -> bool:
-    """Whether large steps may be handed over in blocks: natively, rows, not certified exactly."""
-    takes = engine == NATIVE and name in BACKENDS and BACKENDS[name].sparse
-    return takes and certify != "full" and cone(cone_name).polyhedral
+def sparse_from(engine: str, name: str, certify: str, cone_name: str) -> int:
+    """Entries of J, 4 n_c n_v, from which steps are handed over in blocks; 0 if they never are.
+
+    They are natively, where a cone has rows and nothing is certified exactly.
+    """
+    may = engine == NATIVE and certify != "full" and cone(cone_name).polyhedral
+    return BACKENDS[name].sparse if may and name in BACKENDS else 0

@@ -1,23 +1,25 @@
 """Large steps: the sparse standard form handed to a backend's own interface.
 
 As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the entries that are
-there. Nothing here is certified exactly: residuals are what can be computed at this size.
+there. Nothing here is certified exactly: residuals, and a bound of the error
+(:mod:`~quasistatic_ref.certify.sparse_bound`), are what can be computed at this size.
 """
 
 import math
 
 import numpy as np
 from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from quasistatic_ref.certify.optimality import Residuals, residuals_of
+from quasistatic_ref.certify.sizes import sizes_of
+from quasistatic_ref.certify.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
-from quasistatic_ref.solve.units import coordinate_units, units_from
+from quasistatic_ref.solve.units import coordinate_units, from_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import StandardForm
@@ -27,15 +29,22 @@ GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_re
 """Options that ask for a duality gap: Clarabel's, then PIQP's."""
 
 
+MOST_ITERATIONS = 100
+"""Of an interior point: one that has a gap to reach and does not in 40 stalls. It is then tried
+with other options, for which it would be late after 500."""
+
+
 def reachable(options: Options, rows: int) -> Options:
-    """The same options, with a duality gap that rounding does not hide.
+    """The same options, with a duality gap that rounding does not hide, or without iterations lost.
 
     The gap is a difference of sums over all rows, of terms near one in natural units: rounding
     leaves some 2^-52 of each. Asked for less, Clarabel takes 20 to 30 more steps in search of a
     lucky one, and PIQP all that it may.
     """
     least = rows * float(np.finfo(np.float64).eps)
-    return options | {name: max(options[name], least) for name in GAPS if name in options}
+    gaps = {name: max(options[name], least) for name in GAPS if name in options}
+    most = {"max_iter": min(options["max_iter"], MOST_ITERATIONS)} if gaps else {}
+    return options | gaps | most
 
 
 class SparseSolver(NativeSolver):
@@ -75,7 +84,7 @@ class SparseSolver(NativeSolver):
         scaled = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
         m, n = A.shape
         program = SparseProgram(scaled, np.zeros(n), A.copy(), np.zeros(m))
-        self.factor = splu(program.H)
+        self.of_H = Metric(program.H)
         return program
 
     def takes(self, step: StepData) -> bool:
@@ -125,12 +134,12 @@ class SparseStep:
     """
 
     def __init__(self, step: StepData, solver: SparseSolver) -> None:
-        self.step, self.H = step, solver.program.H
+        self.step, self.H, self.metric = step, solver.program.H, solver.of_H
         form, S = sparse_form(step, solver.pattern), solver.coordinate
         rows = form.A.data * S[solver.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
-        energy = math.sqrt(max(float(y @ solver.factor.solve(y)), 0.0))  # ||H^-1 g||_H
+        energy = math.sqrt(max(float(y @ solver.of_H.factor.solve(y)), 0.0))  # ||H^-1 g||_H
         self.units = units = units_from(S, np.sort(squares), energy, form.b)
         check_units(units, step)
         self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
@@ -142,5 +151,14 @@ class SparseStep:
         slack = self.A @ delta_q - self.b
         return residuals_of(balance, -slack, -lam, slack * lam)
 
-    def bound(self, delta_q: Array, lam: Array) -> None:
-        """No bound is known at this size."""
+    def bound(self, delta_q: Array, lam: Array) -> float | None:
+        """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""
+        units = self.units
+        said = from_natural(delta_q, lam, units)
+        back = said[0] / (units.size * units.coordinate), said[1] * (units.length / units.size)
+        if not (np.array_equal(back[0], delta_q) and np.array_equal(back[1], lam)):
+            return None  # they lose digits below the range of float64
+        sizes = sizes_of(self.step, units.coordinate, units.length, units.size)
+        form = LargeForm(self.metric, self.g, self.A, self.b, sizes)
+        error = sparse_error_bound(form, delta_q, lam)
+        return error if math.isfinite(error) else None

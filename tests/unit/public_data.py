@@ -5,7 +5,6 @@ import copy
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
@@ -20,7 +19,7 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
-from tests.helpers import contacts_of, random_step
+from tests.helpers import always_in_blocks, contacts_of, random_step
 from tests.scenes import written_scenario
 
 NAN, INF = np.nan, np.inf
@@ -43,7 +42,7 @@ def sparse_step():
     """A step whose contacts are in blocks, as its simulator poses it."""
     some = pile((2, 1, 2), certify="off")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sparse_jacobian, "SPARSE_FROM", 0)
+        always_in_blocks(patch)
         return copy.copy(some.simulator).step(some.q, np.zeros(0), some.force).step
 
 

@@ -86,7 +86,9 @@ ROADS = {
 
 def test_each_promise_is_judged_by_its_limit():
     clouds = [{"points": 1_000_000, "over_992": 5.0, "tree_seconds": 6.0}]
+    heaps = [{"contacts": 252, "seconds": 1.0}, {"contacts": 1040, "seconds": 0.059}]
     tables = {"roads": ROADS, "clouds": clouds, "exponents": {"bodies": 1.1, "contacts": None}}
+    tables["heaps"] = heaps
     judged = {p["what"]: p["holds"] for p in promises(tables)}
     assert judged == {
         "step over the bare solver": False,
@@ -95,6 +97,7 @@ def test_each_promise_is_judged_by_its_limit():
         "hand-written loop over native": True,
         "1e6 points over 992": True,
         "tree of 1e6 points [s]": False,
+        "heap of 1,040 contacts [ms]": True,
         "exponent in bodies, chains": True,
     }
     rows = promise_rows(promises(tables))

@@ -10,7 +10,6 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact import sparse_jacobian
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -27,7 +26,15 @@ from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
-from tests.helpers import REQUIRED, changed, error, planted_step, point_on_floor, random_step
+from tests.helpers import (
+    REQUIRED,
+    always_in_blocks,
+    changed,
+    error,
+    planted_step,
+    point_on_floor,
+    random_step,
+)
 from tests.tolerances import EXACT, OPTIMUM
 
 ROWS = (6, 4, 6)
@@ -42,7 +49,7 @@ def step(rng):
 @pytest.fixture
 def large_step(monkeypatch):
     """A step whose contacts are in blocks."""
-    monkeypatch.setattr(sparse_jacobian, "SPARSE_FROM", 0)
+    always_in_blocks(monkeypatch)
     some = pile((2, 1, 2))
     return some.simulator.step(some.q, np.zeros(0), some.force).step
 

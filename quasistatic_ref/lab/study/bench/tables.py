@@ -25,6 +25,7 @@ from quasistatic_ref.lab.study.large import (
     CHAINS,
     CONTACTS,
     FEW,
+    HEAP_STEPS,
     PILES,
     ROW,
     SHORT,
@@ -76,7 +77,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     rows = [large_step((n, 1, 1)) for n in ((2, 4) if quick else (1, 5, *CHAINS))]
     counts = [] if quick else [large_step((ROW, 1, 1), k) for k in CONTACTS]
     few = [large_step((SHORT, 1, 1), k) for k in (FEW[:2] if quick else FEW)]
-    heaps = [large_step(shape) for shape in (((2, 1, 2),) if quick else PILES)]
+    heaps = [large_step((2, 1, 2))] if quick else [large_step(s, steps=HEAP_STEPS) for s in PILES]
     for name, sizes in (("chains", rows), ("contacts", [*few, *counts]), ("heaps", heaps)):
         found[name] = [asdict(size) for size in sizes]
     found["exponents"] = {
