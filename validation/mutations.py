@@ -92,6 +92,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/exact_step.py": ordered("farkas"),
     "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
+    "certify/rounded_bound.py": ("unit/test_rounded_bound.py",),
     "certify/gap.py": ("unit/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/test_judged.py", *FORGED),
