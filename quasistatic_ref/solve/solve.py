@@ -2,16 +2,19 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
+from quasistatic_ref.certify.confirm import BallHessian
 from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
+from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.certify.warm import warm_rows
@@ -177,7 +180,7 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     hessian = solver.kept_hessian(step)
     norm = hessian.norm
     free = norm.impulse(scaled.form.g)
-    optimum = None if answer is None else _proved(scaled, solver, answer)
+    optimum = None if answer is None else _proved(scaled, solver, answer, hessian)
     if optimum is None:
         form, warm = scaled.natural_form, list[int]()
         if answer is not None:
@@ -188,7 +191,9 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     return _certified(scaled, answer, statistics, optimum, exact_certificate, norm, free)
 
 
-def _proved(scaled: Scaled, solver: Solver, answer: Answer) -> ExactOptimum | None:
+def _proved(
+    scaled: Scaled, solver: Solver, answer: Answer, hessian: BallHessian
+) -> ExactOptimum | None:
     """The optimum by compiled code, where there is any and the rows that bear load are a guess."""
     fast = compiled("certificate")
     if fast is None:
@@ -201,8 +206,8 @@ def _proved(scaled: Scaled, solver: Solver, answer: Answer) -> ExactOptimum | No
         return None
     form, lam = scaled.natural_form, answer.lam[rows]
     bears = lam > form.A[rows] @ answer.delta_q - form.b[rows]  # as warm_rows has it
-    found: ExactOptimum | None = solver.prover.optimum(scaled.step, rows[bears], scaled.units)
-    return found
+    prove = partial(solver.prover.optimum, scaled.step, units=scaled.units)
+    return proved_nearby(prove, rows[bears], scaled.form, hessian.rough)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
