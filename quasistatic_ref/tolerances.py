@@ -44,6 +44,11 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
 a wrong one."""
 
+BOUNDED: Final = 1e-6
+"""Largest bound of an answer's error [-] that float64 is trusted to have made as small as it may.
+
+It leaves about 1e-7 of an exact answer; a larger one is tried again in balls, which leave 1e-8."""
+
 FAR: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
 

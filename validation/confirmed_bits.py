@@ -20,6 +20,7 @@ from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -28,19 +29,28 @@ from tqdm import tqdm
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.confirm import BallHessian, confirmed
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exchange import Proof, proved_nearby
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.compiled import compiled
 from quasistatic_ref.files import text_written
 from quasistatic_ref.plain import bits
 from quasistatic_ref.solve.units import Units, natural_units, to_natural
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.standard_form import standard_form
 from validation.random_steps import mixed_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COLUMNS = (
     "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused", "mended",
-    "proved too",
+    "proved too", "nearby",
 )  # fmt: skip
+
+
+NEARBY = {"walks"}
+"""In what may differ from the exact optimum what is proved near a wrong guess."""
+
+OTHERS = NEARBY | {"lam", "working_set", "smallest_active_multiplier"}
+"""The same where multipliers are not unique."""
 
 
 def random_case(seed: int) -> tuple[str, StepData]:
@@ -75,17 +85,35 @@ def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
 
 
-def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
+def proof(step: StepData, rows: Indices) -> Proof:
     """What compiled code makes of a guess, where there is any."""
     fast = compiled("certificate")
     if fast is None:
         return None
     units = natural_units(step)
-    rows = np.array(sorted(set(guess)), dtype=np.int64)
-    found: ExactOptimum | None = fast.prover(step, units.coordinate, None).optimum(
-        step, rows, units
-    )
+    found: Proof = fast.prover(step, units.coordinate, None).optimum(step, rows, units)
     return found
+
+
+def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
+    """What compiled code proves of a guess."""
+    found = proof(step, np.array(sorted(set(guess)), dtype=np.int64))
+    return found if isinstance(found, ExactOptimum) else None
+
+
+def confirmed_answer(step: StepData, guess: list[int], hessian: BallHessian) -> ExactOptimum | None:
+    """What is confirmed of a guess."""
+    found = confirmed(step, guess, hessian)
+    return found if isinstance(found, ExactOptimum) else None
+
+
+def nearby_answer(
+    step: StepData, guess: list[int], hessian: BallHessian, by_code: bool
+) -> ExactOptimum | None:
+    """What is proved on a guess or near it, in balls or by compiled code."""
+    rows = np.array(sorted(set(guess)), dtype=np.int64)
+    prove = partial(proof, step) if by_code else partial(confirmed, step, hessian=hessian)
+    return proved_nearby(prove, rows, standard_form(step), hessian.rough)
 
 
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
@@ -100,20 +128,28 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     else:
         found["optima"] += 1
         right = list(truth.working_set)
-        answer, proved = confirmed(step, right, hessian), compiled_answer(step, right)
+        answer, proved = confirmed_answer(step, right, hessian), compiled_answer(step, right)
         found["left open" if answer is None else "confirmed"] += 1
         found["compiled"] += proved is not None
         for one in (answer, proved):
             if one is not None and (wrong := differing(one, exact_optimum(form, right))):
                 faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
     for guess in wrong_sets(rng, right, form.m):
-        answer, proved = confirmed(step, guess, hessian), compiled_answer(step, guess)
+        answer, proved = confirmed_answer(step, guess, hessian), compiled_answer(step, guess)
         found["wrong sets"] += 1
         found["refused" if answer is None else "mended"] += 1
         found["proved too"] += proved is not None
         for one in (answer, proved):
             if one is not None and (wrong := differing(one, exact_optimum(form, guess))):
                 faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+        if (near := nearby_answer(step, guess, hessian, by_code=False)) is not None:
+            found["nearby"] += 1
+            may = NEARBY if near.multipliers_unique else OTHERS
+            wrong = sorted(set(differing(near, truth)) - may)
+            same = nearby_answer(step, guess, hessian, by_code=True)
+            wrong += [] if same is None else differing(near, same)
+            if wrong:
+                faults.append(f"{kind}, step {seed}, near {guess}: {', '.join(wrong)}")
     return kind, found, faults
 
 

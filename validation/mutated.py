@@ -60,6 +60,7 @@ SOLVED = (
     "unit/test_problem.py",
     "unit/test_cones.py",
 )
+LARGE = ("unit/test_sparse_bound.py", "unit/test_sizes.py")
 CURVED = ("unit/test_curved_pairs.py", "unit/test_distance.py")
 
 
@@ -87,6 +88,12 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/exact_step.py": ordered("farkas"),
     "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
+    "certify/rounded_bound.py": ("unit/test_rounded_bound.py",),
+    "certify/least_eigenvalues.py": LARGE,
+    "certify/opening.py": LARGE,
+    "certify/outward.py": LARGE,
+    "certify/sizes.py": LARGE,
+    "certify/sparse_bound.py": LARGE,
     "certify/gap.py": ("unit/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/test_judged.py", *FORGED),

@@ -21,11 +21,12 @@ from flint import arb, arb_mat, ctx, fmpz
 from quasistatic_ref.certify.balls import PRECISION, inverse
 from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.exchange import Proof, Violated
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import exact_rows, h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.certify.rows import places
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
 
 
@@ -40,6 +41,8 @@ class BallHessian:
     ----------
     norm : EnergyNorm
         Of H in float64.
+    rough : ndarray, shape (n_v, n_v)
+        The inverse of H in float64.
 
     Raises
     ------
@@ -56,6 +59,7 @@ class BallHessian:
             self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
             self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
         self.norm = energy_norm(step.H)
+        self.rough: Array = np.linalg.inv(step.H).astype(np.float64)
 
     def fits(self, step: StepData) -> bool:
         """Whether it is that of a step."""
@@ -78,7 +82,7 @@ class BallHessian:
         return actuated.entries() + [p / self.h - self.h * tau for p, tau in parts]
 
 
-def confirmed(step: StepData, guess: Sequence[int], hessian: BallHessian) -> ExactOptimum | None:
+def confirmed(step: StepData, guess: Sequence[int] | Indices, hessian: BallHessian) -> Proof:
     """The exact optimum, if a guess of its working set is right and balls show it.
 
     Parameters
@@ -92,11 +96,11 @@ def confirmed(step: StepData, guess: Sequence[int], hessian: BallHessian) -> Exa
 
     Returns
     -------
-    ExactOptimum or None
+    ExactOptimum, Violated or None
         None where something stays open. Of a guess that is wrong, rows whose multipliers are not
         surely positive are dropped; that is all.
     """
-    working = sorted(set(guess))
+    working = sorted({int(i) for i in guess})
     with ctx.workprec(PRECISION):
         A, b = _rows(step, working)
         reached = A * hessian.inverse
@@ -119,9 +123,14 @@ def confirmed(step: StepData, guess: Sequence[int], hessian: BallHessian) -> Exa
     slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
     idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
     still = np.flatnonzero(open_x).tolist()
-    if open_lam.any() or (slack < 0).any() or not implied_zeros(step, working, idle, still):
-        return None
     delta_q[still] = 0.0
+    if open_lam.any():
+        return None
+    if (slack < 0).any():
+        row = int((slack < 0).argmax())
+        return Violated(row, np.array(working, dtype=np.int64), lam_w, delta_q)
+    if not implied_zeros(step, working, idle, still):
+        return None
     if open_impulse.any():
         at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
         with ctx.workprec(PRECISION):

@@ -1,12 +1,14 @@
 """The exact answer of a step: the optimum, or a plain account of why there is none."""
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.confirm import BallHessian, confirmed
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.rational import exact_form
@@ -29,8 +31,8 @@ def exact_step(
     warm : sequence of int
         Rows that a solver found active; see :func:`~quasistatic_ref.certify.warm.warm_rows`.
     hessian : BallHessian, optional
-        That of the step: with it, it is seen first whether these rows hold the optimum. The bits
-        are the same.
+        That of the step: with it, it is seen first whether these rows, or rows near them, hold
+        the optimum. The bits are the same but for multipliers that are not unique.
 
     Returns
     -------
@@ -49,7 +51,11 @@ def exact_step(
         raise InputError(
             "has no rational optimum; see certify.enclosure", field="cone", value=step.cone
         )
-    optimum = None if hessian is None else confirmed(step, warm, hessian)
+    optimum = None
+    if hessian is not None:
+        prove = partial(confirmed, step, hessian=hessian)
+        rows = np.array(warm, dtype=np.int64)
+        optimum = proved_nearby(prove, rows, standard_form(step), hessian.rough)
     if optimum is None:
         form = exact_form(step)
         found = exact_optimum(form, warm)

@@ -1,5 +1,6 @@
 """The norm that errors and lengths are measured in: ||v||_H, with ||v||_H^2 = v'Hv."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,20 +17,21 @@ class EnergyNorm:
     unit : ndarray, shape (n_v,)
         Units [m, rad] in which the diagonal of H is one: the factor stays regular at mass ratios
         of 1e9.
-    L : ndarray, shape (n_v, n_v)
-        Lower Cholesky factor of H in these units.
+    L, inverse : ndarray, shape (n_v, n_v)
+        Lower Cholesky factor of H in these units, and the inverse of that.
     """
 
     unit: Array
     L: Array
+    inverse: Array
 
     def displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return float(_norms((self.L.T @ (v / self.unit))[:, None])[0])
+        return math.hypot(*(self.L.T @ (v / self.unit)).tolist())
 
     def impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return float(self.impulses(p[None])[0])
+        return math.hypot(*(self.inverse @ (p * self.unit)).tolist())
 
     def impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
@@ -40,7 +42,7 @@ def energy_norm(H: Array) -> EnergyNorm:
     """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2]."""
     unit = 1 / np.sqrt(np.diag(H))
     L = np.linalg.cholesky(H * np.outer(unit, unit))
-    return EnergyNorm(unit, np.asarray(L, dtype=np.float64))
+    return EnergyNorm(unit, L.astype(np.float64), np.linalg.inv(L).astype(np.float64))
 
 
 def _norms(columns: Array) -> Array:

@@ -35,9 +35,10 @@ static int nearest(const Number *x, double e, double h, double unit, double *out
         c = better;
     }
     double above = nextafter(c, INFINITY) - c, below = c - nextafter(c, -INFINITY);
-    double gap = above < below ? above : below;
+    double beyond = rest > 0.0 ? rest * UP : 0.0, short_of = rest < 0.0 ? -rest * UP : 0.0;
     *out = c * unit;
-    return fabs(rest) * UP + e < h * gap / 2 * DOWN && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
+    return beyond + e < h * above / 2 * DOWN && short_of + e < h * below / 2 * DOWN
+        && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
 }
 
 /* gap, slip_1, slip_2 and spin of a contact, without friction's coefficients' rows, and bounds. */
@@ -112,9 +113,10 @@ static int slacks(Proof *s, Room *m, int *lost)
         error *= UP;
         if (fabs(value(&x)) * DOWN <= error)
             s->idle[s->counts[0]++] = r;
-        else if (value(&x) < 0.0)
+        else if (value(&x) < 0.0) {
+            s->counts[0] = r;
             return NEGATIVE;
-        else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
+        } else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
             return OPEN_NUMBER;
     }
     return DECIDED;
@@ -139,6 +141,15 @@ static void at_rest(const Proof *s, const Room *m, char *rest)
     }
 }
 
+/* Whether all that H couples a coordinate to stays where it is: A'lam is then -g there. */
+static int held(const Proof *s, const char *rest, int64_t v)
+{
+    for (int64_t j = 0; j < s->n_v; j++)
+        if (!rest[j] && s->hessian_values[v * s->n_v + j] != 0.0)
+            return 0;
+    return 1;
+}
+
 /* delta_q, the multipliers of the working set and A'lam, rounded. Coordinates that are not surely
    other than zero are collected. */
 static int rounded(Proof *s, Room *m, int *lost)
@@ -151,24 +162,36 @@ static int rounded(Proof *s, Room *m, int *lost)
         double *lam = s->lam + s->guess[w];
         if (!nearest(m->z + n + w, m->e[n + w], *s->h, rho / ell, lam, lost))
             return OPEN_NUMBER;
-        if (!(*lam > 0.0))
+        if (!(*lam > 0.0)) {
+            s->counts[0] = s->guess[w];
             return NOT_PRESSED;
+        }
     }
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
-        double S = s->coordinate[v], error = 0.0;
-        if (m->rests[v]) {
-            s->delta_q[v] = s->net[v] = 0.0;
+        s->delta_q[v] = s->net[v] = 0.0;
+        if (m->rests[v])
             continue;
-        }
-        for (int64_t w = 0; w < k; w++)
-            error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
         if (fabs(value(m->z + v)) * DOWN <= m->e[v]) {
             s->still[s->counts[1]++] = v;
-            s->delta_q[v] = 0.0;
-        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * S, s->delta_q + v, lost))
+            m->rests[v] = STILL;
+        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * s->coordinate[v], s->delta_q + v, lost))
             return OPEN_NUMBER;
-        if (!nearest(m->net + v, error * UP, *s->h, rho / S, s->net + v, lost))
+    }
+    for (int64_t v = 0; v < n; v++) {
+        Number net = m->net[v];
+        double error = 0.0;
+        if (m->rests[v] == AT_REST)
+            continue;
+        if (held(s, m->rests, v)) {
+            Sum sum;
+            clear(&sum);
+            add_number(&sum, m->g + v, -1);
+            net = carried(&sum, lost);
+        } else
+            for (int64_t w = 0; w < k; w++)
+                error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
+        if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v, lost))
             return OPEN_NUMBER;
     }
     return DECIDED;

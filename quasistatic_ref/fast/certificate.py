@@ -5,6 +5,7 @@ import numpy as np
 from quasistatic_ref.certify.confirm import implied_zeros
 from quasistatic_ref.certify.dependence import combined
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.exchange import Proof, Violated
 from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.solve.units import Units
@@ -22,8 +23,9 @@ ARRAYS = (
 )  # fmt: skip
 """The fields of ``Proof`` in proof.h."""
 
-DECIDED, TO_BE_IMPLIED = 0, 8
-"""What a proof comes to: it is one, or it is one if the working set implies some zeros."""
+DECIDED, NEGATIVE, TO_BE_IMPLIED = 0, 7, 8
+"""What a proof comes to: it is one; a row is violated; or it is one if the working set implies
+some zeros."""
 
 LARGEST = 64
 """Most coordinates: the work grows with their cube, the room for the matrix with their square."""
@@ -70,7 +72,7 @@ class Prover:
         own = step.layout is layout and coordinate is unit
         return own and h == step.h and K_q is step.K_q and M_u is step.M_u
 
-    def optimum(self, step: StepData, guess: Indices, units: Units) -> ExactOptimum | None:
+    def optimum(self, step: StepData, guess: Indices, units: Units) -> Proof:
         """The exact optimum, if a guess of its working set is right and fixed point shows it.
 
         Parameters
@@ -84,7 +86,7 @@ class Prover:
 
         Returns
         -------
-        ExactOptimum or None
+        ExactOptimum, Violated or None
             None where something stays open: nothing is known then.
         """
         working, s = guess.tolist(), self.s
@@ -97,6 +99,8 @@ class Prover:
         for name, values in vectors(step).items():
             s[name][:] = values
         code, (rows, coordinates) = self._proof(s.address), s["counts"].tolist()
+        if code == NEGATIVE:
+            return Violated(rows, guess, s["lam"][guess], s["delta_q"].copy())
         zeros = s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
         if code != DECIDED and not (code == TO_BE_IMPLIED and implied_zeros(step, working, *zeros)):
             return None

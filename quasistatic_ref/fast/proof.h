@@ -9,6 +9,9 @@
 
 enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, NOT_PRESSED, NEGATIVE, TO_BE_IMPLIED };
 
+/* Why a coordinate does not move: nothing acts on it, or the working set may hold it. */
+enum { AT_REST = 1, STILL };
+
 /* Bits to which the solution is refined, and of the grid of its corrections. */
 enum { REFINED = 160, GRID = 280, ROUNDS = 12 };
 
@@ -35,7 +38,7 @@ typedef struct {
     /* The answer, in SI units. */
     double *delta_q, *lam, *net, *slack;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
-       many of both. */
+       many of both. Of a guess that is NOT_PRESSED or NEGATIVE the first number is the row. */
     int64_t *idle, *still, *counts;
 } Proof;
 

@@ -10,7 +10,15 @@ import numpy as np
 from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.units import Metric, Units, metric, natural_form, to_natural, units_of
+from quasistatic_ref.solve.units import (
+    Metric,
+    Units,
+    metric,
+    natural_form,
+    squared_lengths,
+    to_natural,
+    units_of,
+)
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -54,7 +62,8 @@ class Scaled:
         try:
             kept = like if like is not None and like.H is self.form.H else None
             self.metric = metric(self.form.H) if kept is None else kept
-            self.units = units_of(self.form, self.metric)
+            self.squares = squared_lengths(self.form, self.metric)
+            self.units = units_of(self.form, self.metric, self.squares)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
         check_units(self.units, step, self.metric.usable)
@@ -75,9 +84,9 @@ class Scaled:
     @property
     def unlike(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = np.square(self.form.A).dot(self.metric.squared)
-        squares = squares[squares > 0]
-        return math.sqrt(squares.max() / squares.min()) if squares.size else 1.0
+        squares = self.squares
+        first = int(squares.searchsorted(0.0, side="right"))
+        return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,9 @@ from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
+from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
@@ -33,7 +36,7 @@ from quasistatic_ref.step.solution import (
     step_solution,
 )
 from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.tolerances import ACCURACY, ILL_POSED, RESIDUAL_LIMIT
+from quasistatic_ref.tolerances import ACCURACY, BOUNDED, ILL_POSED, RESIDUAL_LIMIT
 
 CERTIFY = ("full", "residual", "off")
 NOTHING_CLAIMED = Certificate("none")
@@ -174,22 +177,23 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
-    if solver.hessian is None or not solver.hessian.fits(step):
-        solver.hessian = BallHessian(step)
-    norm = solver.hessian.norm
+    hessian = solver.kept_hessian(step)
+    norm = hessian.norm
     free = norm.impulse(scaled.form.g)
-    optimum = None if answer is None else _proved(scaled, solver, answer)
+    optimum = None if answer is None else _proved(scaled, solver, answer, hessian)
     if optimum is None:
         form, warm = scaled.natural_form, list[int]()
         if answer is not None:
             warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-        optimum = exact_step(step, warm, solver.hessian)
+        optimum = exact_step(step, warm, hessian)
     else:
         well_posed(step, optimum, norm, free)
     return _certified(scaled, answer, statistics, optimum, exact_certificate, norm, free)
 
 
-def _proved(scaled: Scaled, solver: Solver, answer: Answer) -> ExactOptimum | None:
+def _proved(
+    scaled: Scaled, solver: Solver, answer: Answer, hessian: BallHessian
+) -> ExactOptimum | None:
     """The optimum by compiled code, where there is any and the rows that bear load are a guess."""
     fast = compiled("certificate")
     if fast is None:
@@ -202,8 +206,8 @@ def _proved(scaled: Scaled, solver: Solver, answer: Answer) -> ExactOptimum | No
         return None
     form, lam = scaled.natural_form, answer.lam[rows]
     bears = lam > form.A[rows] @ answer.delta_q - form.b[rows]  # as warm_rows has it
-    found: ExactOptimum | None = solver.prover.optimum(scaled.step, rows[bears], scaled.units)
-    return found
+    prove = partial(solver.prover.optimum, scaled.step, units=scaled.units)
+    return proved_nearby(prove, rows[bears], scaled.form, hessian.rough)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
@@ -270,5 +274,20 @@ def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         asked = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, asked, residuals)
-    bound = scaled.bound(answer.delta_q, answer.lam)
-    return Certificate("residual", dict(vars(residuals)), error_bound=bound)
+    return Certificate(
+        "residual", dict(vars(residuals)), error_bound=_bound(scaled, solver, answer)
+    )
+
+
+def _bound(scaled: NaturalStep, solver: Solver, answer: Answer) -> float | None:
+    """A rigorous bound of an answer's error [-]: in float64, and in balls where that is open."""
+    x, lam, step = answer.delta_q, answer.lam, scaled.step
+    if isinstance(scaled, Scaled) and step.cone != ELLIPSOID:
+        form, (S, ell, rho) = scaled.natural_form, scaled.units
+        hessian = solver.kept_hessian(step)
+        if solver.bound is None or not solver.bound.fits(hessian, S):
+            solver.bound = FloatBound(hessian, form.H, S)
+        error = solver.bound.error(step, form, (ell, rho), x, lam)
+        if error is not None and error <= BOUNDED:
+            return error
+    return scaled.bound(x, lam)

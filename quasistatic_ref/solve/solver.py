@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from quasistatic_ref.certify.confirm import BallHessian
+from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
@@ -100,6 +101,8 @@ class Solver(ABC):
         Of the step that was certified last, for those of the same H.
     prover : Prover or None
         The same in compiled code.
+    bound : FloatBound or None
+        Of the step whose error was bounded last, likewise.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -121,6 +124,7 @@ class Solver(ABC):
         self._fitting: StepData | None = None
         self.hessian: BallHessian | None = None
         self.prover: Any = None
+        self.bound: FloatBound | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.like, self.name)
@@ -158,6 +162,18 @@ class Solver(ABC):
     def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
         """The step in natural units; with its matrices, where these are known."""
         return Scaled(step, form=form)
+
+    def kept_hessian(self, step: StepData) -> BallHessian:
+        """H of a step in balls: the one that is kept, if it is the same.
+
+        Raises
+        ------
+        StepDataError
+            If H is not positive definite without rounding.
+        """
+        if self.hessian is None or not self.hessian.fits(step):
+            self.hessian = BallHessian(step)
+        return self.hessian
 
     @abstractmethod
     def write(self, scaled: Any) -> Mask | None:

@@ -99,10 +99,24 @@ def natural_units(step: StepData) -> Units:
     return units_of(form, metric(form.H))
 
 
-def units_of(form: StandardForm, of_H: Metric) -> Units:
-    """Natural units of a step from its standard form; not finite where its numbers are not."""
-    squares = np.square(form.A).dot(of_H.squared)  # exact: powers of two
-    squares.sort()  # NaN comes last
+def squared_lengths(form: StandardForm, of_H: Metric) -> Array:
+    """Squared lengths of the rows of A S [m^2], shape (m,), ascending; NaN comes last."""
+    squares: Array = np.square(form.A).dot(of_H.squared)  # exact: powers of two
+    squares.sort()
+    return squares
+
+
+def units_of(form: StandardForm, of_H: Metric, squares: Array | None = None) -> Units:
+    """Natural units of a step from its standard form; not finite where its numbers are not.
+
+    Parameters
+    ----------
+    form : StandardForm
+    of_H : Metric
+    squares : ndarray, shape (m,), optional
+        Its :func:`squared_lengths`, where they are known [m^2].
+    """
+    squares = squared_lengths(form, of_H) if squares is None else squares
     energy = math.sqrt(max(float(form.g.dot(of_H.inverse).dot(form.g)), 0.0))  # ||H^-1 g||_H
     return units_from(of_H.coordinate, squares, energy, form.b)
 

@@ -1,0 +1,102 @@
+"""A guess of a working set that is wrong by a row or two: where walks in floating point lead.
+
+A backend does not see rows that are violated by less than its tolerance. The proof of its guess
+does, and names one. The walk from there is that of
+:mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made wrong: what it
+leads to is a guess again, and proved like any other.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.standard_form import StandardForm
+
+CHANGES = 4
+"""Walks before a guess is given up: on the grasp one or two mend those of DAQP."""
+
+DEPENDENT = 1e-9
+"""A row is taken to depend on others if they leave less than this share of its square."""
+
+
+class Violated(NamedTuple):
+    """What was found of a guess whose multipliers are positive, but whose minimiser is outside.
+
+    Parameters
+    ----------
+    row : int
+        The first row that is violated.
+    working : ndarray of int, shape (k,)
+        The guess, ascending.
+    lam : ndarray, shape (k,)
+        Its multipliers [N s].
+    delta_q : ndarray, shape (n_v,)
+        Its minimiser [m, rad].
+    """
+
+    row: int
+    working: Indices
+    lam: Array
+    delta_q: Array
+
+
+Proof: TypeAlias = "ExactOptimum | Violated | None"
+"""The optimum, if a guess is proved to hold it; None where something stays open."""
+
+
+def proved_nearby(
+    prove: Callable[[Indices], Proof], guess: Indices, form: StandardForm, inverse: Array
+) -> ExactOptimum | None:
+    """The optimum proved on a guess, or on what a few walks make of it.
+
+    Parameters
+    ----------
+    prove : callable
+    guess : ndarray of int, shape (k,)
+        Rows.
+    form : StandardForm
+    inverse : ndarray, shape (n_v, n_v)
+        Of its H.
+    """
+    found = prove(guess)
+    for _ in range(CHANGES):
+        if not isinstance(found, Violated):
+            break
+        with np.errstate(all="ignore"):
+            changed = walked(form, inverse, found)
+        found = None if changed is None else prove(changed)
+    return None if isinstance(found, Violated) else found
+
+
+def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | None:
+    """The working set, ascending, after a walk that adds the violated row; None if it has no end.
+
+    Parameters
+    ----------
+    form : StandardForm
+    inverse : ndarray, shape (n_v, n_v)
+        Of its H.
+    found : Violated
+    """
+    p, working, lam, delta_q = found
+    row = form.A[p]
+    moved, short = inverse @ row, float(form.b[p] - row @ delta_q)
+    square = float(row @ moved)
+    while True:
+        A = form.A[working]
+        try:
+            falls = np.linalg.solve(A @ inverse @ A.T, A @ moved)  # of lam, for a unit of p's
+        except np.linalg.LinAlgError:
+            return None
+        rate = square - float(falls @ (A @ moved))
+        full = max(short, 0.0) / rate if rate > DEPENDENT * square else np.inf
+        limits = np.full(len(working), np.inf)
+        np.divide(lam, falls, out=limits, where=falls > 0)
+        if not full > limits.min(initial=np.inf):  # NaN too
+            return np.sort(np.append(working, p)) if full < np.inf else None
+        first = int(limits.argmin())
+        lam = np.delete(lam - limits[first] * falls, first)
+        short, working = short - limits[first] * rate, np.delete(working, first)

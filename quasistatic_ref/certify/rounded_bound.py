@@ -1,0 +1,197 @@
+r"""The bound of the error of an answer in float64 alone, its own rounding bounded beforehand.
+
+As :mod:`~quasistatic_ref.certify.bound`, of which it decides the common case: with a direction d
+that opens all contacts, x' = x + t d is feasible, and
+
+.. math:: \|x - x^*\|_H \le t\,\|d\|_H
+          + \big((\|r\|_{H^{-1}} + t\,\|d\|_H)^2 + 2\,y^T(A x' - b)\big)^{1/2},
+          \qquad r = H x - g - A^T y.
+
+Each sum is off by at most so many u = 2^-53 of the sum of its absolute values, in whatever order
+it is taken; H, g and A are those of the step's numbers without rounding. How many is derived in
+the documentation, on the page of exact answers.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from flint import arb, ctx
+
+from quasistatic_ref.certify.balls import PRECISION
+from quasistatic_ref.certify.bound import opening_direction
+from quasistatic_ref.certify.confirm import BallHessian
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.standard_form import StandardForm
+
+U = 2.0**-53
+"""Largest relative error of one operation."""
+
+OF_SLACK, OF_BALANCE, OF_WORK, OF_ENERGY = 8, 4, 8, 8
+"""Roundings of A x - b, of H x - g, of A'y and of ||H^-1 g||^2 beyond those of their products."""
+
+MORE = 1 + 2.0**-30
+"""For the rounding of bounds themselves: sums of up to 2^20 numbers that are not negative."""
+
+UNDERFLOW = 2.0**-500
+"""More than what is lost below the range of float64, where units are in RANGE."""
+
+RANGE = 2.0**-100, 2.0**100
+
+
+class Rounded(NamedTuple):
+    """An answer in natural units, with bounds of how far rounding has moved its sums [-].
+
+    Parameters
+    ----------
+    x, y : ndarray, shapes (n_v,) and (m,)
+        The answer, y >= 0.
+    reach : ndarray, shape (n_c, n_v)
+        Above the absolute values that each contact's rows of A are summed of.
+    slack, balance : ndarray, shapes (m,) and (n_v,)
+        A x - b and H x - g - A'y in float64.
+    off_slack : float
+        Bound of the error of a slack, but for u times its size.
+    off_balance : ndarray, shape (n_v,)
+    load : ndarray, shape (n_v,)
+        Above |g| and what it is summed of.
+    """
+
+    x: Array
+    y: Array
+    reach: Array
+    slack: Array
+    balance: Array
+    off_slack: float
+    off_balance: Array
+    load: Array
+
+
+class FloatBound:
+    """Bounds for steps of one H in the same units of coordinates, in natural units.
+
+    Parameters
+    ----------
+    hessian : BallHessian
+        That of the steps.
+    H : ndarray, shape (n_v, n_v)
+        In natural units [-].
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S of the natural units [m, rad].
+
+    Attributes
+    ----------
+    sizes : ndarray, shape (n_v, n_v)
+        Absolute values of H.
+    middle, inverse : ndarray, shape (n_v, n_v)
+        H^-1 to 2 u times the second, which is above its absolute values.
+    """
+
+    def __init__(self, hessian: BallHessian, H: Array, coordinate: Array) -> None:
+        self.hessian, self.coordinate, self.sizes = hessian, coordinate, np.abs(H)
+        S, n = coordinate.tolist(), len(coordinate)
+        with ctx.workprec(PRECISION):
+            entries = (hessian.inverse * hessian.h).entries()
+            balls = [v / arb(S[i // n]) / S[i % n] for i, v in enumerate(entries)]
+            above = [float(v.abs_upper() + v.rad() * 2.0**54) for v in balls]
+        self.middle = np.array([float(v.mid()) for v in balls]).reshape(n, n)
+        self.inverse = MORE * np.array(above).reshape(n, n)
+        self.in_range = all(RANGE[0] < unit < RANGE[1] for unit in (float(hessian.h), *S))
+        self._opening: tuple[Array, float] | None = None
+        self._mu = self._weight = np.zeros(0)
+
+    def fits(self, hessian: BallHessian, coordinate: Array) -> bool:
+        """Whether it is that of an H in balls and of these units, shape (n_v,) [m, rad]."""
+        return hessian is self.hessian and coordinate is self.coordinate
+
+    def error(
+        self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, lam: Array
+    ) -> float | None:
+        """Bound of ||x - x*||_H / ||H^-1 g||_H [-]; None where nothing is decided.
+
+        Parameters
+        ----------
+        step : StepData
+            In a polyhedral cone.
+        form : StandardForm
+            In natural units [-].
+        units : (float, float)
+            ell [m] and rho [-] of these.
+        x, lam : ndarray, shapes (n_v,) and (m,)
+            In natural units [-]; multipliers below zero are taken as zero.
+        """
+        usable = self.in_range and all(RANGE[0] < unit < RANGE[1] for unit in units)
+        if not usable or step.extra.names:
+            return None
+        at = self.rounded(step, form, units, x, np.maximum(lam, 0.0))
+        moved, free = self.moved(step, form, at), self.energy(form.g, at.load)
+        if moved is None or not free > 0:
+            return None
+        way, work = moved
+        rest = np.abs(at.balance) + at.off_balance
+        unbalanced = math.sqrt(float(rest @ self.inverse @ rest))
+        length = way + math.sqrt((unbalanced + way) ** 2 + 2 * work)
+        error = MORE * length / math.sqrt(free)
+        return error if math.isfinite(error) else None
+
+    def rounded(
+        self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, y: Array
+    ) -> Rounded:
+        """The sums of an answer, all in natural units [-]; arguments are those of :meth:`error`."""
+        (n,), (ell, rho), contacts = x.shape, units, step.contacts
+        reach = (np.abs(contacts.J) * self.weight(contacts.mu)).sum(axis=1)
+        reach *= self.coordinate / ell
+        target = np.abs(step.delta_q_bar_a) / (rho * self.coordinate[: step.n_a])
+        load = np.abs(form.g) + 2 * (self.sizes[:, : step.n_a] @ target) + UNDERFLOW
+        size, lost = np.abs(x), U * UNDERFLOW
+        balance = form.H @ x - form.g - form.A.T @ y
+        sums = (n + OF_BALANCE) * (self.sizes @ size + load) + np.abs(balance)
+        slack, off_slack = form.A @ x - form.b, 0.0
+        if y.size:
+            lost *= 1 + float(size.sum() + y.sum())
+            off_slack = U * (n + OF_SLACK) * float((reach @ size).max()) + lost
+            of_contacts = np.add.reduceat(y, step.offsets[:-1])
+            sums += (np.count_nonzero(y) + OF_WORK) * (of_contacts @ reach)
+        return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
+
+    def weight(self, mu: Array) -> Array:
+        """How much of each row of J is in a row of A at most, shape (n_c, 4, 1), for a `mu`."""
+        if mu is not self._mu:
+            sliding = 1 + mu[:, :1]
+            self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])[:, :, None]
+            self._mu = mu
+        return self._weight
+
+    def energy(self, g: Array, load: Array) -> float:
+        """A lower bound of ||H^-1 g||_H^2 in natural units [-], for g and its `load`, (n_v,)."""
+        off = U * (4 * len(g) + OF_ENERGY) * float(load @ self.inverse @ load)
+        return float(g @ self.middle @ g) - MORE * off
+
+    def moved(self, step: StepData, form: StandardForm, at: Rounded) -> tuple[float, float] | None:
+        """The way t ||d||_H and y'(A x' - b) at most [-]; None if no direction opens all rows."""
+        if not at.y.size:
+            return 0.0, 0.0
+        for anew in (False, True):
+            found = self.opening(step, anew)
+            if found is None:
+                return None
+            d, length = found
+            opened = form.A @ d
+            off = U * (len(d) + OF_SLACK) * float((at.reach @ np.abs(d)).max()) + UNDERFLOW
+            least = float(opened.min()) - off
+            if least > off:
+                t = (at.off_slack - min(float(at.slack.min()), 0.0)) / least
+                work = float(at.y @ np.maximum(at.slack, 0.0)) + t * float(at.y @ opened)
+                return t * length, work + (at.off_slack + t * off) * float(at.y.sum())
+        return None
+
+    def opening(self, step: StepData, anew: bool) -> tuple[Array, float] | None:
+        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `anew`."""
+        if anew or self._opening is None:
+            d = opening_direction(step)
+            if d is None:
+                return None
+            d = d / self.coordinate
+            square = float(np.abs(d) @ self.sizes @ np.abs(d))
+            self._opening = d, MORE * math.sqrt(square)
+        return self._opening
