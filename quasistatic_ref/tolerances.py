@@ -179,3 +179,33 @@ SPARSE_FROM: Final = 10_000
 
 A row of 8 boxes has 11,520: PIQP takes as long either way, Clarabel and OSQP are faster sparse.
 bunny_grasp has 780."""
+
+TOUCHING: Final = 1e-9
+"""Slack of a row, as a displacement in the H norm over the step's, at which it counts as none where
+a derivative is asked for [-]. Slacks are right to 1e-15 of their terms; a derivative this near to a
+kink is one that no difference of steps confirms."""
+
+BEARING: Final = 1e-9
+"""Multiplier of a row, as the displacement that it causes in the H norm over the step's, at which
+it counts as none where a derivative is asked for [-], for the same reason."""
+
+DEPENDENT: Final = 1e-8
+"""Least singular value of rows of length one that counts as none [-]. Geometry splits the rows of
+bodies that lie flat on each other by 1e-15; what is nearer to dependence than this makes forces of
+1e8 times the load."""
+
+CONSISTENT: Final = 1e-7
+"""Largest rate at which dependent rows leave each other, relative to the terms that make it, that
+is rounding [-]: rates are right to 1e-13, times what DEPENDENT lets through."""
+
+ON_RIM: Final = 1e-9
+"""How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is on
+it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
+
+UNIQUE: Final = 1e-9
+"""Least singular value of the equations of a closest pair, lengths over the pair's size, at which
+the pair counts as unique [-]. Parallel faces leave 1e-16; what is nearer turns by 1e9 of a motion."""
+
+TIED: Final = 1e-10
+"""Difference of two distances, relative to the pair's size, at which they count as equal [-]:
+REPEATED for sizes of some decimetres."""

@@ -1,0 +1,157 @@
+"""The two sides of each contact of a step: whose points they are, and what the shapes are there."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.corners import QUARTERS, corner_count, corners
+from quasistatic_ref.contact.distance import ClosestPoints, placed
+from quasistatic_ref.contact.features import Feature, ball, feature
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.support import extent
+from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.step.data import Array
+
+
+class Rim(NamedTuple):
+    """A corner that is no material point: one of four on a rim, the first towards the other body.
+
+    Parameters
+    ----------
+    side : int
+        0 of alpha's body, 1 of beta's.
+    quarter : int
+        How many quarter turns it is from the first.
+    radius : float
+        Of the rim [m].
+    """
+
+    side: int
+    quarter: int
+    radius: float
+
+
+class Couple(NamedTuple):
+    """One contact as two features.
+
+    Parameters
+    ----------
+    pair : ContactPair
+    bodies : (Placed, Placed)
+        alpha's and beta's shape in the world.
+    phi : float
+    points : (ndarray, ndarray), each of shape (3,)
+        Closest points on both [m], world frame.
+    n : ndarray, shape (3,)
+        Normal from alpha's body to beta's.
+    features : (Feature, Feature)
+        In the world frame.
+    centre : (int, ndarray, float) or None
+        Where one side is a point with a ball about it: the other side, the point (3,) [m] in the world
+        and the ball's radius [m].
+    rim : Rim or None
+    size : float
+        About how large the bodies are [m].
+    """
+
+    pair: ContactPair
+    bodies: tuple[Placed, Placed]
+    phi: float
+    points: tuple[Array, Array]
+    n: Array
+    features: tuple[Feature, Feature]
+    centre: tuple[int, Array, float] | None
+    rim: Rim | None
+    size: float
+
+
+def couples(
+    pairs: Sequence[ContactPair], points: ClosestPoints, R: Array, t: Array
+) -> list[Couple]:
+    """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) [m] are the links'."""
+    found, at = [], 0
+    for pair in pairs:
+        a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
+        sizes = [extent(body.shape) for body in (a, b) if not isinstance(body.shape, HalfSpace)]
+        for j in range(at, at + pair.n_c):
+            found.append(_couple(pair, a, b, points.chosen(np.array([j])), max(sizes)))
+        at += pair.n_c
+    return found
+
+
+def closest_pair(pair: ContactPair, a: Placed, b: Placed, points: ClosestPoints) -> Couple:
+    """The closest pair of two solids as a couple; `points` has one, `a` and `b` are the bodies."""
+    size = max(extent(s.shape) for s in (a, b) if not isinstance(s.shape, HalfSpace))
+    return _couple(pair, a, b, points._replace(point=np.array([pair.corners])), size)
+
+
+def _couple(pair: ContactPair, a: Placed, b: Placed, one: ClosestPoints, size: float) -> Couple:
+    phi, n, index = float(one.phi[0]), one.n[0], int(one.point[0])
+    ends = one.alpha[0], one.beta[0]
+    corner = _corner(pair, a, b, index)
+    features, centre, rim = [], None, None
+    for side, (body, end, outward) in enumerate(((a, ends[0], n), (b, ends[1], -n))):
+        own = corner if corner is not None and corner[0] == side else None
+        if own is not None:
+            features.append(ball(own[1], outward))
+            centre, rim = (1 - side, end - own[1] * outward, own[1]), own[2]
+            continue
+        local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
+        features.append(local.turned(body.R))
+        if isinstance(body.shape, Sphere):
+            centre = (1 - side, body.t, body.shape.radius)
+    return Couple(pair, (a, b), phi, ends, n, (features[0], features[1]), centre, rim, size)
+
+
+def _corner(
+    pair: ContactPair, a: Placed, b: Placed, index: int
+) -> tuple[int, float, Rim | None] | None:
+    """Which side is a corner, the ball about it and whether it is on a rim; None of a closest pair."""
+    for side, body in enumerate((a, b)):
+        if isinstance(body.shape, PointCloud):
+            return side, 0.0, None
+    if pair.n_c == 1 or index == pair.corners:
+        return None
+    first = corner_count(a.shape)
+    side, k = (0, index) if index < first else (1, index - first)
+    shape = (a, b)[side].shape
+    match shape:
+        case Capsule():
+            return side, shape.radius, None
+        case Cylinder():
+            return side, 0.0, Rim(side, k % 4, shape.radius)
+        case Cone() if k > 0:
+            return side, 0.0, Rim(side, (k - 1) % 4, shape.radius)
+        case _:
+            return side, 0.0, None
+
+
+def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Array | None:
+    """How a corner on a rim moves on its body, shape (3, n_v) [m], world frame.
+
+    Parameters
+    ----------
+    rim : Rim
+    body : Placed
+    towards : ndarray, shape (3,)
+        Unit vector [-] from this body to the other, world frame.
+    turning : ndarray, shape (3, n_v)
+        Its derivatives as seen from the body [-].
+
+    Returns
+    -------
+    ndarray or None
+        None where the rim is level, and no point of it is the one nearest to the other body.
+    """
+    own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
+    length = np.hypot(*own)
+    first = corners(Cylinder(1.0, 1.0), np.array([*own, 0.0]))[0][0, :2]
+    if length <= 1e-9:
+        return None
+    d_first = (d_own - np.outer(first, first @ d_own)) / length
+    c, s = QUARTERS[rim.quarter]
+    # The quarter's point is c u + s (-u_y, u_x).
+    turned = np.stack([c * d_first[0] - s * d_first[1], c * d_first[1] + s * d_first[0]])
+    return np.asarray(rim.radius * body.R[:, :2] @ turned)
