@@ -24,6 +24,7 @@ _HOMES = {
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
+    "simulate.derivatives": "derivatives Derivatives",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",

@@ -13,6 +13,7 @@ from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.support import extent
 from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import ON_RIM, UPRIGHT
 
 
 class Rim(NamedTuple):
@@ -143,13 +144,13 @@ def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Arra
     Returns
     -------
     ndarray or None
-        None where the rim is level, and no point of it is the one nearest to the other body.
+        None where the rim is level but does not stay so: no point of it is nearest to the other body.
     """
     own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
     length = np.hypot(*own)
     first = corners(Cylinder(1.0, 1.0), np.array([*own, 0.0]))[0][0, :2]
-    if length <= 1e-9:
-        return None
+    if length <= UPRIGHT:
+        return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
     d_first = (d_own - np.outer(first, first @ d_own)) / length
     c, s = QUARTERS[rim.quarter]
     # The quarter's point is c u + s (-u_y, u_x).

@@ -1,0 +1,101 @@
+"""Which kinks of the contacts' geometry the step after q feels."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from quasistatic_ref.certify import reason
+from quasistatic_ref.certify.reason import Reason
+from quasistatic_ref.certify.touching import Touching
+from quasistatic_ref.contact.contact_rates import ContactRates
+from quasistatic_ref.contact.couples import Couple
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.kinks import kinks
+from quasistatic_ref.contact.point_ties import tied_points
+from quasistatic_ref.contact.support import extent
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.friction import cone_matrix
+
+FIELDS = ("dq_dq",)
+
+
+def geometry_reasons(
+    simulator: Simulator,
+    result: StepResult,
+    kept: Sequence[Couple],
+    rates: ContactRates,
+    J: Array,
+    touching: Touching,
+) -> list[Reason]:
+    """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    result : StepResult
+    kept : sequence of Couple, length n_c
+        The step's contacts.
+    rates : ContactRates
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+    touching : Touching
+    """
+    contacts = result.step.contacts
+    frames = np.stack([contacts.d1, contacts.d2], axis=1)
+    safe = _out_of_reach(result, kept, J)
+    reasons = []
+    for kink in kinks(kept, rates, frames, J, _quarters(simulator.cone)):
+        if kink.contact not in touching.contacts and (not kink.jumps or safe[kink.contact]):
+            continue
+        name = contacts.name[kink.contact]
+        frictionless = not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
+        if kink.kind == reason.TANGENTS and frictionless:
+            continue
+        reasons.append(Reason(kink.kind, (name,), FIELDS, f"{name} {kink.says}"))
+    return [*reasons, *_ties(simulator, result, kept, safe)]
+
+
+def _ties(
+    simulator: Simulator, result: StepResult, kept: Sequence[Couple], safe: Array
+) -> Iterator[Reason]:
+    at = 0
+    for pair in simulator.pairs:
+        own = slice(at, at + pair.n_c)
+        at += pair.n_c
+        if safe[own].all():
+            continue
+        points = ClosestPoints(*(part[own] for part in result.points))
+        inside, outside = tied_points(kept[own], points)
+        if outside:
+            where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
+            says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
+            yield Reason(reason.POINTS, where, FIELDS, says)
+
+
+def _out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Array:
+    """Contacts whose pair cannot close its distance in this step, whichever points it has."""
+    found = []
+    x, mu = result.solution.delta_q, result.step.contacts.mu
+    for couple, (mu_v, _, mu_omega) in zip(kept, mu, strict=True):
+        motion = turn = 0.0
+        for side, placed, end in zip(
+            (couple.pair.alpha, couple.pair.beta), couple.bodies, couple.points, strict=True
+        ):
+            twist = J[side.link] @ x
+            spin = float(np.linalg.norm(twist[3:]))
+            turn += spin
+            motion += float(np.linalg.norm(twist[:3] + np.cross(twist[3:], end)))
+            if spin:  # any other point of the shape is this far from it
+                motion += spin * np.sqrt(3) * extent(placed.shape)
+        found.append(couple.phi > (1 + 2 * mu_v) * motion + mu_omega * turn)
+    return np.array(found, dtype=bool)
+
+
+def _quarters(name: str) -> bool:
+    """Whether a cone's rows are the same after a quarter turn about the normal."""
+    rows = cone_matrix(name)
+    turned = rows[:, [0, 2, 1, 3]] * [1, -1, 1, 1]
+    return all(np.abs(rows - row).max(axis=1).min() < 1e-15 for row in turned)
