@@ -194,17 +194,17 @@ DEPENDENT: Final = 1e-8
 bodies that lie flat on each other by 1e-15; what is nearer to dependence than this makes forces of
 1e8 times the load."""
 
-CONSISTENT: Final = 1e-7
+CONSISTENT: Final = 1e-9
 """Largest rate at which dependent rows leave each other, relative to the terms that make it, that
-is rounding [-]: rates are right to 1e-13, times what DEPENDENT lets through."""
+is rounding [-]: rates are right to 1e-13, and are divided by lengths of rows 1e3 apart."""
 
 ON_RIM: Final = 1e-9
-"""How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is on
-it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
+"""How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
+on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
 
 UNIQUE: Final = 1e-9
 """Least singular value of the equations of a closest pair, lengths over the pair's size, at which
-the pair counts as unique [-]. Parallel faces leave 1e-16; what is nearer turns by 1e9 of a motion."""
+the pair counts as unique [-]. Parallel faces leave 1e-16; nearer ones turn by 1e9 of a motion."""
 
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:

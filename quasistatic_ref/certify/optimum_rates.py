@@ -6,9 +6,9 @@ and y the multipliers of gap, slips and spin, delta_q changes by
 
 .. math:: H\,dx - (EG)^T d\eta = d\ell + dG^T y, \qquad EG\,dx = -E\,(dG\,x + d\phi) ,
 
-where l is g - H x. If the rows of EG depend on each other, with :math:`\nu^T E G = 0`, both sides of
-that must go on: :math:`\nu^T E\,(dG\,x + d\phi) = 0`, and :math:`dG^T E^T \nu` is a combination of
-the rows. A row that touches without load must keep its slack of zero. Where one of these fails there is no
+where l is g - H x. If the rows of EG depend on each other, with :math:`\nu^T E G = 0`, that must
+go on: :math:`\nu^T E\,(dG\,x + d\phi) = 0`, and :math:`dG^T E^T \nu` combines the rows. A row that
+touches without load must keep its slack of zero. Where one of these fails there is no
 derivative, but one on each side.
 """
 
@@ -36,10 +36,13 @@ class DataRates:
     pull : callable
         y (n_c, 4) -> derivatives of G'y, shape (n_v, P): of what multipliers y [N s] of gap, slips
         and spin exert.
+    terms : ndarray, shape (P,)
+        How large the terms are whose sum is `motion` [m per unit]: its rounding is relative to it.
     """
 
     load: Array
     motion: Array
+    terms: Array
     pull: Callable[[Array], Array]
 
 
@@ -76,7 +79,9 @@ class Equations:
 
     def __init__(self, touching: Touching) -> None:
         self.of, L = touching, touching.L
-        self.blocks = [(j, _combinations(touching, j)) for j in sorted({*touching.strict[:, 0].tolist()})]
+        self.blocks = [
+            (j, _combinations(touching, j)) for j in sorted({*touching.strict[:, 0].tolist()})
+        ]
         parts = [E @ touching.generators[j] for j, E in self.blocks]
         rows = np.concatenate([np.zeros((0, len(L))), *parts])
         rows = np.linalg.solve(L, rows.T).T
@@ -92,14 +97,16 @@ class Equations:
         """The derivatives, and what forbids them."""
         t = self.of
         needed = [-(E @ data.motion[j]) for j, E in self.blocks]
-        right = np.concatenate([np.zeros((0, data.motion.shape[2])), *needed]) / self.length[:, None]
+        right = (
+            np.concatenate([np.zeros((0, data.motion.shape[2])), *needed]) / self.length[:, None]
+        )
         forces = np.linalg.solve(t.L, data.load + data.pull(t.multipliers))
         y = self.V.T @ ((self.U.T @ right) / self.s[:, None]) + self.free.T @ (self.free @ forces)
         x = np.linalg.solve(t.L.T, y)
         rows = t.rows(t.idle)
         moved = np.einsum("ki,kip->kp", t.table[t.idle[:, 1]], data.motion[t.idle[:, 0]])
         closing = rows @ x + moved
-        scale = np.abs(rows) @ np.abs(x) + np.abs(moved)
+        scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
         return OptimumRates(
             x, self._contradictions(data, right, y), np.abs(closing) > CONSISTENT * scale, closing
         )
@@ -109,7 +116,8 @@ class Equations:
     ) -> list[tuple[set[int], Mask]]:
         """Dependent rows that a parameter would set against each other."""
         found = []
-        size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0)
+        terms = data.terms / self.length.min(initial=1.0)
+        size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
         owner = np.array([j for j, E in self.blocks for _ in E], dtype=np.int64)
         for nu in self.null:
             bad = np.abs(nu @ right) > CONSISTENT * size
@@ -145,7 +153,7 @@ class Equations:
 
 
 def _complementary(rows: Array, slack: Array) -> Array:
-    """p >= 0, shape (k,), with slack + rows rows' p >= 0 and no product of both."""
+    """Pushes p >= 0, shape (k,), with slack + rows rows' p >= 0 and no product of both."""
     # The least motion z with rows z >= -slack is rows' p: the dual of a least-distance problem.
     k, n = rows.shape
     stacked = np.vstack([rows.T, -slack[None]])
@@ -178,4 +186,5 @@ def parameters(*parts: DataRates) -> DataRates:
 
     every: Sequence[DataRates] = parts
     load = np.concatenate([part.load for part in every], axis=1)
-    return DataRates(load, np.concatenate([part.motion for part in every], axis=2), pull)
+    motion = np.concatenate([part.motion for part in every], axis=2)
+    return DataRates(load, motion, np.concatenate([part.terms for part in every]), pull)

@@ -49,7 +49,9 @@ class Touching:
 
     def rows(self, some: Indices) -> Array:
         """Some rows of A, shape (k, n_v) [m], by contact and row (k, 2)."""
-        return np.asarray(np.einsum("ki,kiv->kv", self.table[some[:, 1]], self.generators[some[:, 0]]))
+        return np.asarray(
+            np.einsum("ki,kiv->kv", self.table[some[:, 1]], self.generators[some[:, 0]])
+        )
 
 
 def touching_rows(step: StepData, solution: StepSolution) -> Touching:
@@ -104,8 +106,8 @@ def _bearing(rows: Array, lam: Array, size: float) -> Indices:
 
 
 def _most(rows: Array, net: Array, e: int, size: float) -> Array:
-    """An optimal lam, shape (k,), in which the row e bears as much as it can, up to the step's size."""
-    k, n = rows.shape
+    """An optimal lam, shape (k,), in which the row e bears as much as it can, up to a bound."""
+    k = len(rows)
     cost = np.zeros(k)
     cost[e] = -1.0
     bounds = [(0.0, 10.0 * size if i == e else None) for i in range(k)]

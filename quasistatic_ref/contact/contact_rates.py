@@ -34,7 +34,9 @@ class ContactRates(NamedTuple):
     level_rim: Mask
 
 
-def contact_rates(couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array) -> ContactRates:
+def contact_rates(
+    couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array
+) -> ContactRates:
     """The derivatives of all contacts.
 
     Parameters

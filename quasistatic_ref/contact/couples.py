@@ -5,13 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.contact.cloud_tracker import cloud_tree
 from quasistatic_ref.contact.corners import QUARTERS, corner_count, corners
 from quasistatic_ref.contact.distance import ClosestPoints, placed
 from quasistatic_ref.contact.features import Feature, ball, feature
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.support import extent
-from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ON_RIM, UPRIGHT
 
@@ -50,11 +51,11 @@ class Couple(NamedTuple):
     features : (Feature, Feature)
         In the world frame.
     centre : (int, ndarray, float) or None
-        Where one side is a point with a ball about it: the other side, the point (3,) [m] in the world
-        and the ball's radius [m].
+        Where one side is a point with a ball about it: the other side, the point (3,) [m] in the
+        world and the ball's radius [m].
     rim : Rim or None
-    size : float
-        About how large the bodies are [m].
+    extents : (float, float)
+        How large the bodies are [m]; of a half-space, infinity.
     """
 
     pair: ContactPair
@@ -65,30 +66,49 @@ class Couple(NamedTuple):
     features: tuple[Feature, Feature]
     centre: tuple[int, Array, float] | None
     rim: Rim | None
-    size: float
+    extents: tuple[float, float]
+
+    @property
+    def size(self) -> float:
+        """The larger extent [m]; a half-space has none."""
+        return max(extent for extent in self.extents if np.isfinite(extent))
 
 
 def couples(
     pairs: Sequence[ContactPair], points: ClosestPoints, R: Array, t: Array
 ) -> list[Couple]:
-    """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) [m] are the links'."""
+    """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
     found, at = [], 0
     for pair in pairs:
         a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
-        sizes = [extent(body.shape) for body in (a, b) if not isinstance(body.shape, HalfSpace)]
+        sizes = _extents(a, b)
         for j in range(at, at + pair.n_c):
-            found.append(_couple(pair, a, b, points.chosen(np.array([j])), max(sizes)))
+            found.append(_couple(pair, a, b, points.chosen(np.array([j])), sizes))
         at += pair.n_c
     return found
 
 
 def closest_pair(pair: ContactPair, a: Placed, b: Placed, points: ClosestPoints) -> Couple:
     """The closest pair of two solids as a couple; `points` has one, `a` and `b` are the bodies."""
-    size = max(extent(s.shape) for s in (a, b) if not isinstance(s.shape, HalfSpace))
-    return _couple(pair, a, b, points._replace(point=np.array([pair.corners])), size)
+    return _couple(pair, a, b, points._replace(point=np.array([pair.corners])), _extents(a, b))
 
 
-def _couple(pair: ContactPair, a: Placed, b: Placed, one: ClosestPoints, size: float) -> Couple:
+def _extents(a: Placed, b: Placed) -> tuple[float, float]:
+    """Of a cloud by the box about it, which is kept; of a half-space, infinity [m]."""
+    boxes = [
+        cloud_tree(body.shape).box if isinstance(body.shape, PointCloud) else None
+        for body in (a, b)
+    ]
+    first, second = (
+        extent(body.shape) if box is None else float(np.ptp(box, axis=0).max())
+        for body, box in zip((a, b), boxes, strict=True)
+    )
+    return first, second
+
+
+def _couple(
+    pair: ContactPair, a: Placed, b: Placed, one: ClosestPoints, extents: tuple[float, float]
+) -> Couple:
     phi, n, index = float(one.phi[0]), one.n[0], int(one.point[0])
     ends = one.alpha[0], one.beta[0]
     corner = _corner(pair, a, b, index)
@@ -103,13 +123,13 @@ def _couple(pair: ContactPair, a: Placed, b: Placed, one: ClosestPoints, size: f
         features.append(local.turned(body.R))
         if isinstance(body.shape, Sphere):
             centre = (1 - side, body.t, body.shape.radius)
-    return Couple(pair, (a, b), phi, ends, n, (features[0], features[1]), centre, rim, size)
+    return Couple(pair, (a, b), phi, ends, n, (features[0], features[1]), centre, rim, extents)
 
 
 def _corner(
     pair: ContactPair, a: Placed, b: Placed, index: int
 ) -> tuple[int, float, Rim | None] | None:
-    """Which side is a corner, the ball about it and whether it is on a rim; None of a closest pair."""
+    """Which side is a corner, the ball about it and its rim; None of a closest pair."""
     for side, body in enumerate((a, b)):
         if isinstance(body.shape, PointCloud):
             return side, 0.0, None
@@ -144,7 +164,7 @@ def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Arra
     Returns
     -------
     ndarray or None
-        None where the rim is level but does not stay so: no point of it is nearest to the other body.
+        None where the rim is level but does not stay so: no point of it is the nearest.
     """
     own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
     length = np.hypot(*own)

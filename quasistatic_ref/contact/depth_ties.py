@@ -78,7 +78,10 @@ def _inside_tie(shape: Shape, p: Array, size: float) -> bool:
         case Cone():
             slant = np.hypot(shape.radius, 2 * shape.half_length)
             r = np.hypot(p[0], p[1])
-            side = ((r - shape.radius) * 2 * shape.half_length + (p[2] + shape.half_length) * shape.radius) / slant
+            side = (
+                (r - shape.radius) * 2 * shape.half_length
+                + (p[2] + shape.half_length) * shape.radius
+            ) / slant
             base = -shape.half_length - p[2]
             return bool(max(side, base) < 0 and abs(side - base) <= near)
         case Ellipsoid():

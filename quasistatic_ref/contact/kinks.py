@@ -75,10 +75,12 @@ def _not_unique(j: int, couple: Couple) -> Kink:
 
 
 def _at_an_end(j: int, couple: Couple, frame: Array, J: Array) -> Kink:
-    """A point on the rim of a feature: with its neighbour, are the closest points still unique?"""
+    """A point on the rim of a feature: a kink, or a jump if its neighbour has no unique point."""
     a, b = (_merged(f) for f in couple.features)
     if not couple_rates([couple], frame[None], J, features=[(a, b)]).unique[0]:
-        return Kink(j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True)
+        return Kink(
+            j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True
+        )
     return Kink(j, reason.FEATURE, "is where a vertex, an edge or a face of a shape ends", False)
 
 

@@ -3,12 +3,13 @@ r"""How closest points, distance and normal of two bodies change as the bodies m
 The bodies' points at alpha and beta move by :math:`v_\alpha, v_\beta` and the bodies turn by
 :math:`\omega_\alpha, \omega_\beta`. On its body a closest point moves by p, and its outward normal
 turns by r; both are related by the body's :class:`~quasistatic_ref.contact.features.Feature`. With
-:math:`r_\alpha = dn - \omega_\alpha\times n` and :math:`r_\beta = -(dn - \omega_\beta\times n)`, the
-condition :math:`\beta - \alpha = \phi n` gives
+:math:`r_\alpha = dn - \omega_\alpha\times n` and :math:`r_\beta = -(dn - \omega_\beta\times n)`,
+the condition :math:`\beta - \alpha = \phi n` gives
 
 .. math:: (\phi + D_\alpha + D_\beta)\,dn + F_\alpha z_\alpha - F_\beta z_\beta
    = v_\beta - v_\alpha + D_\alpha(\omega_\alpha\times n) + D_\beta(\omega_\beta\times n) , \qquad
-   F_\alpha^T dn = F_\alpha^T(\omega_\alpha\times n),\; F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
+   F_\alpha^T dn = F_\alpha^T(\omega_\alpha\times n),\;
+   F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
 
 across n, and along n :math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the
 closest points are not unique, and at a distance of zero where neither surface has a normal.

@@ -37,9 +37,7 @@ class MassRates:
         spin = np.einsum("lab,lb->la", self.inertia, omega)
         wrench = np.concatenate([p, np.cross(c, p) + spin], axis=1)
         d_c = self.moved
-        d_p = m[:, None] * (
-            d_nu + _cross(d_omega, c[:, :, None]) + _cross(omega[:, :, None], d_c)
-        )
+        d_p = m[:, None] * (d_nu + _cross(d_omega, c[:, :, None]) + _cross(omega[:, :, None], d_c))
         d_spin = _cross(self.omega, spin[:, :, None]) + self.inertia @ (
             d_omega - _cross(self.omega, omega[:, :, None])
         )

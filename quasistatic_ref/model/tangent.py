@@ -26,7 +26,7 @@ TERMS = 60
 
 
 def bracket(twist: Array) -> Array:
-    """ad of a twist (6,) [m, rad], shape (6, 6): what makes [x, y] of y; linear part first."""
+    """The matrix ad of a twist (6,) [m, rad], shape (6, 6): linear part first."""
     ad = np.zeros((6, 6))
     ad[:3, :3] = ad[3:, 3:] = cross_matrix(twist[3:])
     ad[:3, 3:] = cross_matrix(twist[:3])

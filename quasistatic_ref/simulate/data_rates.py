@@ -48,7 +48,7 @@ def data_rates(
     weights = h * weighs * masses.by_masses(gravity)
     weights[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
     return {
-        "dq_dq": DataRates(load_q, rows.of_motion(x), rows.pull),
+        "dq_dq": DataRates(load_q, rows.of_motion(x), rows.terms, rows.pull),
         "dq_dq_bar_a": _loads(targets, n_c),
         "dq_dtau": _loads(h * np.eye(n_v), n_c),
         **_coefficients(simulator, step, x),
@@ -61,7 +61,7 @@ def data_rates(
 def _loads(load: Array, n_c: int) -> DataRates:
     """Parameters that change the load alone."""
     none = np.zeros_like(load)
-    return DataRates(load, np.zeros((n_c, 4, load.shape[1])), lambda y: none)
+    return DataRates(load, np.zeros((n_c, 4, load.shape[1])), none[0], lambda y: none)
 
 
 def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, DataRates]:
@@ -82,5 +82,6 @@ def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, D
         def pull(y: Array, J: Array = J) -> Array:
             return np.asarray(np.einsum("jiv,ji,jp->vp", J, y[:, 1:], own))
 
-        found[name] = DataRates(none, motion, pull)
+        terms = (np.abs(J) @ np.abs(x)).max(axis=(0, 1), initial=0.0) * np.ones(len(pairs))
+        found[name] = DataRates(none, motion, terms, pull)
     return found

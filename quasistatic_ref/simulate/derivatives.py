@@ -32,7 +32,16 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ON_RIM
 
-FIELDS = ("dq_dq", "dq_dq_bar_a", "dq_dtau", "dq_dmu_v", "dq_dmu_omega", "dq_dK_q", "dq_dh", "dq_dmasses")
+FIELDS = (
+    "dq_dq",
+    "dq_dq_bar_a",
+    "dq_dtau",
+    "dq_dmu_v",
+    "dq_dmu_omega",
+    "dq_dK_q",
+    "dq_dh",
+    "dq_dmasses",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +129,9 @@ class Derivatives(Plain):
         asked = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for found in self.reasons:
             if found.kind != reason.WEAK and asked & set(found.fields):
-                raise InputError("has no one-sided derivative here: " + found.sentence, field="along")
+                raise InputError(
+                    "has no one-sided derivative here: " + found.sentence, field="along"
+                )
         parts = self._parts
         one = _combined(parts.data, direction)
         rates = parts.equations.rates(one)
@@ -137,7 +148,9 @@ class Derivatives(Plain):
             columns = getattr(self, f"dq_d{name}").reshape(len(self.dq_dq), -1).shape[1]
             value = np.ravel(np.asarray(directions.get(name, np.zeros(columns)), dtype=np.float64))
             if value.shape != (columns,):
-                raise InputError(f"must have shape ({columns},)", field=f"along.{name}", value=value.shape)
+                raise InputError(
+                    f"must have shape ({columns},)", field=f"along.{name}", value=value.shape
+                )
             parts.append(value)
         return np.concatenate(parts)
 
@@ -145,7 +158,8 @@ class Derivatives(Plain):
 def _combined(data: DataRates, direction: Array) -> DataRates:
     """The rates along one direction, as those of a single parameter."""
     load, motion = (data.load @ direction)[:, None], (data.motion @ direction)[:, :, None]
-    return DataRates(load, motion, lambda y: (data.pull(y) @ direction)[:, None])
+    terms = np.array([data.terms @ np.abs(direction)])
+    return DataRates(load, motion, terms, lambda y: (data.pull(y) @ direction)[:, None])
 
 
 def derivatives(
@@ -214,9 +228,7 @@ def derivatives(
     )
 
 
-def _certified(
-    simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
-) -> StepResult:
+def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float) -> StepResult:
     """The step with its exact optimum, whatever the simulator certifies."""
     result = simulator.step(q, q_bar_a, force)
     if result.solution.certificate.kind == "exact":
@@ -256,7 +268,9 @@ def _row_reasons(
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
         if bad.any():
             where = names[j], row_names[i]
-            says = f"row {row_names[i]} of {names[j]} touches without load: it holds on one side only"
+            says = (
+                f"row {row_names[i]} of {names[j]} touches without load: it holds on one side only"
+            )
             reasons.append(Reason(reason.WEAK, where, fields(bad), says))
     touched = {names[j].rpartition("/")[0] for j in touching.contacts}
     for pair in simulator.pairs:

@@ -12,7 +12,6 @@ from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
@@ -51,7 +50,9 @@ def geometry_reasons(
         if kink.contact not in touching.contacts and (not kink.jumps or safe[kink.contact]):
             continue
         name = contacts.name[kink.contact]
-        frictionless = not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
+        frictionless = (
+            not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
+        )
         if kink.kind == reason.TANGENTS and frictionless:
             continue
         reasons.append(Reason(kink.kind, (name,), FIELDS, f"{name} {kink.says}"))
@@ -77,21 +78,20 @@ def _ties(
 
 def _out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Array:
     """Contacts whose pair cannot close its distance in this step, whichever points it has."""
-    found = []
-    x, mu = result.solution.delta_q, result.step.contacts.mu
-    for couple, (mu_v, _, mu_omega) in zip(kept, mu, strict=True):
-        motion = turn = 0.0
-        for side, placed, end in zip(
-            (couple.pair.alpha, couple.pair.beta), couple.bodies, couple.points, strict=True
-        ):
-            twist = J[side.link] @ x
-            spin = float(np.linalg.norm(twist[3:]))
-            turn += spin
-            motion += float(np.linalg.norm(twist[:3] + np.cross(twist[3:], end)))
-            if spin:  # any other point of the shape is this far from it
-                motion += spin * np.sqrt(3) * extent(placed.shape)
-        found.append(couple.phi > (1 + 2 * mu_v) * motion + mu_omega * turn)
-    return np.array(found, dtype=bool)
+    twist, mu = J @ result.solution.delta_q, result.step.contacts.mu
+    spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
+    phi = np.array([couple.phi for couple in kept])
+    motion, turn = np.zeros(len(kept)), np.zeros(len(kept))
+    for side in (0, 1):
+        link = [(couple.pair.alpha, couple.pair.beta)[side].link for couple in kept]
+        end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
+        extents = np.array([couple.extents[side] for couple in kept])
+        v = twist[link, :3] + np.cross(twist[link, 3:], end)
+        turn += spin[link]
+        motion += np.sqrt(np.sum(v * v, axis=1))
+        turning = spin[link] > 0  # any other point of the shape is this far from the end
+        motion[turning] += np.sqrt(3) * spin[link][turning] * extents[turning]
+    return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 
 def _quarters(name: str) -> bool:

@@ -1,10 +1,11 @@
-r"""How gap, slips and spin of all contacts change with q, and what multipliers of them exert: (R34).
+r"""How gap, slips and spin of all contacts change with q, and what multipliers exert: (R34).
 
-At a fixed displacement x, a contact's relative velocity is :math:`u = \nu_\beta + \omega_\beta\times\beta
-- \nu_\alpha - \omega_\alpha\times\alpha` of its links' twists, and its gap :math:`\phi + n\cdot u`, its slips
-:math:`\mu_v d_i\cdot u`, its spin :math:`\mu_\omega n\cdot(\omega_\beta - \omega_\alpha)`. Multipliers y
-of these are a wrench of force :math:`f = y_0 n + \mu_v(y_1 d_1 + y_2 d_2)` through beta and of torque
-:math:`\mu_\omega y_3 n` on beta's link, and the opposite through alpha on alpha's. Both are differentiated
+At a fixed displacement x, a contact's relative velocity is :math:`u = \nu_\beta +
+\omega_\beta\times\beta - \nu_\alpha - \omega_\alpha\times\alpha`, of its links' twists, its gap
+:math:`\phi + n\cdot u`, its slips :math:`\mu_v d_i\cdot u`, and its spin
+:math:`\mu_\omega n\cdot(\omega_\beta - \omega_\alpha)`. Multipliers y of these are a wrench on
+beta's link, of the force :math:`f = y_0 n + \mu_v(y_1 d_1 + y_2 d_2)` through beta and the torque
+:math:`\mu_\omega y_3 n`, and the opposite one, through alpha, on alpha's. Both are differentiated
 by the product rule, with everything that a contact is.
 """
 
@@ -39,7 +40,7 @@ class RowRates:
     motion: MotionRates
 
     def of_motion(self, x: Array) -> Array:
-        """Derivatives by q of gap, slip_1, slip_2 and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
+        """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
         c, r = self.contacts, self.rates
         twist, d_twist = self.motion.twists(x), self.motion.twist_rates(x)
         u, d_u = np.zeros((c.n_c, 3)), np.zeros((c.n_c, 3, len(x)))
@@ -62,8 +63,14 @@ class RowRates:
         found[:, 1:] *= c.mu[:, :, None]
         return found
 
+    @property
+    def terms(self) -> Array:
+        """How fast the closest points move, the fastest of them, shape (n_v,) [m per unit]."""
+        r = self.rates
+        return np.abs(np.stack([r.alpha, r.beta])).max(axis=(0, 1, 2), initial=0.0)
+
     def pull(self, y: Array) -> Array:
-        """Derivative by q of what multipliers exert, (n_v, n_v); y of gap, slips, spin (n_c, 4) [N s]."""
+        """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
         c, r = self.contacts, self.rates
         d_d1, d_d2 = tangent_rates(c.n, r.n)
         y0, y1, y2 = y[:, 0, None], (c.mu[:, 0] * y[:, 1])[:, None], (c.mu[:, 1] * y[:, 2])[:, None]
