@@ -180,14 +180,14 @@ SPARSE_FROM: Final = 10_000
 A row of 8 boxes has 11,520: PIQP takes as long either way, Clarabel and OSQP are faster sparse.
 bunny_grasp has 780."""
 
-TOUCHING: Final = 1e-9
-"""Slack of a row, as a displacement in the H norm over the step's, at which it counts as none where
-a derivative is asked for [-]. Slacks are right to 1e-15 of their terms; a derivative this near to a
-kink is one that no difference of steps confirms."""
+TOUCHING: Final = 1e-14
+"""Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a
+derivative is asked for [-]: some fifty roundings of 2e-16."""
 
-BEARING: Final = 1e-9
+BEARING: Final = 1e-11
 """Multiplier of a row, as the displacement that it causes in the H norm over the step's, at which
-it counts as none where a derivative is asked for [-], for the same reason."""
+it counts as none where a derivative is asked for [-]: rounding of places, 1e-16 m, over a step of
+1e-5 m."""
 
 DEPENDENT: Final = 1e-8
 """Least singular value of rows of length one that counts as none [-]. Geometry splits the rows of

@@ -1,4 +1,4 @@
-"""A finger that pushes a free body along a floor, of any two shapes, and differences of its step."""
+"""A finger that pushes a free body along a floor, of any two shapes; differences of its step."""
 
 import numpy as np
 
@@ -29,7 +29,9 @@ SHAPES = {
     "cone": Cone(0.05, 0.06),
     "ellipsoid": Ellipsoid(np.array([0.04, 0.06, 0.05])),
     "mesh": convex_hull(np.concatenate([0.04 * CORNERS, [[0.01, 0.02, 0.07], [0.06, 0.0, 0.01]]])),
-    "cloud": PointCloud(0.05 * CORNERS * [1.0, 0.8, 1.1] + 0.004 * np.sin(np.arange(24)).reshape(8, 3)),
+    "cloud": PointCloud(
+        0.05 * CORNERS * [1.0, 0.8, 1.1] + 0.004 * np.sin(np.arange(24)).reshape(8, 3)
+    ),
 }
 FLOOR = HalfSpace(np.array([0.05, -0.1, 1.0]), 0.0)
 STIFF = np.array([400.0, 500.0, 600.0, 4.0, 5.0, 6.0])
@@ -66,7 +68,9 @@ def pushed(rng, pusher="sphere", pushed="box", k=2, gap=1e-4, mu=(0.4, 0.01), ro
             q[at : at + 3] += sign * move
             if abs(found.phi[j]) < 2 * abs(gap):
                 break
-    away = np.concatenate([3e-3 * found.n[j] + 1e-3 * rng.normal(size=3), 0.02 * rng.normal(size=3)])
+    away = np.concatenate(
+        [3e-3 * found.n[j] + 1e-3 * rng.normal(size=3), 0.02 * rng.normal(size=3)]
+    )
     R = system.kinematics(q).R[system.link("hand")]
     target = np.concatenate([R.T @ away[:3], away[3:], np.zeros(6)])
     return simulator, q, system.integrate(q, target)[: system.n_q_a]

@@ -147,6 +147,8 @@ class Equations:
         column : int
         """
         t, x = self.of, rates.x[:, column]
+        if not len(t.idle):
+            return x
         rows = np.linalg.solve(t.L, t.rows(t.idle).T).T @ self.free.T
         pushes = _complementary(rows, rates.closing[:, column])
         return np.asarray(x + np.linalg.solve(t.L.T, self.free.T @ (rows.T @ pushes)))

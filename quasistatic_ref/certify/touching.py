@@ -1,8 +1,9 @@
 r"""Which rows touch at an optimum, and which of them bear load, in float64.
 
 The exact working set has the signs of one optimum; beside it float64 data have ties that rounding
-split. A row *touches* if its slack is next to nothing, and *bears* if its multiplier is more than
-that in some optimal lam. Both are measured as displacements in the H norm, relative to the step.
+split. A row *touches* if its slack is not more than rounding of what it is a sum of, and *bears* if
+its multiplier is more than that in some optimal lam: as a displacement in the H norm, relative to
+the step.
 """
 
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
-from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.friction import cone_matrix, frame_jacobian
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import load
@@ -54,8 +55,21 @@ class Touching:
         )
 
 
-def touching_rows(step: StepData, solution: StepSolution) -> Touching:
-    """The rows that touch at the certified optimum of a step in a polyhedral cone."""
+def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touching:
+    """The rows that touch at the certified optimum of a step in a polyhedral cone.
+
+    Parameters
+    ----------
+    step : StepData
+    solution : StepSolution
+    places : ndarray, shape (n_c,)
+        How far the closest points are from the world's origin [m]: how large the numbers are whose
+        rounding is in phi.
+
+    Returns
+    -------
+    Touching
+    """
     contacts, table = step.contacts, cone_matrix(step.cone)
     mu_v, _, mu_omega = contacts.mu.T[:, :, None]
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
@@ -64,7 +78,7 @@ def touching_rows(step: StepData, solution: StepSolution) -> Touching:
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = moved @ table.T
-    L = np.linalg.cholesky(step.H)
+    L = np.asarray(np.linalg.cholesky(step.H), dtype=np.float64)
     every = np.argwhere(step.mask)
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
     length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
@@ -74,9 +88,8 @@ def touching_rows(step: StepData, solution: StepSolution) -> Touching:
     if not size and len(every):  # nothing moves: what the nearest contact is away
         size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
     terms = np.abs(generators) @ np.abs(x)
-    terms[:, 0] += np.abs(contacts.phi)
-    rounding = (terms @ np.abs(table).T)[step.mask] * TOUCHING
-    touches = slack[step.mask] <= np.maximum(TOUCHING * size * length, rounding)
+    terms[:, 0] += np.abs(contacts.phi) + places
+    touches = slack[step.mask] <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
     touches |= solution.lam > 0
     Z, lam = every[touches], solution.lam[touches]
     scaled = rows[touches] / length[touches, None]
@@ -86,9 +99,9 @@ def touching_rows(step: StepData, solution: StepSolution) -> Touching:
     return Touching(L, generators, table, Z[bears], Z[~bears], multipliers)
 
 
-def _bearing(rows: Array, lam: Array, size: float) -> Indices:
+def _bearing(rows: Array, lam: Array, size: float) -> Mask:
     """Which of some unit rows, shape (k, n_v), bear load in some optimal lam."""
-    bears = lam > BEARING * size
+    bears: Mask = lam > BEARING * size
     if bears.all():
         return bears
     held = rows[bears]

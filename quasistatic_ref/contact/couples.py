@@ -70,8 +70,8 @@ class Couple(NamedTuple):
 
     @property
     def size(self) -> float:
-        """The larger extent [m]; a half-space has none."""
-        return max(extent for extent in self.extents if np.isfinite(extent))
+        """The larger extent [m]; a half-space has none, and a single point one metre."""
+        return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
 
 
 def couples(

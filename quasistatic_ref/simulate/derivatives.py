@@ -29,7 +29,7 @@ from quasistatic_ref.simulate.row_rates import RowRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import ON_RIM
 
 FIELDS = (
@@ -201,23 +201,25 @@ def derivatives(
     rates = contact_rates(kept, (contacts.d1, contacts.d2), motion.J)
     rows = RowRates(contacts.dense(), result.points, simulator.layout, rates, motion)
     data = data_rates(simulator, step, x, rows, MassRates(system, kinematics, motion))
-    touching = touching_rows(step, result.solution)
+    places = np.abs(np.stack([result.points.alpha, result.points.beta])).max(axis=(0, 2), initial=0)
+    touching = touching_rows(step, result.solution, places)
     equations = Equations(touching)
     every = parameters(*data.values())
     found = equations.rates(every)
     ends = np.cumsum([part.load.shape[1] for part in data.values()])
-    places = dict(zip(data, zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True), strict=True))
+    columns_of = zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True)
+    own = dict(zip(data, columns_of, strict=True))
     reasons = [
         *geometry_reasons(simulator, result, kept, rates, motion.J, touching),
         *_target_reasons(simulator, step.delta_q_bar_a),
-        *_row_reasons(simulator, result, touching, found, places),
+        *_row_reasons(simulator, result, touching, found, own),
     ]
     by_q, onward = sum_rates(system.joints, x)
     columns = onward @ found.x
     columns[:, : system.n_v] += by_q
-    bad = _forbidden(found, reasons, places)
+    bad = _forbidden(found, reasons, own)
     columns[:, bad] = np.nan
-    shaped = {name: columns[:, slice(*place)] for name, place in places.items()}
+    shaped = {name: columns[:, slice(*place)] for name, place in own.items()}
     shaped["dq_dh"] = shaped["dq_dh"][:, 0]
     return Derivatives(
         **shaped,
@@ -258,7 +260,7 @@ def _row_reasons(
     names, row_names = result.step.contacts.name, cone(result.step.cone).row_names
     reasons = []
 
-    def fields(bad: Array) -> tuple[str, ...]:
+    def fields(bad: Mask) -> tuple[str, ...]:
         return tuple(name for name, place in places.items() if bad[slice(*place)].any())
 
     for contacts, bad in found.contradicts:
@@ -285,7 +287,7 @@ def _forbidden(
     found: OptimumRates, reasons: Sequence[Reason], places: dict[str, tuple[int, int]]
 ) -> Array:
     """Which columns have no derivative."""
-    bad = found.opens.any(axis=0)
+    bad = np.asarray(found.opens.any(axis=0))
     for _, own in found.contradicts:
         bad = bad | own
     by_field = (reason.WEAK, reason.CONTRADICTION)

@@ -9,7 +9,6 @@ from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.certify.touching import Touching
 from quasistatic_ref.contact.contact_rates import ContactRates
 from quasistatic_ref.contact.couples import Couple
-from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
 from quasistatic_ref.simulate.result import StepResult
@@ -68,7 +67,7 @@ def _ties(
         at += pair.n_c
         if safe[own].all():
             continue
-        points = ClosestPoints(*(part[own] for part in result.points))
+        points = result.points.chosen(np.arange(own.start, own.stop))
         inside, outside = tied_points(kept[own], points)
         if outside:
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))

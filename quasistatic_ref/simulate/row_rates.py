@@ -17,7 +17,7 @@ from quasistatic_ref.contact.contact_rates import ContactRates, tangent_rates
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion_rates import MotionRates
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Array, Contacts, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class RowRates:
     def terms(self) -> Array:
         """How fast the closest points move, the fastest of them, shape (n_v,) [m per unit]."""
         r = self.rates
-        return np.abs(np.stack([r.alpha, r.beta])).max(axis=(0, 1, 2), initial=0.0)
+        return np.asarray(np.abs(np.stack([r.alpha, r.beta])).max(axis=(0, 1, 2), initial=0.0))
 
     def pull(self, y: Array) -> Array:
         """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
@@ -87,7 +87,7 @@ class RowRates:
             np.add.at(d_wrench, link, sign * np.concatenate([d_force, d_moment], axis=1))
         return self.motion.force_rates(wrench, d_wrench)
 
-    def _ends(self) -> tuple[tuple[Array, Array, Array, float], ...]:
+    def _ends(self) -> tuple[tuple[Indices, Array, Array, float], ...]:
         """Links, points, their derivatives and the sign of both bodies."""
         p, r, of = self.points, self.rates, self.layout
         return (of.link_beta, p.beta, r.beta, 1.0), (of.link_alpha, p.alpha, r.alpha, -1.0)
