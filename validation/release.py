@@ -92,6 +92,7 @@ RESULTS = (
     Result(
         "figures",
         (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
+         "gradient_of_a_push", "where_no_gradient_is",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),

@@ -26,6 +26,8 @@ EXAMPLES: Final = (
     "grasp",
     "grasp_rotation",
     "grasp_against_mu_omega",
+    "gradient_of_a_push",
+    "where_no_gradient_is",
     "time_of_a_step",
     "solver_digits",
     "door",
