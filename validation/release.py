@@ -162,6 +162,11 @@ RESULTS = (
         ("validation/results/same_bits.json",),
     ),
     Result(
+        "derivatives",
+        ("validation.derivatives", "--out", "validation/results/derivatives.md"),
+        ("validation/results/derivatives.md",),
+    ),
+    Result(
         "bench_exact",
         ("validation.bench_exact", "200"),
         ("validation/results/bench_exact.txt",),

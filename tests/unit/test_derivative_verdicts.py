@@ -19,13 +19,20 @@ from quasistatic_ref.model.shapes import (
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
-from tests.pushes import after, sided
 from tests.tolerances import DIFFERENCE_OF_STEPS
 from tests.unit.urdf_texts import joint, link, robot
+from validation.derivatives import after
 
 H, G = 0.01, 9.81
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
+
+
+def sided(function, step=1e-6):
+    """Derivative at 0 from above of a function of one number, extrapolated once."""
+    start = function(0.0)
+    near, far = ((function(h) - start) / h for h in (step, 2 * step))
+    return 2 * near - far
 
 
 def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), mass=0.3, own=None):

@@ -10,44 +10,13 @@ import pytest
 from quasistatic_ref import load_scenario
 from quasistatic_ref.contact.contact_rates import ContactRates
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.simulate import derivatives as module
 from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
-from tests.pushes import SHAPES, after, pushed, rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
-
-COUPLES = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
-
-
-def unit(rng, n):
-    e = rng.normal(size=n)
-    return e / np.linalg.norm(e)
-
-
-def nearest_rate(function, claimed, size):
-    """The difference, of several steps, that is nearest to what is claimed: a kink may be near."""
-    every = [rate(function, step) for step in (1e-5, 1e-6, 1e-7)]
-    return min(np.abs(found - claimed).max() for found in every) / size
-
-
-def wrong_by(simulator, q, q_bar_a, found, rng, direction=None):
-    """How far dq_dq and dq_dq_bar_a are from differences along a direction, relative."""
-    system, start = simulator.system, found.result.q
-    e, targets = unit(rng, system.n_v) if direction is None else direction, unit(rng, system.n_a)
-    whole = system.with_actuated(q, q_bar_a)
-    rest = np.zeros(system.n_u)
-
-    def moved(t):
-        return after(simulator, start, system.integrate(q, t * e), q_bar_a)
-
-    def aimed(t):
-        change = np.concatenate([t * targets, rest])
-        return after(simulator, start, q, system.integrate(whole, change)[: system.n_q_a])
-
-    by_q = nearest_rate(moved, found.dq_dq @ e, np.abs(found.dq_dq).max())
-    by_target = found.dq_dq_bar_a @ targets
-    return by_q, nearest_rate(aimed, by_target, np.abs(found.dq_dq_bar_a).max())
+from validation.derivatives import COUPLES, after, rate, unit, wrong_by
 
 
 @pytest.mark.parametrize("couple", COUPLES, ids="-".join)

@@ -1,4 +1,6 @@
-"""A finger that pushes a free body along a floor, of any two shapes; differences of its step."""
+"""A finger that pushes a free body along a tilted floor, both of any shapes, in random poses."""
+
+from typing import Any, Final
 
 import numpy as np
 
@@ -15,13 +17,15 @@ from quasistatic_ref.model.shapes import (
     HalfSpace,
     PlacedShape,
     PointCloud,
+    Shape,
     Sphere,
 )
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-SHAPES = {
+SHAPES: Final[dict[str, Shape]] = {
     "sphere": Sphere(0.05),
     "box": Box(np.array([0.05, 0.06, 0.04])),
     "cylinder": Cylinder(0.04, 0.06),
@@ -34,22 +38,44 @@ SHAPES = {
     ),
 }
 FLOOR = HalfSpace(np.array([0.05, -0.1, 1.0]), 0.0)
+MU_V, MU_OMEGA = 0.4, 0.01
+
 STIFF = np.array([400.0, 500.0, 600.0, 4.0, 5.0, 6.0])
 
 
-def pushed(rng, pusher="sphere", pushed="box", k=2, gap=1e-4, mu=(0.4, 0.01), rows=6, **settings):
-    """(simulator, q, q_bar_a): both bodies in random poses, the gaps about `gap` [m]."""
+def pushed(
+    rng: np.random.Generator,
+    pusher: str = "sphere",
+    moved: str = "box",
+    k: int = 2,
+    gap: float = 1e-4,
+    **settings: Any,
+) -> tuple[Simulator, Array, Array]:
+    """A simulator, a configuration (14,) and a target of the finger (7,).
+
+    Parameters
+    ----------
+    rng : Generator
+    pusher, moved : str
+        Names of SHAPES.
+    k : int
+        How many closest points the floor keeps; the finger keeps one, or two.
+    gap : float
+        Both gaps are half of it to all of it [m].
+    settings : object
+        Of the simulator.
+    """
     hand = Body.of_shape("hand", Sphere(0.05), 0.5, actuated=("base",))
     body = Body.of_shape("body", Box(np.array([0.05, 0.06, 0.04])), 0.3)
     system = System([hand, body])
     own = {
         name: PlacedShape(name, system.link(name), np.eye(3), 0.005 * np.ones(3), SHAPES[kind])
-        for name, kind in (("hand", pusher), ("body", pushed))
+        for name, kind in (("hand", pusher), ("body", moved))
     }
     floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), FLOOR)
     pairs = [
-        ContactPair("floor", floor, own["body"], mu[0], mu[1], rows, k),
-        ContactPair("push", own["hand"], own["body"], mu[0], mu[1], rows, 1 if k == 1 else 2),
+        ContactPair("floor", floor, own["body"], MU_V, MU_OMEGA, 6, k),
+        ContactPair("push", own["hand"], own["body"], MU_V, MU_OMEGA, 6, min(k, 2)),
     ]
     settings = {"h": 0.01, "K_q": np.diag(STIFF)} | settings
     simulator = Simulator(system, pairs, **settings)
@@ -74,21 +100,3 @@ def pushed(rng, pusher="sphere", pushed="box", k=2, gap=1e-4, mu=(0.4, 0.01), ro
     R = system.kinematics(q).R[system.link("hand")]
     target = np.concatenate([R.T @ away[:3], away[3:], np.zeros(6)])
     return simulator, q, system.integrate(q, target)[: system.n_q_a]
-
-
-def rate(function, step=1e-5):
-    """Derivative at 0 of a function of one number: Richardson's of two central differences."""
-    near, far = ((function(h) - function(-h)) / (2 * h) for h in (step, 2 * step))
-    return (4 * near - far) / 3
-
-
-def sided(function, step=1e-6):
-    """Derivative at 0 from above of a function of one number, extrapolated once."""
-    start = function(0.0)
-    near, far = ((function(h) - start) / h for h in (step, 2 * step))
-    return 2 * near - far
-
-
-def after(simulator, q_next, q, q_bar_a, force=0.0):
-    """q+ (-) q_next of a step."""
-    return simulator.system.difference(q_next, simulator.step(q, q_bar_a, force).q)
