@@ -24,7 +24,8 @@ _HOMES = {
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
-    "simulate.derivatives": "derivatives Derivatives",
+    "simulate.derivatives": "derivatives",
+    "simulate.gradient": "Derivatives",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",

@@ -1,20 +1,19 @@
 """Which kinks of the contacts' geometry the step after q feels."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
 from quasistatic_ref.certify import reason
 from quasistatic_ref.certify.reason import Reason
-from quasistatic_ref.certify.touching import Touching
-from quasistatic_ref.contact.contact_rates import ContactRates
 from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.step_rates import StepRates
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
 
 FIELDS = ("dq_dq",)
@@ -23,10 +22,9 @@ FIELDS = ("dq_dq",)
 def geometry_reasons(
     simulator: Simulator,
     result: StepResult,
-    kept: Sequence[Couple],
-    rates: ContactRates,
-    J: Array,
-    touching: Touching,
+    rates: StepRates,
+    touching: Collection[int],
+    safe: Mask,
 ) -> list[Reason]:
     """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
 
@@ -34,19 +32,18 @@ def geometry_reasons(
     ----------
     simulator : Simulator
     result : StepResult
-    kept : sequence of Couple, length n_c
-        The step's contacts.
-    rates : ContactRates
-    J : ndarray, shape (L, 6, n_v)
-        Twist of each link at the world's origin, per unit of delta_q [m, rad].
-    touching : Touching
+    rates : StepRates
+    touching : collection of int
+        Contacts whose numbers the step feels.
+    safe : ndarray of bool, shape (n_c,)
+        Contacts that it would not feel wherever they were.
     """
-    contacts = result.step.contacts
+    contacts, kept = result.step.contacts, rates.couples
     frames = np.stack([contacts.d1, contacts.d2], axis=1)
-    safe = _out_of_reach(result, kept, J)
+    quarters = _quarters(simulator.cone)
     reasons = []
-    for kink in kinks(kept, rates, frames, J, _quarters(simulator.cone)):
-        if kink.contact not in touching.contacts and (not kink.jumps or safe[kink.contact]):
+    for kink in kinks(kept, rates.contacts, frames, rates.motion.J, quarters):
+        if kink.contact not in touching and (not kink.jumps or safe[kink.contact]):
             continue
         name = contacts.name[kink.contact]
         frictionless = (
@@ -59,7 +56,7 @@ def geometry_reasons(
 
 
 def _ties(
-    simulator: Simulator, result: StepResult, kept: Sequence[Couple], safe: Array
+    simulator: Simulator, result: StepResult, kept: Sequence[Couple], safe: Mask
 ) -> Iterator[Reason]:
     at = 0
     for pair in simulator.pairs:
@@ -75,8 +72,21 @@ def _ties(
             yield Reason(reason.POINTS, where, FIELDS, says)
 
 
-def _out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Array:
-    """Contacts whose pair cannot close its distance in this step, whichever points it has."""
+def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
+    """Contacts whose pair cannot close its distance in this step, whichever points it has.
+
+    Parameters
+    ----------
+    result : StepResult
+    kept : sequence of Couple, length n_c
+        Its contacts.
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+
+    Returns
+    -------
+    ndarray of bool, shape (n_c,)
+    """
     twist, mu = J @ result.solution.delta_q, result.step.contacts.mu
     spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     phi = np.array([couple.phi for couple in kept])

@@ -11,7 +11,7 @@ from quasistatic_ref import load_scenario
 from quasistatic_ref.contact.contact_rates import ContactRates
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.pushes import pushed
-from quasistatic_ref.simulate import derivatives as module
+from quasistatic_ref.simulate import step_rates as module
 from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension

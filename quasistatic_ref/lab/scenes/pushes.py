@@ -77,8 +77,8 @@ def pushed(
         ContactPair("floor", floor, own["body"], MU_V, MU_OMEGA, 6, k),
         ContactPair("push", own["hand"], own["body"], MU_V, MU_OMEGA, 6, min(k, 2)),
     ]
-    settings = {"h": 0.01, "K_q": np.diag(STIFF)} | settings
-    simulator = Simulator(system, pairs, **settings)
+    own_settings: dict[str, Any] = {"h": 0.01, "K_q": np.diag(STIFF)} | settings
+    simulator = Simulator(system, pairs, **own_settings)
     q = system.q_start.copy()
     for at in (3, 10):
         turn = rng.normal(size=4)
