@@ -26,6 +26,7 @@ _HOMES = {
     "simulate.simulator": "Simulator",
     "simulate.derivatives": "derivatives",
     "simulate.gradient": "Derivatives",
+    "simulate.smoothed": "smoothed",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",

@@ -93,6 +93,7 @@ RESULTS = (
         "figures",
         (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
          "gradient_of_a_push", "where_no_gradient_is",
+         "what_smoothing_does",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),

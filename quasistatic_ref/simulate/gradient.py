@@ -9,7 +9,6 @@ from quasistatic_ref.certify import reason
 from quasistatic_ref.certify.optimum_rates import DataRates
 from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 
@@ -46,7 +45,7 @@ class OneSided:
 
 
 @dataclass(frozen=True, eq=False)
-class Derivatives(Plain):
+class Derivatives:
     """Derivatives of the configuration after a step, in tangent coordinates on both sides.
 
     Columns without a derivative are NaN, and `reasons` says why.

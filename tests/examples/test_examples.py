@@ -68,7 +68,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 28
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 29
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -133,6 +133,14 @@ def test_the_gradient_of_a_push_is_that_of_its_difference_and_a_flat_finger_has_
 
 def test_kinks_have_the_one_sided_derivatives_of_the_closed_forms():
     pairs("where_no_gradient_is", atol=ROUNDING)
+
+
+def test_a_smoothed_step_tends_to_the_exact_one_and_halves_its_derivative_at_a_kink():
+    step, slope, *middle = numbers("what_smoothing_does").values()
+    # The distance of a pressed ball is 6 kappa over its impulse, but for terms of the second order.
+    np.testing.assert_allclose([step, slope], 10, rtol=1e-2)
+    # At the kink s^2 m / h = 6 kappa, and ds / dphi = s m / h / (2 s m / h): one half.
+    np.testing.assert_allclose(middle, 0.5, rtol=1e-9)
 
 
 def test_a_slider_turns_as_lynch_says_when_it_is_slow():

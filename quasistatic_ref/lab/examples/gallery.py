@@ -28,6 +28,7 @@ EXAMPLES: Final = (
     "grasp_against_mu_omega",
     "gradient_of_a_push",
     "where_no_gradient_is",
+    "what_smoothing_does",
     "time_of_a_step",
     "solver_digits",
     "door",
