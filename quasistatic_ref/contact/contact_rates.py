@@ -11,6 +11,7 @@ from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import ON_RIM, UNIQUE
 
 
 class ContactRates(NamedTuple):
@@ -24,6 +25,9 @@ class ContactRates(NamedTuple):
         Whether the closest points are; where they are not, the others mean nothing.
     level_rim : ndarray of bool, shape (n_c,)
         Whether the contact is on a rim of which no point is the nearest.
+    slides : ndarray of bool, shape (n_c,)
+        Whether its points may be anywhere along a line, where an edge ends among others, and it
+        does not matter where.
     """
 
     phi: Array
@@ -32,6 +36,7 @@ class ContactRates(NamedTuple):
     n: Array
     unique: Mask
     level_rim: Mask
+    slides: Mask
 
 
 def contact_rates(
@@ -43,7 +48,7 @@ def contact_rates(
     ----------
     couples : sequence of Couple, length n_c
     tangents : (ndarray, ndarray), each of shape (n_c, 3)
-        d1 and d2.
+        d1 and d2 [-].
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     """
@@ -55,8 +60,33 @@ def contact_rates(
         slide = _rim_slide(couples[j], J)
         level[j] = slide is None
         slides[_rim_side(couples[j]), j] = 0.0 if slide is None else slide
-    found = couple_rates(couples, frames, J, slides)
-    return ContactRates(found.phi, found.alpha, found.beta, found.n, found.unique, level)
+    features = [couple.features for couple in couples]
+    slid = np.zeros(len(couples), dtype=bool)
+    for j, couple in enumerate(couples):
+        if any(len(f.ends) for f in couple.features):
+            merged = merged_features(couple)
+            several = couple_rates([couple], frames[j : j + 1], J, None, [merged])
+            slid[j] = several.unique[0] and _dependent(merged)
+            features[j] = merged if slid[j] else features[j]
+    found = couple_rates(couples, frames, J, slides, features)
+    return ContactRates(found.phi, found.alpha, found.beta, found.n, found.unique, level, slid)
+
+
+def merged_features(couple: Couple) -> tuple[Feature, Feature]:
+    """The features of a couple with the directions in which they end as free ones."""
+    found = []
+    for f in couple.features:
+        if len(f.ends):
+            _, s, V = np.linalg.svd(np.concatenate([f.free, f.ends]))
+            f = Feature(f.bend, V[: len(s)][s > ON_RIM][:2])
+        found.append(f)
+    return found[0], found[1]
+
+
+def _dependent(features: tuple[Feature, Feature]) -> bool:
+    """Whether both have a straight direction in common."""
+    straight = np.concatenate([f.free for f in features])
+    return len(straight) > 2 or bool(np.linalg.svd(straight)[1].min(initial=1.0) <= UNIQUE)
 
 
 def couple_rates(
@@ -125,7 +155,7 @@ def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:
     ----------
     n : ndarray, shape (n_c, 3)
     d_n : ndarray, shape (n_c, 3, n_v)
-        Derivatives of n.
+        Derivatives of n [per m or rad].
     """
     axis = np.eye(3)[np.abs(n).argmin(axis=1)]
     along = np.vecdot(n, axis)[:, None, None]

@@ -6,12 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify import reason
-from quasistatic_ref.contact.contact_rates import ContactRates, couple_rates
+from quasistatic_ref.contact.contact_rates import ContactRates, couple_rates, merged_features
 from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.depth_ties import depth_tie
-from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ON_RIM, TIED, UNIQUE
+from quasistatic_ref.tolerances import TIED, UNIQUE
 
 
 class Kink(NamedTuple):
@@ -44,7 +43,7 @@ def kinks(
     couples : sequence of Couple, length n_c
     rates : ContactRates
     frames : ndarray, shape (n_c, 2, 3)
-        d1 and d2.
+        d1 and d2 [-].
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     quarters : bool
@@ -57,7 +56,7 @@ def kinks(
             yield Kink(j, reason.SURFACES, "is as deep below another surface", True)
         if not rates.unique[j]:
             yield _not_unique(j, couple)
-        elif any(len(f.ends) for f in couple.features):
+        elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
             yield _at_an_end(j, couple, frames[j], J)
         if _switches(couple.n, rates.n[j], quarters):
             says = "has two axes that are as far from its normal: its tangents jump"
@@ -76,20 +75,11 @@ def _not_unique(j: int, couple: Couple) -> Kink:
 
 def _at_an_end(j: int, couple: Couple, frame: Array, J: Array) -> Kink:
     """A point on the rim of a feature: a kink, or a jump if its neighbour has no unique point."""
-    a, b = (_merged(f) for f in couple.features)
-    if not couple_rates([couple], frame[None], J, features=[(a, b)]).unique[0]:
+    if not couple_rates([couple], frame[None], J, features=[merged_features(couple)]).unique[0]:
         return Kink(
             j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True
         )
     return Kink(j, reason.FEATURE, "is where a vertex, an edge or a face of a shape ends", False)
-
-
-def _merged(f: Feature) -> Feature:
-    """The feature with the directions in which it ends as free ones."""
-    if not len(f.ends):
-        return f
-    _, s, V = np.linalg.svd(np.concatenate([f.free, f.ends]))
-    return Feature(f.bend, V[: len(s)][s > ON_RIM][:2])
 
 
 def _switches(n: Array, d_n: Array, quarters: bool) -> bool:

@@ -12,7 +12,9 @@ the condition :math:`\beta - \alpha = \phi n` gives
    F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
 
 across n, and along n :math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the
-closest points are not unique, and at a distance of zero where neither surface has a normal.
+closest points are not unique, and at a distance of zero where neither surface has a normal. Points
+that slide along a common straight line do no harm if the bodies cannot turn out of it: the
+equations are then consistent, and no row depends on where along the line the points are.
 """
 
 from typing import NamedTuple
@@ -81,8 +83,15 @@ def witness_rates(
     free = [_padded(side.features) for side in (alpha, beta)]
     matrix, right = _system(phi, frames, bends, free, turn, beta.v - alpha.v, size)
     good = np.linalg.svd(matrix, compute_uv=False)[:, -1] > UNIQUE
+    turns = beta.omega - alpha.omega
+    solutions = {
+        int(j): _sliding(matrix[j], right[j], free[0][j], turns[j]) for j in np.flatnonzero(~good)
+    }
     matrix[~good] = np.eye(6)
     solved = np.linalg.solve(matrix, right)
+    for j, solution in solutions.items():
+        if solution is not None:
+            solved[j], good[j] = solution, True
     dn = frames.transpose(0, 2, 1) @ solved[:, :2]
     moved = []
     for side, D, F, w, z, sign in zip(
@@ -93,6 +102,21 @@ def witness_rates(
     d_phi = np.einsum("ja,jak->jk", n, beta.v - alpha.v)
     assert len(good) == count
     return Rates(d_phi, moved[0], moved[1], dn, good)
+
+
+def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:
+    """A solution of singular equations, (6, n_v), where it does not matter which; else None."""
+    U, s, V = np.linalg.svd(matrix)
+    rank = int(np.count_nonzero(s > UNIQUE))
+    slides, across = V[rank:], U[:, rank:].T
+    if np.abs(slides[:, :2]).max() > UNIQUE:
+        return None  # the normal itself is not determined
+    if np.abs(across @ right).max(initial=0.0) > UNIQUE * max(1.0, float(np.abs(right).max())):
+        return None
+    for way in slides[:, 2:4] @ free:
+        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > UNIQUE:
+            return None
+    return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))
 
 
 def _system(

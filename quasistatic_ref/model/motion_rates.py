@@ -68,7 +68,7 @@ class MotionRates:
         wrenches : ndarray, shape (L, 6)
             [N, N m], or those of impulses.
         rates : ndarray, shape (L, 6, n_v)
-            Their derivatives by q.
+            Their derivatives by q [the same per m or rad].
         """
         direct = np.einsum("lai,lak->ik", self.J, rates, optimize=True)
         on_columns = self.moves.T @ wrenches  # (n_x, 6)

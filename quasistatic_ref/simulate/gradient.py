@@ -35,7 +35,7 @@ class OneSided:
     data : DataRates
         By all parameters, in the order of the fields.
     carried, onward : ndarray, shape (n_v, n_v)
-        Derivatives of q (+) delta_q by q and by delta_q.
+        Derivatives of q (+) delta_q by q and by delta_q [m, rad per m or rad].
     """
 
     displacement: Callable[[DataRates], Array]

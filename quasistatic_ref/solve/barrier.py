@@ -95,7 +95,7 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
         d_lam = push - weight * d_slack
         share = min(_share(slack, d_slack), _share(lam, d_lam))
         x, slack, lam = x + share * dx, slack + share * d_slack, lam + share * d_lam
-        length, size = np.linalg.norm(L.T @ dx), np.linalg.norm(L.T @ x)
+        length, size = float(np.linalg.norm(L.T @ dx)), float(np.linalg.norm(L.T @ x))
         if mu == kappa and share == 1 and length <= SETTLED * size + NOTHING:
             return Barrier(x, lam, slack)
         least, nearest = (length, Barrier(x, lam, slack)) if length < least else (least, nearest)

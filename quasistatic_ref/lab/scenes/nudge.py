@@ -56,7 +56,7 @@ def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Ar
 
 
 def points(*places: tuple[float, float, float]) -> PointCloud:
-    """A cloud of a few points [m]."""
+    """A cloud of a few `places`, three numbers each [m]."""
     return PointCloud(np.array(places))
 
 
