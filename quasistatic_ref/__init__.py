@@ -24,6 +24,9 @@ _HOMES = {
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
+    "simulate.derivatives": "derivatives",
+    "simulate.gradient": "Derivatives",
+    "simulate.smoothed": "smoothed",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",

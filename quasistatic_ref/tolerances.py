@@ -193,3 +193,33 @@ DENSE_BELOW: Final = 150_000
 """Entries below which runs that certify nothing and name no backend stay with DAQP and dense
 matrices. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one
 of 32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""
+
+TOUCHING: Final = 1e-14
+"""Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a
+derivative is asked for [-]: some fifty roundings of 2e-16."""
+
+BEARING: Final = 1e-11
+"""Multiplier of a row, as the displacement that it causes in the H norm over the step's, at which
+it counts as none where a derivative is asked for [-]: rounding of places, 1e-16 m, over a step of
+1e-5 m."""
+
+DEPENDENT: Final = 1e-8
+"""Least singular value of rows of length one that counts as none [-]. Geometry splits the rows of
+bodies that lie flat on each other by 1e-15; what is nearer to dependence than this makes forces of
+1e8 times the load."""
+
+CONSISTENT: Final = 1e-9
+"""Largest rate at which dependent rows leave each other, relative to the terms that make it, that
+is rounding [-]: rates are right to 1e-13, and are divided by lengths of rows 1e3 apart."""
+
+ON_RIM: Final = 1e-9
+"""How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
+on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
+
+UNIQUE: Final = 1e-9
+"""Least singular value of the equations of a closest pair, lengths over the pair's size, at which
+the pair counts as unique [-]. Parallel faces leave 1e-16; nearer ones turn by 1e9 of a motion."""
+
+TIED: Final = 1e-10
+"""Difference of two distances, relative to the pair's size, at which they count as equal [-]:
+REPEATED for sizes of some decimetres."""

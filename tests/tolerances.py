@@ -106,3 +106,12 @@ FOUR_ULP: Final = 4 * 2.220446049250313e-16
 
 INTEGRAL: Final = 1e-11
 """Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""
+
+DIFFERENCE_OF_STEPS: Final = 1e-7
+"""Derivatives of a step against Richardson's differences in float64, relative to the largest
+entry: steps are right to 1e-16 of a metre, 1e-11 after division by the difference's 1e-5, times the
+conditioning of the contacts; a mistake of the geometry is a tenth."""
+
+SEEN: Final = 1e-3
+"""Least error of a derivative in which a part of the geometry is left out, in the scene in which it
+is planted, relative to the largest entry: a step of a few mm turns bodies of some cm by a tenth."""

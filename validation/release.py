@@ -97,6 +97,8 @@ RESULTS = (
     Result(
         "figures",
         (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
+         "gradient_of_a_push", "where_no_gradient_is",
+         "what_smoothing_does",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),
@@ -170,6 +172,11 @@ RESULTS = (
         "same_bits",
         ("validation.same_bits", "--out", "validation/results/same_bits.json"),
         ("validation/results/same_bits.json",),
+    ),
+    Result(
+        "derivatives",
+        ("validation.derivatives", "--out", "validation/results/derivatives.md"),
+        ("validation/results/derivatives.md",),
     ),
     Result(
         "bench_exact",

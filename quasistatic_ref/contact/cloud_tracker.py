@@ -61,7 +61,7 @@ class CloudTracker:
         solids, clouds = [sides[p][0] for p in self.pair], [sides[p][1] for p in self.pair]
         self.solids = [solid.shape for solid in solids]
         self.clouds = [_cloud(cloud) for cloud in clouds]
-        self.trees = [_tree(cloud) for cloud in self.clouds]
+        self.trees = [cloud_tree(cloud) for cloud in self.clouds]
         self.placements = Placements(solids, clouds)
         self.signs = np.array([sides[p][2] for p in self.pair])
         self.n_c, self.names = [pairs[p].n_c for p in self.pair], [pairs[p].name for p in self.pair]
@@ -182,7 +182,7 @@ def _cloud(placed: PlacedShape) -> PointCloud:
     return placed.shape
 
 
-def _tree(cloud: PointCloud) -> BallTree:
+def cloud_tree(cloud: PointCloud) -> BallTree:
     """The cloud's tree, built once for all pairs and trackers."""
     if cloud not in _TREES:
         _TREES[cloud] = ball_tree(cloud.points)

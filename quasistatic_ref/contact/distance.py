@@ -87,7 +87,7 @@ def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
-    a, b = _placed(pair.alpha, R, t), _placed(pair.beta, R, t)
+    a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
     if isinstance(b.shape, PointCloud):
         return _points_on_solid(a, b, b.shape.points, 0.0, pair.k)
     if isinstance(a.shape, PointCloud):
@@ -97,16 +97,22 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     nearest = ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
     if pair.n_c == 1:
         return nearest
-    corners_a, radius_a = corners(a.shape, a.R.T @ found.n)
-    corners_b, radius_b = corners(b.shape, -b.R.T @ found.n)
-    on_b = _points_on_solid(b, a, corners_a, radius_a).swapped()
-    on_a = _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a))
-    candidates = joined([on_b, on_a, nearest])
-    order = closest(np.where(_late(candidates, pair.k), np.inf, candidates.phi), pair.k)
+    candidates = with_corners(a, b, nearest)
+    order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
 
 
-def _late(candidates: ClosestPoints, k: int) -> Mask:
+def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
+    """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair."""
+    n = nearest.n[0]
+    corners_a, radius_a = corners(a.shape, a.R.T @ n)
+    corners_b, radius_b = corners(b.shape, -b.R.T @ n)
+    on_b = _points_on_solid(b, a, corners_a, radius_a).swapped()
+    on_a = _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a))
+    return joined([on_b, on_a, nearest])
+
+
+def late(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
 
     The closest pair mostly is a corner, and on parallel faces anything between corners that are
@@ -115,10 +121,10 @@ def _late(candidates: ClosestPoints, k: int) -> Mask:
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
-    late = np.tril(same, -1).any(axis=1)
-    level = ~late & (candidates.phi <= candidates.phi[-1] + REPEATED)
-    late[-1] |= np.count_nonzero(level[:-1]) >= k
-    return np.asarray(late)
+    found = np.tril(same, -1).any(axis=1)
+    level = ~found & (candidates.phi <= candidates.phi[-1] + REPEATED)
+    found[-1] |= np.count_nonzero(level[:-1]) >= k
+    return np.asarray(found)
 
 
 def _points_on_solid(
@@ -142,7 +148,8 @@ def _points_on_solid(
     )
 
 
-def _placed(placed: PlacedShape, R: Array, t: Array) -> Placed:
-    R_link, t_link = R[placed.link], t[placed.link]
-    world = R_link @ np.column_stack([placed.R, placed.t])
-    return Placed(placed.shape, world[:, :3], world[:, 3] + t_link)
+def placed(shape: PlacedShape, R: Array, t: Array) -> Placed:
+    """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
+    R_link, t_link = R[shape.link], t[shape.link]
+    world = R_link @ np.column_stack([shape.R, shape.t])
+    return Placed(shape.shape, world[:, :3], world[:, 3] + t_link)

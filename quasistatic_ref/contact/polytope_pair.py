@@ -70,13 +70,31 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
 
 def _widest_gap(a: Polytope, b: Polytope) -> tuple[float, Array]:
     """Largest gap over the faces of the Minkowski difference, and its direction."""
+    every, normals = gaps_between(a, b)
+    best = int(every.argmax())
+    return float(every[best]), normals[best]
+
+
+def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
+    """Gaps along the normals of all faces of the Minkowski difference.
+
+    Parameters
+    ----------
+    a, b : Polytope
+        In one frame.
+
+    Returns
+    -------
+    gaps : ndarray, shape (N,)
+        [m].
+    normals : ndarray, shape (N, 3)
+        From a to b [-].
+    """
     along_a = (a.normals @ b.vertices.T).min(axis=1) - a.offsets
     along_b = (b.normals @ a.vertices.T).min(axis=1) - b.offsets
     crossing, gaps = _crossing_edges(a, b)
     normals = np.concatenate([a.normals, -b.normals, crossing])
-    every = np.concatenate([along_a, along_b, gaps])
-    best = int(every.argmax())
-    return float(every[best]), normals[best]
+    return np.concatenate([along_a, along_b, gaps]), normals
 
 
 def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:

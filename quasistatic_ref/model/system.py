@@ -55,6 +55,8 @@ class System:
         ``"world"``, then ``"gripper/left_finger"``, ...
     masses : ndarray, shape (L,)
         Mass of each link as its file says [kg].
+    centres : ndarray, shape (L, 3)
+        Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     motion : Motion
@@ -105,8 +107,8 @@ class System:
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.texts = world.texts
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
-        self.inertias = world.inertias
-        for array in (self.masses, self.inertias):
+        self.centres, self.inertias = world.centres, world.inertias
+        for array in (self.masses, self.centres, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
         turning = ("floating", "planar", "continuous")

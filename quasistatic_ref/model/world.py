@@ -41,6 +41,8 @@ class World(Plain):
         The pinocchio frame of each link but the world.
     masses : ndarray, shape (L,)
         Mass of each link as its file says; the world has none [kg].
+    centres : ndarray, shape (L, 3)
+        Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
     shapes : tuple of PlacedShape
@@ -61,6 +63,7 @@ class World(Plain):
     links: tuple[str, ...]
     frames: tuple[int, ...]
     masses: Array
+    centres: Array
     inertias: Array
     shapes: tuple[PlacedShape, ...]
     roots: dict[str, int]
@@ -94,11 +97,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
     links, masses, roots, shapes = ["world"], [0.0], {}, []
-    inertias = [np.zeros((3, 3))]
+    centres, inertias = [np.zeros(3)], [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
         masses += [urdf.file.links[link].mass for link in urdf.links]
+        centres += [urdf.file.links[link].com for link in urdf.links]
         inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
@@ -116,6 +120,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         links=tuple(links),
         frames=tuple(body_frame(model, link) for link in links[1:]),
         masses=np.array(masses),
+        centres=np.array(centres),
         inertias=np.array(inertias),
         shapes=tuple(shapes),
         roots=roots,

@@ -28,7 +28,7 @@ from quasistatic_ref.lab.validate.paper import step_time
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
-from tests.tolerances import FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
+from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
 ROOT = Path(__file__).parents[2]
@@ -128,6 +128,24 @@ def test_the_push_is_friction_and_drag():
     push, friction, drag, _, layer = numbers("pushed_block").values()
     np.testing.assert_allclose(push, friction + drag, rtol=SCENARIO)
     np.testing.assert_allclose(layer, 1e6 * 0.4 * 0.01 * 0.01, rtol=SCENARIO)  # mu_v h v
+
+
+def test_the_gradient_of_a_push_is_that_of_its_difference_and_a_flat_finger_has_another():
+    slope, difference, flat = numbers("gradient_of_a_push").values()
+    np.testing.assert_allclose(slope, difference, rtol=DIFFERENCE_OF_STEPS)
+    assert abs(flat - slope) > 0.9 * abs(slope)
+
+
+def test_kinks_have_the_one_sided_derivatives_of_the_closed_forms():
+    pairs("where_no_gradient_is", atol=ROUNDING)
+
+
+def test_a_smoothed_step_tends_to_the_exact_one_and_halves_its_derivative_at_a_kink():
+    step, slope, *middle = numbers("what_smoothing_does").values()
+    # The distance of a pressed ball is 6 kappa over its impulse, but for terms of the second order.
+    np.testing.assert_allclose([step, slope], 10, rtol=1e-2)
+    # At the kink s^2 m / h = 6 kappa, and ds / dphi = s m / h / (2 s m / h): one half.
+    np.testing.assert_allclose(middle, 0.5, rtol=1e-9)
 
 
 def test_a_slider_turns_as_lynch_says_when_it_is_slow():

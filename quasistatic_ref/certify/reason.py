@@ -1,0 +1,38 @@
+"""Why a step has no derivative, by name."""
+
+from typing import NamedTuple
+
+WEAK = "weakly active row"
+CONTRADICTION = "rows that would contradict each other"
+ZERO_FRICTION = "friction of zero"
+POINTS = "tie of points"
+SURFACES = "tie of surfaces"
+FEATURE = "feature change"
+MANY = "closest points are not unique"
+NO_NORMAL = "no normal at zero distance"
+TANGENTS = "tangents switch axis"
+RIM = "level rim"
+HALF_TURN = "half a turn"
+
+
+class Reason(NamedTuple):
+    """One reason for which derivatives do not exist.
+
+    Parameters
+    ----------
+    kind : str
+        One of the names of this module.
+    where : tuple of str
+        Contacts, pairs or joints; of a row, the contact and the row.
+    fields : tuple of str
+        The derivatives that it concerns, as in ``("dq_dq",)``.
+    sentence : str
+    """
+
+    kind: str
+    where: tuple[str, ...]
+    fields: tuple[str, ...]
+    sentence: str
+
+    def __str__(self) -> str:
+        return self.sentence

@@ -1,0 +1,128 @@
+r"""Which rows touch at an optimum, and which of them bear load, in float64.
+
+The exact working set has the signs of one optimum; beside it float64 data have ties that rounding
+split. A row *touches* if its slack is not more than rounding of what it is a sum of, and *bears* if
+its multiplier is more than that in some optimal lam: as a displacement in the H norm, relative to
+the step.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linprog
+
+from quasistatic_ref.step.data import Array, Indices, Mask, StepData
+from quasistatic_ref.step.friction import cone_matrix, frame_jacobian
+from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.step.standard_form import load
+from quasistatic_ref.tolerances import BEARING, DEPENDENT, TOUCHING
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """The rows without slack at an optimum.
+
+    Parameters
+    ----------
+    L : ndarray, shape (n_v, n_v)
+        Cholesky factor of H [(N m s)^0.5 per unit of delta_q].
+    generators : ndarray, shape (n_c, 4, n_v)
+        J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, which the rows combine [m].
+    table : ndarray, shape (R, 4)
+        How the cone's rows combine them [-].
+    strict, idle : ndarray of int, shape (k, 2)
+        Contact and row of those that bear load in some optimal lam, and of the others.
+    multipliers : ndarray, shape (n_c, 4)
+        Those of an optimal lam, of the generators [N s].
+    """
+
+    L: Array
+    generators: Array
+    table: Array
+    strict: Indices
+    idle: Indices
+    multipliers: Array
+
+    @property
+    def contacts(self) -> set[int]:
+        """The contacts that touch."""
+        return {int(j) for j, _ in (*self.strict, *self.idle)}
+
+    def rows(self, some: Indices) -> Array:
+        """Some rows of A, shape (k, n_v) [m], by contact and row (k, 2)."""
+        return np.asarray(
+            np.einsum("ki,kiv->kv", self.table[some[:, 1]], self.generators[some[:, 0]])
+        )
+
+
+def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touching:
+    """The rows that touch at the certified optimum of a step in a polyhedral cone.
+
+    Parameters
+    ----------
+    step : StepData
+    solution : StepSolution
+    places : ndarray, shape (n_c,)
+        How far the closest points are from the world's origin [m]: how large the numbers are whose
+        rounding is in phi.
+
+    Returns
+    -------
+    Touching
+    """
+    contacts, table = step.contacts, cone_matrix(step.cone)
+    mu_v, _, mu_omega = contacts.mu.T[:, :, None]
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
+    generators = np.stack([J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w], axis=1)
+    x, n_c = solution.delta_q, contacts.n_c
+    moved = generators @ x
+    moved[:, 0] += contacts.phi
+    slack = moved @ table.T
+    L = np.asarray(np.linalg.cholesky(step.H), dtype=np.float64)
+    every = np.argwhere(step.mask)
+    rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
+    length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
+    length = np.where(length > 0, length, 1.0)
+    asked, taken = np.linalg.norm(np.linalg.solve(L, load(step))), np.linalg.norm(L.T @ x)
+    size = float(max(asked, taken))
+    if not size and len(every):  # nothing moves: what the nearest contact is away
+        size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
+    terms = np.abs(generators) @ np.abs(x)
+    terms[:, 0] += np.abs(contacts.phi) + places
+    touches = slack[step.mask] <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
+    touches |= solution.lam > 0
+    Z, lam = every[touches], solution.lam[touches]
+    scaled = rows[touches] / length[touches, None]
+    bears = _bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
+    multipliers = np.zeros((n_c, 4))
+    np.add.at(multipliers, Z[:, 0], lam[:, None] * table[Z[:, 1]])
+    return Touching(L, generators, table, Z[bears], Z[~bears], multipliers)
+
+
+def _bearing(rows: Array, lam: Array, size: float) -> Mask:
+    """Which of some unit rows, shape (k, n_v), bear load in some optimal lam."""
+    bears: Mask = lam > BEARING * size
+    if bears.all():
+        return bears
+    held = rows[bears]
+    if len(held):  # what others span can take from them
+        _, s, V = np.linalg.svd(held, full_matrices=False)
+        V = V[s > DEPENDENT * s[0]]
+        bears |= np.linalg.norm(rows - rows @ V.T @ V, axis=1) <= DEPENDENT
+    net = rows.T @ lam
+    for e in np.flatnonzero(~bears):
+        if bears[e]:
+            continue
+        most = _most(rows, net, int(e), size)
+        bears |= most > BEARING * size
+    return bears
+
+
+def _most(rows: Array, net: Array, e: int, size: float) -> Array:
+    """An optimal lam, shape (k,), in which the row e bears as much as it can, up to a bound."""
+    k = len(rows)
+    cost = np.zeros(k)
+    cost[e] = -1.0
+    bounds = [(0.0, 10.0 * size if i == e else None) for i in range(k)]
+    found = linprog(cost, A_eq=rows.T, b_eq=net, bounds=bounds)
+    return np.asarray(found.x) if found.status == 0 else np.zeros(k)

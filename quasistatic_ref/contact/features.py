@@ -1,0 +1,181 @@
+r"""What a shape is about a point of its surface: a vertex, an edge, a face, or curved.
+
+Where the outward normal turns by r, the farthest point along it moves by :math:`D r`, the Hessian
+of the shape's reach (zero at a vertex, the radius of a sphere). Along some directions F the
+surface is straight: there the normal cannot turn, and the point moves freely. So
+
+.. math:: p = D r + F z, \qquad F^T r = 0
+
+is one relation for all of them, and each shape supplies D and F. Where the point is on the rim of
+its face or edge, or the normal on the rim of those that its edge or vertex has, the relation is
+another on each side: those directions are the feature's `ends`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.polytope import Polytope, polytope
+from quasistatic_ref.contact.support import extent
+from quasistatic_ref.model.convex_mesh import ConvexMesh
+from quasistatic_ref.model.shapes import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PointCloud,
+    Shape,
+    Sphere,
+)
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import ON_RIM
+
+NONE = np.zeros((0, 3))
+
+
+class Feature(NamedTuple):
+    """The relation of point and normal, in one frame.
+
+    Parameters
+    ----------
+    bend : ndarray, shape (3, 3)
+        D [m].
+    free : ndarray, shape (k, 3)
+        F: k unit vectors across the normal, k = 0, 1 or 2 [-].
+    ends : ndarray, shape (e, 3)
+        Directions in which another feature begins [-].
+    """
+
+    bend: Array
+    free: Array = NONE
+    ends: Array = NONE
+
+    def turned(self, R: Array) -> "Feature":
+        """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
+        return Feature(R @ self.bend @ R.T, self.free @ R.T, self.ends @ R.T)
+
+
+def ball(radius: float, n: Array) -> Feature:
+    """A sphere's [m], or of radius 0 a vertex's, whose outward normal is n of shape (3,) [-]."""
+    return Feature(radius * (np.eye(3) - np.outer(n, n)))
+
+
+def feature(shape: Shape, x: Array, n: Array) -> Feature:
+    """The feature of a shape at a point of its surface, in the shape's own frame.
+
+    Parameters
+    ----------
+    shape : any shape
+    x, n : ndarray, shape (3,)
+        Point [m] and outward normal [-].
+    """
+    match shape:
+        case PointCloud():
+            return ball(0.0, n)
+        case Sphere():
+            return ball(shape.radius, n)
+        case HalfSpace():
+            return Feature(np.zeros((3, 3)), _across(n))
+        case Box():
+            return _of_box(shape, x, n)
+        case Capsule():
+            return _of_capsule(shape, x, n)
+        case Cylinder():
+            return _of_cylinder(shape, x, n)
+        case Cone():
+            return _of_cone(shape, x, n)
+        case Ellipsoid():
+            return _of_ellipsoid(shape, n)
+        case ConvexMesh():
+            flat = polytope(shape)
+            assert flat is not None
+            return _of_polytope(flat, x, n, ON_RIM * extent(shape))
+
+
+def _of_box(box: Box, x: Array, n: Array) -> Feature:
+    fixed = np.abs(x) >= box.half_extents - ON_RIM * box.half_extents.max()
+    axes = np.eye(3)
+    return Feature(np.zeros((3, 3)), axes[~fixed], axes[fixed & (np.abs(n) <= ON_RIM)])
+
+
+def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
+    axis = np.array([[0.0, 0.0, 1.0]])
+    height = abs(x[2] - shape.radius * n[2])  # of the point of the segment
+    bend = ball(shape.radius, n).bend
+    if height < shape.half_length - ON_RIM * (shape.half_length + shape.radius):
+        return Feature(bend - shape.radius * np.outer(axis, axis), axis)
+    return Feature(bend, ends=axis if abs(n[2]) <= ON_RIM else NONE)
+
+
+def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
+    near, axis = ON_RIM * (shape.radius + shape.half_length), np.array([0.0, 0.0, 1.0])
+    side = np.hypot(x[0], x[1]) >= shape.radius - near
+    cap = abs(x[2]) >= shape.half_length - near
+    if cap and not side:
+        return Feature(np.zeros((3, 3)), _across(n))
+    bend, radial = _around(shape.radius, n), np.hypot(n[0], n[1])
+    if not cap:
+        return Feature(bend, axis[None])
+    ends = axis[None] if abs(n[2]) <= ON_RIM else NONE
+    return Feature(bend, ends=_across(n) if radial <= ON_RIM else ends)
+
+
+def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
+    near, r = ON_RIM * (shape.radius + shape.half_length), float(np.hypot(x[0], x[1]))
+    slant = np.hypot(shape.radius, 2 * shape.half_length)
+    radial, level = np.hypot(n[0], n[1]), shape.radius / slant
+    base = x[2] <= -shape.half_length + near
+    if base and r < shape.radius - near:
+        return Feature(np.zeros((3, 3)), _across(n))
+    outward = n[:2] / (radial or 1.0)
+    generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
+    on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
+    if base:
+        return Feature(_around(r, n), ends=_across(n) if radial <= ON_RIM else on_slant)
+    if x[2] >= shape.half_length - near:
+        return Feature(np.zeros((3, 3)), ends=on_slant)
+    return Feature(_around(r, n), generator[None])
+
+
+def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
+    squares = shape.half_axes**2
+    height = np.sqrt(n @ (squares * n))
+    scaled = squares * n / height
+    return Feature((np.diag(squares) - np.outer(scaled, scaled)) / height)
+
+
+def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
+    """Of the faces that meet at x: one is a face, two an edge, and more a vertex."""
+    level = flat.normals @ x - flat.offsets
+    on = flat.normals[level >= level.max() - near]
+    nothing = np.zeros((3, 3))
+    if len(on) == 1:
+        return Feature(nothing, _across(n))
+    if len(on) == 2:
+        along = np.cross(on[0], on[1])
+        shares = np.linalg.lstsq(on.T, n, rcond=None)[0]
+        along = along / np.sqrt(along @ along)
+        across = np.cross(along, n)[None]
+        return Feature(nothing, along[None], across if shares.min() <= ON_RIM else NONE)
+    tail, head = flat.vertices[flat.edges[:, 0]], flat.vertices[flat.edges[:, 1]]
+    here = [np.abs(end - x).max(axis=1) <= 10 * near for end in (tail, head)]
+    ways = np.concatenate([(head - tail)[here[0]], (tail - head)[here[1]]])
+    ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
+    return Feature(nothing, ends=ways[ways @ n >= -ON_RIM])
+
+
+def _around(r: float, n: Array) -> Array:
+    """D of a circle of radius r about the z axis, where its normal is n."""
+    radial = np.hypot(n[0], n[1])
+    around = np.array([-n[1], n[0], 0.0]) / (radial or 1.0)
+    return np.asarray(r / (radial or np.inf) * np.outer(around, around))
+
+
+def _across(n: Array) -> Array:
+    """Two unit vectors across n, shape (2, 3)."""
+    first = np.eye(3)[np.abs(n).argmin()]
+    first = first - (first @ n) * n
+    first = first / np.sqrt(first @ first)
+    return np.stack([first, np.cross(n, first)])

@@ -1,0 +1,129 @@
+"""Where a step has no derivative: three kinks, with the one-sided derivatives that are there.
+
+A ball that just reaches the floor is stopped or falls on; one that is pushed as hard as friction
+can bear stays or slides; and of a body of two points, of which the closest alone is kept, the step
+jumps where they are equally near: no direction has a derivative.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.figures.style import scaled
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
+from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
+from quasistatic_ref.model.shapes import Sphere
+from quasistatic_ref.simulate.derivatives import derivatives
+from quasistatic_ref.step.data import Array
+
+G = 9.81
+NONE = np.zeros(0)
+UP, ACROSS, TURN = np.eye(6)[2], np.eye(6)[0], np.eye(6)[4]
+POINT, TWO = points((0.0, 0.0, 0.0)), points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0))
+LIMIT = MU_V * MASS * G
+"""What friction bears [N]."""
+
+
+def falling(moves: Array) -> tuple[Array, Array]:
+    """Height of the centre after a step [m], (N,), and its derivatives [-] down and up, (2,).
+
+    Parameters
+    ----------
+    moves : ndarray, shape (N,)
+        How far above the height from which the ball just reaches the floor it starts [m].
+    """
+    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    system = simulator.system
+    ends = [simulator.step(system.integrate(q, move * UP), NONE).q[2] for move in moves]
+    found = derivatives(simulator, q, NONE)
+    return np.array(ends), np.array([-found.along(q=-UP)[2], found.along(q=UP)[2]])
+
+
+def pushed(forces: Array) -> tuple[Array, Array]:
+    """Place of a point after a step [m], (N,), and its derivatives [m/N] at the limit, (2,).
+
+    Parameters
+    ----------
+    forces : ndarray, shape (N,)
+        Push along x beyond what friction bears [N].
+    """
+    simulator, q = resting(POINT, 0.0)
+    limit = LIMIT * ACROSS
+    ends = [simulator.step(q, NONE, limit + force * ACROSS).q[0] for force in forces]
+    found = derivatives(simulator, q, NONE, limit)
+    return np.array(ends), np.array([-found.along(tau=-ACROSS)[0], found.along(tau=ACROSS)[0]])
+
+
+def tilted(angles: Array) -> tuple[Array, tuple[str, ...]]:
+    """Tilt of a body of two points after a step [rad], (N,), and why it has no derivative.
+
+    Parameters
+    ----------
+    angles : ndarray, shape (N,)
+        Its tilt before [rad].
+    """
+    simulator, q = resting(TWO, 0.0)
+    ends = []
+    for angle in angles:
+        end = simulator.step(simulator.system.integrate(q, angle * TURN), NONE).q
+        ends.append(2 * np.arctan2(end[4], end[6]))
+    return np.array(ends), tuple(why.kind for why in derivatives(simulator, q, NONE).reasons)
+
+
+def main() -> Numbers:
+    """The one-sided derivatives, and the formulas of the closed forms."""
+    _, fall = falling(np.zeros(0))
+    _, push = pushed(np.zeros(0))
+    _, why = tilted(np.zeros(0))
+    return {
+        "falling, below [-]": fall[0],
+        "stopped: 0 [-]": 0.0,
+        "falling, above [-]": fall[1],
+        "free: 1 [-]": 1.0,
+        "pushed, below [mm/N]": 1e3 * push[0],
+        "stuck: 0 [mm/N]": 0.0,
+        "pushed, above [mm/N]": 1e3 * push[1],
+        "h^2 / (m (1 + mu_v^2)) [mm/N]": 1e3 * H**2 / (MASS * (1 + MU_V**2)),
+        "reasons of the tilted body [-]": float(len(why)),
+        "a tie of points [-]": float(why.count("tie of points")),
+    }
+
+
+def figure(ax: Any = None, *, reach: float = 1.0) -> Figure:
+    """The three steps against what they are functions of, with their one-sided derivatives.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    reach : float
+        How far to either side, relative to what the example shows [-].
+    """
+    page, grid = panels(6.3, 2.6, columns=3, within=ax)
+    moves, forces = reach * np.linspace(-5e-4, 5e-4, 21), reach * np.linspace(-0.2, 0.2, 21)
+    ends, slopes = falling(moves)
+    _sides(grid[0], 1e3 * moves, 1e3 * (ends - RADIUS), slopes)
+    labelled(grid[0], "start above the kink [mm]", "height after [mm]", "just touches")
+    ends, slopes = pushed(forces)
+    _sides(grid[1], forces, 1e3 * ends, 1e3 * slopes)
+    labelled(grid[1], "push beyond the limit [N]", "place after [mm]", "just holds", key=False)
+    angles = reach * np.linspace(-0.01, 0.01, 21)
+    ends, _ = tilted(angles)
+    grid[2].plot(1e3 * angles, 1e3 * ends, "o", color="C0", markersize=scaled(3))
+    labelled(grid[2], "tilt before [mrad]", "tilt after [mrad]", "a tie of points")
+    note_below(list(grid), caption(H))
+    return page
+
+
+def _sides(axes: Any, x: Array, y: Array, slopes: Array) -> None:
+    axes.plot(x, y, "o", color="C0", markersize=scaled(3), label="step")
+    middle = len(x) // 2
+    for part, slope, style in ((x[: middle + 1], slopes[0], "-"), (x[middle:], slopes[1], "--")):
+        label = "derivative from below" if style == "-" else "from above"
+        axes.plot(part, y[middle] + slope * (part - x[middle]), style, color="black", label=label)
+
+
+if __name__ == "__main__":
+    script(main, figure)

@@ -1,0 +1,68 @@
+"""One small free body on a floor, and a finger that nudges it, to look at gradients."""
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape, Sphere
+from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
+
+RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
+"""Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""
+
+UP = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+
+
+def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator, Array]:
+    """A free body on the floor, and its configuration with the origin at a height [m], (7,).
+
+    Parameters
+    ----------
+    shape : Sphere or PointCloud
+        What touches; of a cloud the closest point alone is kept.
+    height : float
+        [m].
+    mu_v : float
+        [-].
+    """
+    system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
+    own = _on(system, "ball", shape)
+    pair = ContactPair("floor", _floor(), own, mu_v, MU_OMEGA, 6, 1)
+    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0))), system.q_start
+
+
+def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
+    """A ball at the origin and a finger beside it, at some x and y [m]; q has shape (14,).
+
+    Parameters
+    ----------
+    finger : Sphere or HalfSpace
+        In a frame along the world's axes.
+    finger_at : (float, float)
+        x and y of its frame [m].
+    """
+    hand = Body.of_shape("hand", Sphere(RADIUS), MASS, actuated=("base",), xyz=(*finger_at, RADIUS))
+    ball = Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, RADIUS))
+    system = System([hand, ball])
+    own = _on(system, "ball", Sphere(RADIUS))
+    pairs = [
+        ContactPair("floor", _floor(), own, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("push", _on(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
+    ]
+    K_q = np.diag([2000.0] * 3 + [20.0] * 3)
+    return Simulator(system, pairs, h=H, K_q=K_q), system.q_start
+
+
+def points(*places: tuple[float, float, float]) -> PointCloud:
+    """A cloud of a few `places`, three numbers each [m]."""
+    return PointCloud(np.array(places))
+
+
+def _on(system: System, body: str, shape: Shape) -> PlacedShape:
+    return PlacedShape(body, system.link(body), np.eye(3), np.zeros(3), shape)
+
+
+def _floor() -> PlacedShape:
+    return PlacedShape("floor", 0, np.eye(3), np.zeros(3), UP)

@@ -1,0 +1,76 @@
+r"""How the motion of links changes with q, and the forces that wrenches on them make: (R31).
+
+In the world frame the column of a joint's coordinate is a twist :math:`S_j` that is constant in
+the joint's own frame. Moving the coordinate k of a joint at or before it carries that frame along:
+
+.. math:: \partial S_j / \partial q_k = S_k \times S_j ,
+
+the bracket of twists, and nothing else changes :math:`S_j`. (Every coordinate of a base moves the
+others of the same base: q is moved by q (+) eps e_k.) From this follow, for a fixed displacement x
+and wrenches W on the links, the derivatives of the links' twists :math:`J x` and of the
+generalised force :math:`J^T W`.
+"""
+
+import numpy as np
+
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.step.arrays import Array
+
+
+class MotionRates:
+    """Derivatives of what Jacobians of links make, at one configuration.
+
+    Twists and wrenches are those at the world's origin: [velocity; angular velocity] and
+    [force; moment].
+
+    Parameters
+    ----------
+    kinematics : Kinematics
+    motion : Motion
+
+    Attributes
+    ----------
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link per unit of delta_q [m, rad].
+    """
+
+    def __init__(self, kinematics: Kinematics, motion: Motion) -> None:
+        self.columns, self.moves = kinematics.columns, motion.moves[:, 0]
+        self.coordinates = motion.coordinates
+        self.J: Array = (self.columns * motion.moves) @ self.coordinates
+        # Column k carries column j along if it moves every link that j moves.
+        others = self.moves.T @ (1 - self.moves)
+        carried = others == 0
+        nu, omega = self.columns[:3].T, self.columns[3:].T
+        turned = np.empty((6, *carried.shape))  # S_k x S_j at [:, j, k]
+        turned[:3] = (np.cross(omega, nu[:, None]) + np.cross(nu, omega[:, None])).transpose(
+            2, 0, 1
+        )
+        turned[3:] = np.cross(omega, omega[:, None]).transpose(2, 0, 1)
+        self.turned: Array = turned * carried
+
+    def twists(self, x: Array) -> Array:
+        """Twist of each link, shape (L, 6) [m, rad], for a displacement x of shape (n_v,)."""
+        return np.asarray(self.J @ x)
+
+    def twist_rates(self, x: Array) -> Array:
+        """Their derivatives by q, shape (L, 6, n_v), x of shape (n_v,) [m, rad] being fixed."""
+        of_columns = self.moves * (self.coordinates @ x)  # (L, n_x)
+        flat = of_columns @ self.turned.transpose(1, 0, 2).reshape(len(self.coordinates), -1)
+        return np.asarray(flat.reshape(len(self.moves), 6, -1) @ self.coordinates)
+
+    def force_rates(self, wrenches: Array, rates: Array) -> Array:
+        """Derivative by q of the generalised force of wrenches on the links, shape (n_v, n_v).
+
+        Parameters
+        ----------
+        wrenches : ndarray, shape (L, 6)
+            [N, N m], or those of impulses.
+        rates : ndarray, shape (L, 6, n_v)
+            Their derivatives by q [the same per m or rad].
+        """
+        direct = np.einsum("lai,lak->ik", self.J, rates, optimize=True)
+        on_columns = self.moves.T @ wrenches  # (n_x, 6)
+        carried = np.einsum("ajk,ja->jk", self.turned, on_columns)
+        return np.asarray(direct + self.coordinates.T @ carried @ self.coordinates)

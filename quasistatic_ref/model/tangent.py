@@ -1,0 +1,113 @@
+r"""How (+) and (-) change with both of their arguments, in tangent coordinates on both sides.
+
+A base at the pose T moves by :math:`T \oplus x = T \exp x`. With ad the bracket of twists,
+
+.. math:: \exp(-x)\,\tfrac{d}{d\epsilon}\exp(x + \epsilon e) = J(x)\,e, \qquad
+          J(x) = \sum_k \frac{(-\mathrm{ad}_x)^k}{(k + 1)!} ,
+
+and moving T by e first moves the sum by :math:`e^{-\mathrm{ad}_x} e = (1 - \mathrm{ad}_x J(x))\,e`.
+Of :math:`y = T' \ominus T = \log(T^{-1} T')`, the derivatives are :math:`J(y)^{-1}` by T' and
+:math:`-J(-y)^{-1}` by T: (R30). For a joint both are one, or minus one.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.motion import cross_matrix
+from quasistatic_ref.step.arrays import Array
+
+PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
+"""What of a twist a planar base has."""
+
+TERMS = 60
+"""Most terms of the series: after 40 a twist of pi has less than rounding left."""
+
+
+def bracket(twist: Array) -> Array:
+    """The matrix ad of a twist (6,) [m, rad], shape (6, 6): linear part first."""
+    ad = np.zeros((6, 6))
+    ad[:3, :3] = ad[3:, 3:] = cross_matrix(twist[3:])
+    ad[:3, 3:] = cross_matrix(twist[:3])
+    return ad
+
+
+def right_jacobian(twist: Array) -> Array:
+    """J(x) of a twist (6,) [m, rad], shape (6, 6)."""
+    ad = -bracket(twist)
+    total = term = np.eye(6)
+    for k in range(2, TERMS):
+        term = term @ ad / k
+        if not (np.abs(term) > np.spacing(1.0) / TERMS).any():
+            break
+        total = total + term
+    return total
+
+
+def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
+    """Derivatives of q (+) delta_q by q and by delta_q, each of shape (n_v, n_v).
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        All joints.
+    delta_q : ndarray, shape (n_v,)
+    """
+    by_q, by_change = np.eye(len(delta_q)), np.eye(len(delta_q))
+    for joint, x in _bases(joints, delta_q):
+        J = right_jacobian(x)
+        own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
+        by_q[own] = _of(joint, np.eye(6) - bracket(x) @ J)
+        by_change[own] = _of(joint, J)
+    return by_q, by_change
+
+
+def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Array]:
+    """Derivatives of q_next (-) q by q and by q_next, each of shape (n, n).
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+    change : ndarray, shape (n,)
+        q_next (-) q [m, rad] of all coordinates, or of the actuated ones, which come first.
+    """
+    by_q, by_next = -np.eye(len(change)), np.eye(len(change))
+    for joint, y in _bases(joints, change):
+        own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
+        by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(-y)))
+        by_next[own] = np.linalg.inv(_of(joint, right_jacobian(y)))
+    return by_q, by_next
+
+
+def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[str]:
+    """Names of the joints whose change is half a turn, where (-) jumps.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+    change : ndarray, shape (n,)
+        As in :func:`difference_rates` [m, rad].
+    within : float
+        Largest deviation from pi that counts as none [rad].
+    """
+    turning = [j for j in joints if j.kind == "continuous" and j.v.stop <= len(change)]
+    angles = [(joint, abs(change[joint.v.start])) for joint in turning]
+    angles += [(joint, float(np.hypot.reduce(x[3:]))) for joint, x in _bases(joints, change)]
+    return [joint.name for joint, angle in angles if angle >= np.pi - within]
+
+
+def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[Joint, Array]]:
+    """Floating and planar bases, each with its part of a change as a twist."""
+    found = []
+    for joint in joints:
+        if joint.kind in ("floating", "planar") and joint.v.stop <= len(change):
+            twist = change[joint.v]
+            if joint.kind == "planar":
+                twist = np.array([twist[0], twist[1], 0.0, 0.0, 0.0, twist[2]])
+            found.append((joint, twist))
+    return found
+
+
+def _of(joint: Joint, matrix: Array) -> Array:
+    return matrix[PLANAR] if joint.kind == "planar" else matrix
