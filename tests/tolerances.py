@@ -106,3 +106,7 @@ FOUR_ULP: Final = 4 * 2.220446049250313e-16
 
 INTEGRAL: Final = 1e-11
 """Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""
+
+QUASI_STATIC: Final = 5.0
+"""Times the quasi-dynamic number: how far a slow push may be from Lynch's motion, relative to it.
+(R28) has the distance as Pi (rho^2 / c^2 - 1) and more, of which the factor is below 5 here."""

@@ -33,6 +33,7 @@ ROOMS = (
     "lab/scenes",
     "lab/vectors",
     "lab/study",
+    "lab/reality",
     "lab/validate",
     "lab/examples",
     "lab/commands",
