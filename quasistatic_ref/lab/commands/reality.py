@@ -82,6 +82,7 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
         error_rows,
         identified_record,
         identified_rows,
+        predictions_text,
         reality_record,
     )
     from quasistatic_ref.lab.reality.settings import Settings
@@ -100,8 +101,10 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
     rows = predicted_pushes(known, pushes, ratios, settings, file, jobs=options.jobs,
                             progress=not options.quiet)  # fmt: skip
     record = reality_record(settings, ratios, pushes, rows)
+    record["every"] = step
     record["identified"] = {key: identified_record(own) for key, own in found.items()}
     summary = text_written(folder / "reality.json", json_text(record) + "\n")
+    text_written(folder / "reality.csv", predictions_text(rows))
     good = set(record["steps"]) <= {"exact", "enclosure"}
     if options.json:
         shared.print_json(record)
@@ -111,5 +114,5 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
     print("\nMeasured pushes, predicted:")
     shared.print_rows(error_rows(record))
     print(certified_words(record))
-    print(f"wrote {file} and {summary}")
+    print(f"wrote {file}, {summary} and reality.csv beside them")
     return 0 if good else 1

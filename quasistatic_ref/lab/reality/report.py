@@ -52,6 +52,18 @@ def reality_record(
     }
 
 
+def predictions_text(rows: Mapping[str, Sequence[Row]]) -> str:
+    """The predictions as CSV, seven digits: poses [m, rad], steps by certificate and by grip."""
+    lines = ["surface,shape,push,x1,y1,theta1,exact,enclosure,sticks,slides"]
+    for name, own in rows.items():
+        for row in own:
+            pose = ",".join(f"{x:.7g}" for x in row["pose"])
+            steps = ",".join(str(row["steps"].get(kind, 0)) for kind in ("exact", "enclosure"))
+            grip = f"{row['sticks']},{row['slides']}"
+            lines.append(f"{name.replace('/', ',')},{row['push']},{pose},{steps},{grip}")
+    return "\n".join([*lines, ""])
+
+
 def identified_record(found: Identified | None) -> dict[str, Any]:
     """An identified ratio as plain data."""
     if found is None:
