@@ -32,7 +32,7 @@ VARIANTS: dict[str, dict[str, Any]] = {
     "finger's friction 0.1": {"finger": 0.1},
     "finger's friction 0.5": {"finger": 0.5},
 }
-"""Name -> what differs."""
+"""Name -> what differs; steps of the first are certified."""
 
 
 def medians(values: np.ndarray, seed: int = 0) -> list[float]:
@@ -62,7 +62,7 @@ def main() -> None:
         entry: dict[str, Any] = {}
         for own in sets:
             scene, kinds, ends = tripod(own, frozen, **changes), {}, []
-            certify = "residual" if "finger" in changes else "full"
+            certify = "off" if changes else "full"
             for before, path in zip(own.before, own.path, strict=True):
                 end, found = tripod_prediction(scene, frozen, before, path, certify)
                 ends.append(end)

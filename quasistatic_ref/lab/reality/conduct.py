@@ -142,7 +142,7 @@ def rows_of(
         Of the pair.
     scene : Pushed
     tasks : sequence of (int, ndarray of shape (3,), ndarray of shape (n, 2))
-        Number, pose before and path of the finger of each.
+        Number, pose before [m, rad] and path of the finger [m] of each.
     certify : str
     """
     rows = []

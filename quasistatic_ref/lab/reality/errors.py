@@ -28,7 +28,13 @@ def pose_errors(found: Array, measured: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """A mean with its 95 % interval, shape (columns,) each."""
+    """A mean with its 95 % interval.
+
+    Parameters
+    ----------
+    mean, low, high : ndarray, shape (columns,)
+        [each column's unit].
+    """
 
     mean: Array
     low: Array
@@ -41,7 +47,7 @@ def bootstrapped(groups: Sequence[Array], seed: int = 0) -> Estimate:
     Parameters
     ----------
     groups : sequence of ndarray, each of shape (n, columns)
-        One for each pair.
+        One for each pair [each column's unit].
     seed : int
     """
     rng = np.random.default_rng(seed)
@@ -61,9 +67,9 @@ class Errors:
     Parameters
     ----------
     model, moved : ndarray, shape (n, 2)
-        Of the prediction; how far the object moved.
+        Of the prediction; how far the object moved [mm, deg].
     published : ndarray, shape (n, 2), or None
-        Of a published simulator.
+        Of a published simulator [mm, deg].
     """
 
     model: Array

@@ -141,7 +141,7 @@ def cosines(loads: Loads, c: float, rho: float) -> Array:
 
 
 def reverse_cosines(loads: Loads, c: float, rho: float) -> Array:
-    """The same of loads (f, tau / rho), predicted from twists, shape (n,)."""
+    """The same of loads (f, tau / rho) with `rho` [m], predicted from twists, shape (n,)."""
     predicted, measured = loads.twist * [1, 1, c**2 / rho], loads.wrench * [1, 1, 1 / rho]
     found: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
     return found
@@ -150,8 +150,8 @@ def reverse_cosines(loads: Loads, c: float, rho: float) -> Array:
 def fisher_information(loads: Loads, c: float, rho: float) -> float:
     """Of log c in a von Mises-Fisher distribution: kappa A(kappa) sum sin^2(2 alpha).
 
-    alpha is the elevation of a predicted twist, atan(rho tau / (c^2 |f|)); A(kappa) = coth kappa -
-    1 / kappa is the mean cosine.
+    A number [-]. rho is a length [m], alpha the elevation of a predicted twist, atan(rho tau /
+    (c^2 |f|)); A(kappa) = coth kappa - 1 / kappa is the mean cosine.
     """
     mean = float(cosines(loads, c, rho).mean())
     f = np.linalg.norm(loads.wrench[:, :2], axis=1)
@@ -160,7 +160,7 @@ def fisher_information(loads: Loads, c: float, rho: float) -> float:
 
 
 def concentration(mean: float) -> float:
-    """The kappa of a von Mises-Fisher distribution with a mean cosine of coth kappa - 1 / kappa."""
+    """The kappa [-] of a von Mises-Fisher distribution whose `mean` cosine is coth k - 1 / k [-]."""
     low, high = 0.0, 1e9
     for _ in range(200):
         k = (low + high) / 2
@@ -171,7 +171,8 @@ def concentration(mean: float) -> float:
 def limit_surface(cone: str) -> tuple[Callable[[Array], Array], Callable[[Array], Array]]:
     """Gauge and support function of a cone's limit surface at f_n = 1, in units of mu_v, mu_omega.
 
-    The first is of forces, the second of twists; each takes rows of three numbers. The gauge is 1
+    The first is of forces, the second of twists; each takes rows, shape (n, 3), and returns one
+    number for each, shape (n,). The gauge is 1
     on the surface, and their product is at least w . v, equal where v is normal to the surface.
     """
     if cone == ELLIPSOID:
@@ -225,7 +226,7 @@ def best_ratio(loss: Callable[[float], float]) -> float:
 def drawn_ratios(
     loads: Loads, losses: Callable[[Loads, float], Array], ratio: float, seed: int
 ) -> Array:
-    """Best ratios of loads drawn with replacement, shape (DRAWS,) [m], each from a fine grid."""
+    """Best ratios of loads drawn with replacement, shape (DRAWS,) [m]; that of all is `ratio` [m]."""
     fine = np.concatenate([GRID[::8], ratio * np.geomspace(0.5, 2.0, 401)])
     table = np.array([losses(loads, c) for c in fine])
     count = table.shape[1]

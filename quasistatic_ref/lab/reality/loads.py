@@ -30,14 +30,14 @@ class Loads:
     wrench : ndarray, shape (n, 3)
         Force [N] and torque [N m].
     twist : ndarray, shape (n, 3)
-        Velocity and turn, each up to its length.
+        Velocity and turn, up to their length [m, rad].
     """
 
     wrench: Array
     twist: Array
 
     def about(self, centre: Array) -> "Loads":
-        """The same about another point, shape (2,) [m]."""
+        """The same about a `centre`, shape (2,) [m]."""
         wrench, twist = self.wrench.copy(), self.twist.copy()
         x, y = centre
         wrench[:, 2] -= x * wrench[:, 1] - y * wrench[:, 0]
@@ -45,9 +45,11 @@ class Loads:
         twist[:, 1] += x * twist[:, 2]
         return Loads(wrench, twist)
 
-    def some(self, rows: Array) -> "Loads":
-        """Some of them, as often as their numbers occur."""
-        return Loads(self.wrench[rows], self.twist[rows])
+    def turned(self, angle: float) -> "Loads":
+        """The same in axes that are turned by an angle [rad]."""
+        R = np.eye(3)
+        R[:2, :2] = [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]
+        return Loads(self.wrench @ R.T, self.twist @ R.T)
 
 
 def loads_read(folder: Path, pairs: list[Pair]) -> dict[str, Loads]:

@@ -102,7 +102,8 @@ def published_ratio(row: Mapping[str, float]) -> float | None:
 
     Its twist (v, rho omega) lies along A w of the load w = (f, tau / rho), so that
     (mu_omega / mu_v)^2 omega / v = tau / f holds with rho^2 A11 / A33 where A is diagonal; A11 and
-    A22 differ by little.
+    A22 differ by little. `row` is one of ``patches.csv`` [the columns' units]; None where it has
+    no A.
     """
     if not {"rho", *MATRIX} <= set(row):
         return None

@@ -106,7 +106,16 @@ def rotation(angle: float) -> Array:
 def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
     """Where the finger starts, and its targets from there to the end of its path.
 
-    Steps of each straight piece are of equal length, at most ``of.advance``.
+    Each is of shape (2,) [m]. Steps of each straight piece are of equal length, at most
+    ``of.advance``.
+
+    Parameters
+    ----------
+    of : Pushed
+    pose : ndarray, shape (3,)
+        Of the body's frame [m, rad].
+    path : ndarray, shape (n, 2)
+        Of the finger [m].
     """
     R = rotation(pose[2])
 
@@ -136,7 +145,15 @@ CLOSE = 1e-6
 
 
 def from_contact(points: list[Array], gap: Callable[[Array], float]) -> list[Array]:
-    """What is left of a path from its first point that touches: a gap is a way that is free."""
+    """What is left of a path, points of shape (2,) [m], from where it first touches.
+
+    Parameters
+    ----------
+    points : list of ndarray, each of shape (2,)
+        [m]
+    gap : callable
+        Of a point: how far it may go in any direction without touching [m].
+    """
     for i, (start, end) in enumerate(pairwise(points)):
         length, gone = float(np.linalg.norm(end - start)), 0.0
         while gone < length:

@@ -44,7 +44,7 @@ class Pushes:
     path : ndarray, shape (n, 2, 2)
         Start and end of the finger's centre [m].
     published : ndarray, shape (n, 3), or None
-        Poses after, by a published simulator.
+        Poses after, by a published simulator [m, rad].
     """
 
     number: Indices

@@ -40,9 +40,9 @@ class Settings:
     advance : float
         Of the finger in a step [m].
     nudge : tuple of float
-        As of :class:`~quasistatic_ref.lab.reality.push.Pushed`.
+        As of :class:`~quasistatic_ref.lab.reality.push.Pushed` [-].
     m, gyration, mu_v, h, stiffness : float
-        As there. They cancel in the quasi-static limit.
+        As there [kg], [m], [-], [s], [N/m]. They cancel in the quasi-static limit.
     """
 
     cone: str = ELLIPSOID
@@ -63,7 +63,7 @@ class Settings:
         return asdict(self) | {"nudge": list(self.nudge)}
 
     def pushed(self, pair: Pair, ratio: float) -> Pushed:
-        """The scene of a pair with an identified mu_omega / mu_v [m].
+        """The scene of a pair with an identified `ratio` mu_omega / mu_v [m].
 
         Raises
         ------
@@ -87,7 +87,13 @@ class Settings:
         return pushed
 
     def friction(self, pair: Pair) -> float:
-        """Of the finger on the object [-]."""
+        """Of the finger on the object [-].
+
+        Raises
+        ------
+        InputError
+            If it is to be the fitted one, and the pair has none.
+        """
         if self.finger == "used":
             return pair.mu_finger
         if self.finger == "fitted":

@@ -98,7 +98,7 @@ class Calibration:
         return np.append(origin, measured[2] + self.angle)
 
     def measured_pose(self, of: Array) -> Array:
-        """The inverse of :meth:`object_pose`."""
+        """The measured frame, shape (3,), where the object's is `of`, shape (3,) [m, rad]."""
         angle = of[2] - self.angle
         return np.append(of[:2] - rotation(angle) @ self.offset, angle)
 
