@@ -17,6 +17,11 @@ def vectors_folder() -> Path:
     return _folder("validation/vectors", "lab/vectors/data")
 
 
+def reality_folder() -> Path:
+    """The folder of measured pushes that come with the package."""
+    return _folder("validation/reality", "lab/reality/data")
+
+
 def _folder(next_to: str, inside: str) -> Path:
     """Return a folder by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parent

@@ -19,6 +19,7 @@ from quasistatic_ref.lab.validate.registry import BY_NAME
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
+from tests import quoted_reality as reality
 from tests import quoted_sources as of
 from tests import quoted_speed as speed
 from tests import quoted_vectors as vectors
@@ -228,6 +229,7 @@ OTHERS = {
     "docs/conventions.md": options.quoted,
     "docs/solver_study.md": lambda: solver_study.HELD,
     **vectors.HELD,
+    "docs/reality.md": reality.held,
 }
 
 MEANT = {

@@ -61,6 +61,9 @@ class Result:
         return (commands / f"{self.command[1]}.py").exists()
 
 
+REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
+"""Figures of docs/reality.md."""
+
 RESULTS = (
     Result(
         "compilers",
@@ -199,6 +202,38 @@ RESULTS = (
         "mutations",
         ("validation.mutations", "--stale"),
         ("validation/results/mutations.md",),
+    ),
+    Result(
+        "reality_identified",
+        ("validation.reality_identified",),
+        ("validation/results/reality_identified.json",),
+    ),
+    Result(
+        "reality",
+        (CLI, "validate", "reality", "--fraction", "0.2", "--out", "{temporary}"),
+        ("validation/results/reality.json", "validation/results/reality.csv"),
+        copied=(("reality.json", "validation/results"), ("reality.csv", "validation/results")),
+    ),
+    Result(
+        "reality_residuals",
+        ("validation.reality_residuals",),
+        ("validation/results/reality_residuals.json",),
+    ),
+    Result(
+        "reality_ablations",
+        ("validation.reality_ablations", "--every", "30", "--work", "{temporary}"),
+        ("validation/results/reality_ablations.json",),
+    ),
+    Result(
+        "reality_tripods",
+        ("validation.reality_tripods",),
+        ("validation/results/reality_tripods.json",),
+    ),
+    Result(
+        "reality_figures",
+        ("validation.reality_figures", "--out", "{temporary}"),
+        tuple(f"docs/figures/reality_{name}.png" for name in REALITY),
+        copied=(("reality_*.png", "docs/figures"),),
     ),
     Result(
         "bench",

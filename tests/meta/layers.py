@@ -34,6 +34,7 @@ ROOMS = (
     "lab/scenes",
     "lab/vectors",
     "lab/study",
+    "lab/reality",
     "lab/validate",
     "lab/examples",
     "lab/commands",

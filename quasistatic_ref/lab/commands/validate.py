@@ -1,4 +1,4 @@
-"""``validate [NAME...]``: measure the claims about the model."""
+"""``validate [NAME...]``: measure the claims about the model, or predict measured pushes."""
 
 import argparse
 import sys
@@ -7,6 +7,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import text_written
+from quasistatic_ref.lab.commands import reality
 from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
 from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
@@ -18,14 +19,16 @@ IN = {
     "pydrake": "'quasistatic-ref[drake]'",
 }
 """What an engine of a claim comes in."""
+HELP = "all claims by default; 'reality' by itself: measured pushes, predicted"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    names = parser.add_argument("names", nargs="*", metavar="NAME", help="all claims by default")
-    shared.completed(names, lambda: BY_NAME)
+    names = parser.add_argument("names", nargs="*", metavar="NAME", help=HELP)
+    shared.completed(names, lambda: [*BY_NAME, reality.NAME])
     shared.add(parser, "--out", default="validation")
     shared.add(parser, "--json")
+    reality.add_options(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -34,8 +37,11 @@ def run(options: argparse.Namespace) -> int:
     Raises
     ------
     InputError
-        If a name is unknown.
+        If a name is unknown, or an option is not for claims.
     """
+    if options.names == [reality.NAME]:
+        return reality.run(options)
+    reality.refuse(options)
     for name in options.names:
         if name not in BY_NAME:
             raise InputError(f"is no claim{suggestion(name, BY_NAME)}", field="NAME", value=name)

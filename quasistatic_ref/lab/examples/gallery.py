@@ -22,6 +22,7 @@ EXAMPLES: Final = (
     "coulomb_against_convex_slip",
     "planar_pushing",
     "flat_patch",
+    "which_cone_is_real",
     "boundary_layer",
     "boundary_layer_laws",
     "pinch_threshold",

@@ -36,6 +36,7 @@ MODULES: Final = {
         "engines.by_hand",
         "engines.drake",
     ),
+    "Measurements": ("measured.pushes",),
 }
 """Section -> its modules, in the order of the page."""
 

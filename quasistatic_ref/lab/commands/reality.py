@@ -1,0 +1,118 @@
+"""``validate reality``: measured pushes, predicted with friction identified from measured loads."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import json_text, text_written, writable_folder
+from quasistatic_ref.resources import reality_folder
+from quasistatic_ref.step.cones import ELLIPSOID, cone
+
+NAME = "reality"
+"""What the command ``validate`` is given."""
+
+OPTIONS = ("data", "sets", "cone", "fraction", "jobs")
+"""Of ``validate`` that are for this only."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options that are for measured pushes only."""
+    group = parser.add_argument_group("for 'reality', measured pushes, only")
+    group.add_argument(
+        "--data", type=Path, metavar="FOLDER", help="pushes of your own (default: those of MIT)"
+    )
+    group.add_argument(
+        "--sets", metavar="A/B,...", help="some pairs only, by surface and shape: abs/rect1,..."
+    )
+    group.add_argument("--cone", metavar="NAME", help=f"friction cone (default: {ELLIPSOID})")
+    group.add_argument(
+        "--fraction", type=float, metavar="X", help="0.1: every tenth push of each pair"
+    )
+    group.add_argument("--jobs", type=int, metavar="N", help="processes (default: all cores)")
+
+
+def refuse(options: argparse.Namespace) -> None:
+    """Refuse the options of this command where claims are measured.
+
+    Raises
+    ------
+    InputError
+        Naming the first of them.
+    """
+    for name in OPTIONS:
+        if (value := getattr(options, name)) is not None:
+            raise InputError(f"is for 'validate {NAME}' only", field=f"--{name}", value=value)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Identify, predict, print tables; exit status 1 if a step was not certified.
+
+    Raises
+    ------
+    InputError
+        If an option or a file is not usable.
+    """
+    name = options.cone or ELLIPSOID
+    cone(name)  # refuses a name that it does not know
+    if name == "frictionless":
+        raise InputError("has no friction to identify", field="--cone", value=name)
+    fraction = 1.0 if options.fraction is None else options.fraction
+    if not 0 < fraction <= 1:
+        raise InputError("must be greater than 0, at most 1", field="--fraction", value=fraction)
+    if options.jobs is not None and options.jobs < 1:
+        raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    try:
+        return _measured(options, name, round(1 / fraction))
+    except KeyboardInterrupt:
+        kept = f"what was predicted is in {options.out}; the same command goes on from there"
+        print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
+        return 130
+
+
+def _measured(options: argparse.Namespace, name: str, step: int) -> int:
+    from quasistatic_ref.lab.reality.conduct import predicted_pushes
+    from quasistatic_ref.lab.reality.identify import identified
+    from quasistatic_ref.lab.reality.loads import loads_read
+    from quasistatic_ref.lab.reality.pairs import pairs_read
+    from quasistatic_ref.lab.reality.pushes import pushes_read
+    from quasistatic_ref.lab.reality.report import (
+        certified_words,
+        error_rows,
+        identified_record,
+        identified_rows,
+        predictions_text,
+        reality_record,
+    )
+    from quasistatic_ref.lab.reality.settings import Settings
+
+    data = options.data or reality_folder()
+    pairs = pairs_read(data, options.sets.split(",") if options.sets else ())
+    loads = loads_read(data, pairs)
+    found = {p.name: identified(loads[p.name], p.outline.gyration, name) for p in pairs}
+    known = [p for p in pairs if found[p.name] is not None]
+    ratios = {key: own.ratio for key, own in found.items() if own is not None}
+    if not known:
+        raise InputError("has no loads of these pairs", file=data / "loads.csv")
+    pushes = {key: own.every(step) for key, own in pushes_read(data, known).items()}
+    folder, settings = writable_folder(options.out), Settings(cone=name)
+    file = folder / f"reality_{name}{'' if step == 1 else f'_every_{step}'}.jsonl"
+    rows = predicted_pushes(known, pushes, ratios, settings, file, jobs=options.jobs,
+                            progress=not options.quiet)  # fmt: skip
+    record = reality_record(settings, ratios, pushes, rows)
+    record["every"] = step
+    record["identified"] = {key: identified_record(own) for key, own in found.items()}
+    summary = text_written(folder / "reality.json", json_text(record) + "\n")
+    text_written(folder / "reality.csv", predictions_text(rows))
+    good = set(record["steps"]) <= {"exact", "enclosure"}
+    if options.json:
+        shared.print_json(record)
+        return 0 if good else 1
+    print("Identified from measured loads:")
+    shared.print_rows(identified_rows(pairs, found))
+    print("\nMeasured pushes, predicted:")
+    shared.print_rows(error_rows(record))
+    print(certified_words(record))
+    print(f"wrote {file}, {summary} and reality.csv beside them")
+    return 0 if good else 1

@@ -1,0 +1,105 @@
+"""Which cone is real? Measured pushes of a real object, predicted in two friction cones.
+
+A finger pushes an object over a surface by some centimetres. Where the object was before and after
+was measured (MIT push data); mu_omega / mu_v of its support was identified from measured loads, not
+from these pushes. Change the cone, the pair or the number of pushes, and see what becomes of them.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.reality.errors import pose_errors
+from quasistatic_ref.lab.reality.identify import identified
+from quasistatic_ref.lab.reality.loads import loads_read
+from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
+from quasistatic_ref.lab.reality.predict import predicted, rotation
+from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
+from quasistatic_ref.lab.reality.settings import Settings
+from quasistatic_ref.resources import reality_folder
+from quasistatic_ref.step.data import Array
+
+PAIR, CONES = "abs/rect1", ("ellipsoid", "pyramid")
+EVERY, SHOWN, ADVANCE = 26, 6, 2e-3
+"""Of the pushes of the pair; of these, how many are drawn; the finger's way in a step [m]."""
+
+
+def measured(name: str = PAIR) -> tuple[Pair, float, Pushes]:
+    """A pair, its mu_omega / mu_v [m] from loads, and some of its pushes."""
+    folder = reality_folder()
+    (pair,) = pairs_read(folder, [name])
+    found = identified(loads_read(folder, [pair])[name], pair.outline.gyration)
+    assert found is not None
+    return pair, found.ratio, pushes_read(folder, [pair])[name].every(EVERY)
+
+
+def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:
+    """Predicted poses after pushes with that `ratio` [m], shape (n, 3) [m, rad]."""
+    scene = Settings(cone=cone, advance=ADVANCE).pushed(pair, ratio)
+    ways = zip(pushes.before, pushes.path, strict=True)
+    return np.array([predicted(scene, before, path, "off").pose for before, path in ways])
+
+
+def main() -> Numbers:
+    """How far the object moved, and how far predictions are off, on average."""
+    pair, ratio, pushes = measured()
+    moved = pose_errors(pushes.before, pushes.after).mean(0)
+    found: Numbers = {
+        f"{PAIR}: mu_omega / mu_v from loads [mm]": 1e3 * ratio,
+        "it moved by [mm]": 1e3 * moved[0],
+        "it turned by [deg]": np.degrees(moved[1]),
+    }
+    for cone in CONES:
+        off = pose_errors(poses(pair, ratio, pushes, cone), pushes.after).mean(0)
+        found[f"{cone}: error [mm]"] = 1e3 * off[0]
+        found[f"{cone}: error of the turn [deg]"] = np.degrees(off[1])
+    return found
+
+
+def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) -> Figure:
+    """Some pushes from above: outlines as measured in grey, as predicted in lines.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    pair : str
+        surface/shape.
+    cones : sequence of str
+        One or two.
+    """
+    page, axes = panels(6.3, 4.6, columns=3, rows=2, within=ax)
+    own, ratio, pushes = measured(pair)
+    ends = {cone: poses(own, ratio, pushes, cone) for cone in cones}
+    moved = pose_errors(pushes.before, pushes.after)[:, 0]
+    chosen = np.sort(np.argsort(-moved, kind="stable")[:SHOWN])
+    for k, one in zip(chosen, axes, strict=False):
+        corners = 1e3 * own.outline.vertices
+        origin = 1e3 * pushes.before[k, :2]
+
+        def placed(pose: Array, corners: Array = corners, origin: Array = origin) -> Array:
+            """The outline at a pose, closed, shape (2, n) [mm]."""
+            points = corners @ rotation(pose[2]).T + 1e3 * pose[:2] - origin
+            closed: Array = np.vstack([points, points[:1]]).T
+            return closed
+
+        one.plot(*placed(pushes.before[k]), color="0.6", linewidth=0.8, linestyle=":",
+                 label="before")  # fmt: skip
+        one.fill(*placed(pushes.after[k]), color="0.85", label="after, measured")
+        for cone, style in zip(cones, ("-", "--"), strict=False):
+            one.plot(*placed(ends[cone][k]), color="black", linewidth=0.9, linestyle=style,
+                     label=f"after, {cone}")  # fmt: skip
+        path = 1e3 * pushes.path[k] - origin
+        one.annotate("", path[1], xytext=path[0], arrowprops={"arrowstyle": "->"})
+        one.set_aspect("equal", adjustable="datalim")
+        first = k == chosen[0]
+        labelled(one, "x [mm]", "y [mm]", key=first)
+    return page
+
+
+if __name__ == "__main__":
+    script(main, figure)

@@ -1,0 +1,1 @@
+"""The model against measurements: friction identified from loads, pushes and tripods predicted."""

@@ -1,0 +1,194 @@
+"""Many pushes predicted in parallel, each kept in a file as soon as it is known.
+
+The file has a first line that says what was asked, and one line a push. A run that was ended goes
+on from there; a last line that was cut off is dropped.
+"""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from multiprocessing import get_context
+from os import cpu_count
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files import bytes_read, json_text, text_of, text_written
+from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.pushes import Pushes
+from quasistatic_ref.lab.reality.settings import Settings
+from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.step.data import Array
+
+FORMAT: Final = {"format": "quasistatic-ref/reality", "version": 1}
+CHUNK: Final = 5
+"""Pushes handed to a process at once: some seconds of work."""
+
+Row = dict[str, Any]
+
+
+def predicted_pushes(
+    pairs: Sequence[Pair],
+    pushes: Mapping[str, Pushes],
+    ratios: Mapping[str, float],
+    settings: Settings,
+    path: Path,
+    *,
+    jobs: int | None = None,
+    certify: str = "full",
+    progress: bool = True,
+) -> dict[str, list[Row]]:
+    """Predict pushes, or what is left of them.
+
+    Parameters
+    ----------
+    pairs : sequence of Pair
+    pushes : mapping of str to Pushes
+        By the name of the pair.
+    ratios : mapping of str to float
+        mu_omega / mu_v of each pair [m].
+    settings : Settings
+    path : Path
+        Where rows are kept.
+    jobs : int, optional
+        Processes; by default as many as there are cores. With 1 it is this one.
+    certify : str
+        As of :func:`~quasistatic_ref.solve.solve.solve_step`.
+    progress : bool
+
+    Returns
+    -------
+    dict of str to list of dict
+        One row a push, in the order of ``pushes``, by the name of the pair.
+
+    Raises
+    ------
+    InputError
+        If the file holds a run of other settings, or is none.
+    StepNotSolved
+        If a step has no answer that can be trusted.
+    """
+    scenes = {pair.name: settings.pushed(pair, ratios[pair.name]) for pair in pairs}
+    header = FORMAT | {
+        "settings": settings.record(),
+        "certify": certify,
+        "mu_omega_over_mu_v": {pair.name: float(ratios[pair.name]) for pair in pairs},
+    }
+    done = _begun(path, header)
+    chunks = list(_chunks(pairs, pushes, done))
+    total = sum(pushes[pair.name].number.size for pair in pairs)
+    left = sum(len(chunk[1]) for chunk in chunks)
+    with (
+        path.open("a", encoding="utf-8") as file,
+        progress_bar(total=total, done=total - left, unit="push", shown=progress) as bar,
+    ):
+        for rows in _worked(chunks, scenes, certify, jobs):
+            for row in rows:
+                done[row["pair"], row["push"]] = row
+            file.write("".join(json_text(row) + "\n" for row in rows))
+            file.flush()
+            bar.update(len(rows))
+    return {
+        pair.name: [done[pair.name, int(k)] for k in pushes[pair.name].number] for pair in pairs
+    }
+
+
+Chunk = tuple[str, list[tuple[int, Array, Array]]]
+
+
+def _chunks(
+    pairs: Sequence[Pair], pushes: Mapping[str, Pushes], done: Mapping[Any, Row]
+) -> Iterator[Chunk]:
+    for pair in pairs:
+        own = pushes[pair.name]
+        every = zip(own.number.tolist(), own.before, own.path, strict=True)
+        left = [task for task in every if (pair.name, task[0]) not in done]
+        for k in range(0, len(left), CHUNK):
+            yield pair.name, left[k : k + CHUNK]
+
+
+def _worked(
+    chunks: Sequence[Chunk], scenes: Mapping[str, Pushed], certify: str, jobs: int | None
+) -> Iterator[list[Row]]:
+    jobs = min(jobs or cpu_count() or 1, max(1, len(chunks)))
+    if jobs == 1:
+        for name, tasks in chunks:
+            yield rows_of(name, scenes[name], tasks, certify)
+        return
+    left = list(reversed(chunks))
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        under_way: set[Future[list[Row]]] = set()
+        while left or under_way:
+            while left and len(under_way) < 2 * jobs:
+                name, tasks = left.pop()
+                under_way.add(pool.submit(rows_of, name, scenes[name], tasks, certify))
+            finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+            for future in finished:
+                yield future.result()
+
+
+def rows_of(
+    name: str, scene: Pushed, tasks: Sequence[tuple[int, Array, Array]], certify: str
+) -> list[Row]:
+    """Predict some pushes of a pair.
+
+    Parameters
+    ----------
+    name : str
+        Of the pair.
+    scene : Pushed
+    tasks : sequence of (int, ndarray of shape (3,), ndarray of shape (n, 2))
+        Number, pose before [m, rad] and path of the finger [m] of each.
+    certify : str
+    """
+    rows = []
+    for number, pose, path in tasks:
+        found = predicted(scene, pose, path, certify)
+        rows.append({
+            "pair": name, "push": number, "pose": found.pose, "steps": found.kinds,
+            "error_bound": found.error_bound, "sticks": found.sticks, "slides": found.slides,
+        })  # fmt: skip
+    return rows
+
+
+def rows_read(path: Path) -> tuple[Row, dict[tuple[str, int], Row]]:
+    """The first line of a file of rows, and its rows by pair and number.
+
+    Raises
+    ------
+    InputError
+        If it is no such file.
+    """
+    lines = text_of(bytes_read(path), path).split("\n")[:-1]  # what follows was cut off
+    try:
+        header, *rows = [json.loads(line) for line in lines]
+        if not FORMAT.items() <= header.items():
+            raise InputError("is no file of predicted pushes", file=path)
+        found = {(row["pair"], row["push"]): row for row in rows}
+    except (ValueError, KeyError, TypeError, AttributeError):
+        problem = "is no file of predicted pushes; remove it, or choose another with --out"
+        raise InputError(problem, file=path) from None
+    return header, found
+
+
+def _begun(path: Path, header: Row) -> dict[tuple[str, int], Row]:
+    """Rows that are there; the file, without a torn last line, is there after this."""
+    asked = json.loads(json_text(header))
+    if not path.exists():
+        text_written(path, json_text(header) + "\n")
+        return {}
+    there, found = rows_read(path)
+    if there != asked:
+        problem = "holds predictions that were made with other settings; choose another folder "
+        raise InputError(f"{problem}with --out, or remove it", file=path)
+    text_written(path, "".join(json_text(row) + "\n" for row in (header, *found.values())))
+    return found
+
+
+def poses(rows: Sequence[Row]) -> Array:
+    """Predicted poses, shape (n, 3): x, y [m], angle [rad]."""
+    return np.array([row["pose"] for row in rows])

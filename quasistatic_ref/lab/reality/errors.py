@@ -1,0 +1,117 @@
+"""How far predictions are from measurements, with bootstrap intervals."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.lab.reality.pushes import Pushes
+from quasistatic_ref.step.data import Array
+
+DRAWS: Final = 2000
+"""Of a bootstrap."""
+
+
+def pose_errors(found: Array, measured: Array) -> Array:
+    """Distance of the frames' origins [m] and angle between them [rad], shape (n, 2).
+
+    Parameters
+    ----------
+    found, measured : ndarray, shape (n, 3)
+        x, y [m], angle [rad].
+    """
+    gap = found - measured
+    turn = np.remainder(gap[:, 2] + np.pi, 2 * np.pi) - np.pi
+    return np.column_stack([np.linalg.norm(gap[:, :2], axis=1), np.abs(turn)])
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """A mean with its 95 % interval.
+
+    Parameters
+    ----------
+    mean, low, high : ndarray, shape (columns,)
+        [each column's unit].
+    """
+
+    mean: Array
+    low: Array
+    high: Array
+
+
+def bootstrapped(groups: Sequence[Array], seed: int = 0) -> Estimate:
+    """The mean over groups of their means; drawn with replacement inside of each group.
+
+    Parameters
+    ----------
+    groups : sequence of ndarray, each of shape (n, columns)
+        One for each pair [each column's unit].
+    seed : int
+    """
+    rng = np.random.default_rng(seed)
+    drawn = np.zeros((DRAWS, groups[0].shape[1]))
+    for group in groups:
+        n = len(group)
+        counts = rng.multinomial(n, np.full(n, 1 / n), size=DRAWS)
+        drawn += counts @ group / n
+    low, high = np.quantile(drawn / len(groups), [0.025, 0.975], axis=0)
+    return Estimate(np.mean([group.mean(0) for group in groups], axis=0), low, high)
+
+
+@dataclass(frozen=True, eq=False)
+class Errors:
+    """Of the pushes of one pair, in mm and degrees.
+
+    Parameters
+    ----------
+    model, moved : ndarray, shape (n, 2)
+        Of the prediction; how far the object moved [mm, deg].
+    published : ndarray, shape (n, 2), or None
+        Of a published simulator [mm, deg].
+    """
+
+    model: Array
+    moved: Array
+    published: Array | None
+
+
+def errors_of(poses: Array, pushes: Pushes) -> Errors:
+    """The errors of predicted poses, shape (n, 3) [m, rad], of the pushes of a pair."""
+    units = np.array([1e3, np.degrees(1.0)])
+    other = None
+    if pushes.published is not None:
+        other = units * pose_errors(pushes.published, pushes.after)
+    return Errors(
+        units * pose_errors(poses, pushes.after),
+        units * pose_errors(pushes.before, pushes.after),
+        other,
+    )
+
+
+def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
+    """One entry for each pair and one, ``all``, for the mean over pairs: plain data.
+
+    Each has ``pushes`` and, where they are known, ``error``, ``moved``, ``published`` and ``more``
+    (error less that of the published simulator, push by push): each three pairs (mm, degrees) of
+    mean, low and high.
+    """
+    groups = {name: [own] for name, own in errors.items()} | {"all": list(errors.values())}
+    table = {}
+    for name, own in groups.items():
+        entry: dict[str, object] = {"pushes": sum(len(e.model) for e in own)}
+        parts = {"error": [e.model for e in own], "moved": [e.moved for e in own]}
+        others = [e.published for e in own if e.published is not None]
+        if len(others) == len(own):
+            parts["published"] = others
+            parts["more"] = [e.model - o for e, o in zip(own, others, strict=True)]
+        for key, values in parts.items():
+            found = bootstrapped(values)
+            entry[key] = {
+                "mean": found.mean.tolist(),
+                "low": found.low.tolist(),
+                "high": found.high.tolist(),
+            }
+        table[name] = entry
+    return table

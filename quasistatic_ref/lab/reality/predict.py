@@ -1,0 +1,164 @@
+"""Where a push ends: its finger led along its path, each step solved and certified."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.solve.engines import NATIVE, solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import StepSolution
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """Where a body ends, and how its steps were certified.
+
+    Parameters
+    ----------
+    pose : ndarray, shape (3,)
+        x, y [m], angle [rad] of the body's frame.
+    kinds : dict of str to int
+        How many steps have a certificate of each kind.
+    error_bound : float
+        The largest of the enclosed steps [-].
+    sticks, slides : int
+        Steps in which the finger touched without slipping, and slipping.
+    """
+
+    pose: Array
+    kinds: dict[str, int]
+    error_bound: float
+    sticks: int
+    slides: int
+
+
+def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Prediction:
+    """A push from a pose, with the finger along a path of straight pieces.
+
+    Until the finger touches the body lies still: the steps begin where the path first touches. A
+    finger that starts inside of the outline is drawn back along the shortest way, and comes from
+    there.
+
+    Parameters
+    ----------
+    of : Pushed
+    pose : ndarray, shape (3,)
+        x, y [m], angle [rad] of the body's frame.
+    path : ndarray, shape (n, 2)
+        Of the finger's centre, world [m].
+    certify : str
+        As of :func:`~quasistatic_ref.solve.solve.solve_step`.
+    """
+    R = rotation(pose[2])
+    body = np.zeros(of.n_u)
+    body[:2], body[3] = pose[:2] + R @ of.centre, pose[2]
+    kinds: dict[str, int] = {}
+    error, sticks, slides = 0.0, 0, 0
+    solver: Solver | None = None
+    targets = touching(of, pose, path)
+    finger = next(targets)
+    for target in targets:
+        step = of.step(finger, body, target)
+        solver = fitting(step, solver)
+        found = solve_step(step, solver, certify=certify)
+        finger, body = finger + found.delta_q[:2], body + found.delta_q[2:]
+        kind = found.certificate.kind
+        kinds[kind] = kinds.get(kind, 0) + 1
+        error = max(error, found.certificate.error_bound or 0.0)
+        loaded, slips = grip(step, found)
+        sticks, slides = sticks + (loaded and not slips), slides + (loaded and slips)
+    R = rotation(body[3])
+    end = np.append(body[:2] - R @ of.centre, body[3])
+    return Prediction(end, kinds, error, sticks, slides)
+
+
+def fitting(step: StepData, solver: Solver | None) -> Solver:
+    """A solver that takes the step: the one before, where it does."""
+    if solver is None or not solver.fits(step):
+        return solver_for(step, "daqp" if cone(step.cone).polyhedral else "clarabel", NATIVE)
+    return solver
+
+
+SLIPS = 1e-3
+"""Share of its advance by which a finger that slides slips at least [-]."""
+
+
+def grip(step: StepData, found: StepSolution) -> tuple[bool, bool]:
+    """Whether the finger, the last contact, presses on the body, and whether it slips along it."""
+    contacts = step.contacts
+    slip = float(contacts.d1[-1] @ (contacts.J[-1, :3] @ found.delta_q))
+    advance = float(np.linalg.norm(found.delta_q[:2]))
+    return bool(found.wrench[-1, 2] > 0), abs(slip) > SLIPS * advance
+
+
+def rotation(angle: float) -> Array:
+    """The matrix, shape (2, 2), that turns by an angle [rad]."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.array([[cos, -sin], [sin, cos]])
+
+
+def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
+    """Where the finger starts, and its targets from there to the end of its path.
+
+    Each is of shape (2,) [m]. Steps of each straight piece are of equal length, at most
+    ``of.advance``.
+
+    Parameters
+    ----------
+    of : Pushed
+    pose : ndarray, shape (3,)
+        Of the body's frame [m, rad].
+    path : ndarray, shape (n, 2)
+        Of the finger [m].
+    """
+    R = rotation(pose[2])
+
+    def gap(finger: Array) -> tuple[float, Array]:
+        distance, _, normal = of.outline.closest(R.T @ (finger - pose[:2]))
+        return distance - of.radius, R @ normal
+
+    overlap, normal = gap(path[0])
+    points = list(path)
+    if overlap < 0:
+        points.insert(0, path[0] + overlap * normal)
+    else:
+        points = from_contact(points, lambda finger: gap(finger)[0])
+    yield points[0]
+    for start, end in pairwise(points):
+        length = float(np.linalg.norm(end - start))
+        count = int(np.ceil(length / of.advance * (1 - SAME)))
+        for k in range(count):
+            yield start + (end - start) * ((k + 1) / count)
+
+
+SAME = 1e-9
+"""Relative rounding of a length that is so many steps long [-]."""
+
+CLOSE = 1e-6
+"""Distance at which a finger counts as touching [m]."""
+
+
+def from_contact(points: list[Array], gap: Callable[[Array], float]) -> list[Array]:
+    """What is left of a path, points of shape (2,) [m], from where it first touches.
+
+    Parameters
+    ----------
+    points : list of ndarray, each of shape (2,)
+        [m]
+    gap : callable
+        Of a point: how far it may go in any direction without touching [m].
+    """
+    for i, (start, end) in enumerate(pairwise(points)):
+        length, gone = float(np.linalg.norm(end - start)), 0.0
+        while gone < length:
+            here = start + (end - start) * (gone / length)
+            if (free := gap(here)) <= CLOSE:
+                return [here, *points[i + 1 :]]
+            gone += free
+    return points[-1:]

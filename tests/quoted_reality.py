@@ -1,0 +1,201 @@
+"""Numbers of docs/reality.md, from the committed results of measured pushes."""
+
+import json
+from functools import cache
+
+import numpy as np
+
+from tests.quoted import ROOT
+
+
+@cache
+def result(name):
+    return json.loads((ROOT / "validation" / "results" / f"{name}.json").read_text("utf-8"))
+
+
+def pooled(key, part="mean"):
+    """(mm, degrees) of the mean over pairs."""
+    return result("reality")["pairs"]["all"][key][part]
+
+
+def ratios(key="ratio"):
+    """What was identified in the ellipsoid, by pair [mm]."""
+    cones = {name: entry["cones"]["ellipsoid"] for name, entry in identified().items()}
+    return {name: 1e3 * entry[key] for name, entry in cones.items()}
+
+
+def identified():
+    return result("reality_identified")
+
+
+def lost(cone):
+    """The mean lost share of dissipation [%]."""
+    return 100 * np.mean([entry["cones"][cone]["misfit"] for entry in identified().values()])
+
+
+def variant(name):
+    """Mean error (mm, degrees) of a variant."""
+    return result("reality_ablations")["variants"][name]["error"]["mean"]
+
+
+def farthest(*names):
+    """Largest change of the mean error of some variants, (mm, degrees)."""
+    own = np.array(variant("ellipsoid"))
+    return np.abs([np.array(variant(name)) - own for name in names]).max(0)
+
+
+def ties(key):
+    return result("reality_ablations")["spread over the pyramid's ties"][key]
+
+
+def tripods(variant="ellipsoid"):
+    """Median error over median turn of the sets that calibrated nothing [%]."""
+    sets = result("reality_tripods")["variants"][variant]
+    return [100 * entry["median error over median turn"] for entry in list(sets.values())[1:]]
+
+
+def pyramids():
+    shares = [s for name in result("reality_tripods")["variants"] if name.startswith("pyramid")
+              for s in tripods(name)]  # fmt: skip
+    return [min(shares), max(shares)]
+
+
+def unidentified(*cones):
+    return [sum(not entry["cones"][cone]["identifiable"] for entry in identified().values())
+            for cone in cones]  # fmt: skip
+
+
+def residual(*keys):
+    found = result("reality_residuals")
+    for key in keys:
+        found = found[key]
+    return found
+
+
+TOUCH = "paths shifted so that they touch"
+GAP = "distance of the finger from the outline at the start [mm]"
+CANCEL = ("mass 10 kg", "h 0.2 s", "mu_v 0.6", "gyration 20 mm", "finger's stiffness 1e5 N/m")
+
+
+def tie_breaks():
+    return [name for name in result("reality_ablations")["variants"] if "tie broken" in name]
+
+
+def identified_row(name):
+    entry = identified()[name]
+    own = entry["cones"]["ellipsoid"]
+    mm = [1e3 * x for x in (own["ratio"], own["low"], own["high"], own["reverse"],
+                            entry["published"], entry["uniform"])]  # fmt: skip
+    row = "| {} | {} | **{:.1f}** | {:.1f} - {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.3f} |"
+    return row.format(name, own["count"], *mm, own["friction"], own["friction"] * own["ratio"])
+
+
+def error_row(name):
+    entry = result("reality")["pairs"][name]
+    error, cells = entry["error"], []
+    for k in (0, 1):
+        cells.append("**{:.2f}** ({:.2f} - {:.2f})".format(*(error[x][k] for x in ENDS)))
+    moved, other = entry["moved"]["mean"], entry["published"]["mean"]
+    label = "mean over pairs" if name == "all" else name
+    return (f"| {label} | {entry['pushes']:,} | {moved[0]:.1f} | {moved[1]:.1f} | {cells[0]} | "
+            f"{cells[1]} | {other[0]:.2f} | {other[1]:.2f} |")  # fmt: skip
+
+
+ENDS = ("mean", "low", "high")
+
+
+def ablation_row(name):
+    entry = result("reality_ablations")["variants"][name]["error"]
+    cells = ["{:.2f} ({:.2f} - {:.2f})".format(*(entry[x][k] for x in ENDS)) for k in (0, 1)]
+    return f"| {name} | {cells[0]} | {cells[1]} |"
+
+
+def tripod_row(name):
+    own = result("reality_tripods")["variants"]["ellipsoid"][name]
+    return "| {} | {} | {:.1f} | {:.2f} ({:.2f} - {:.2f}) | {:.0f} | {:.1f} | {:.2f} |".format(
+        name, own["pushes"], own["median motion [deg]"], *own["median error [deg]"],
+        100 * own["median error over median turn"], own["median motion [mm]"],
+        own["median error [mm]"][0],
+    )  # fmt: skip
+
+
+PHRASES = {
+    "summary": ("**{:.2f} mm and {:.2f} degrees** (95 %: {:.2f} to {:.2f} mm, {:.2f} to {:.2f} "
+                "degrees) where objects moved by {:.1f} mm and {:.1f} degrees",
+                lambda: [*pooled("error"), pooled("error", "low")[0], pooled("error", "high")[0],
+                         pooled("error", "low")[1], pooled("error", "high")[1],
+                         *pooled("moved")]),
+    "published": ("the published simulator, which has a fitted 3 x 3 matrix for each pair, {:.2f} "
+                  "mm and {:.2f} degrees on the same pushes", lambda: pooled("published")),
+    "more": ("The difference, push by push, is {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees "
+             "({:+.2f} to {:+.2f})", lambda: [pooled("more", part)[k] for k in (0, 1)
+                                              for part in ENDS]),
+    "pushes": ("{:,} of the 5,374 pushes", lambda: [result("reality")["pairs"]["all"]["pushes"]]),
+    "steps": ("{:,} steps, of which {:,} are enclosed, {:,} exact and none is unproved",
+              lambda: [sum((s := result("reality")["steps"]).values()), s["enclosure"],
+                       s["exact"]]),
+    "bound": ("the largest bound of an error is {:.0e}",
+              lambda: [result("reality")["largest_error_bound"]]),
+    "range": ("between {:.1f} and {:.1f} mm", lambda: [min(ratios().values()),
+                                                      max(ratios().values())]),
+    "lost": ("the ellipsoid loses {:.1f} % of the dissipation, the bicone over a polygon of 16 "
+             "sides {:.1f} %, of 8 sides {:.1f} %, the pyramid {:.1f} % and the product {:.1f} %",
+             lambda: [lost(c) for c in ("ellipsoid", "facets-16", "facets-8", "pyramid",
+                                        "product")]),
+    "axes": ("at the best angle of its axes for each pair {:.1f} %",
+             lambda: [100 * np.mean([entry["pyramid, best axes"] for entry in
+                                     identified().values()])]),
+    "undecided": ("are not identifiable for {} pairs in the pyramid, {} in facets-8 and {} in "
+                  "facets-16", lambda: unidentified("pyramid", "facets-8", "facets-16")),
+    "pyramid": ("the pyramid is off by {:.1f} to {:.1f} mm and {:.1f} to {:.1f} degrees",
+                lambda: [f([variant(f"pyramid, axes at {a} degrees")[k] for a in ("0", "22.5",
+                         "45")]) for k in (0, 1) for f in (min, max)]),
+    "base": ("the ellipsoid by {:.1f} mm and {:.1f} degrees", lambda: variant("ellipsoid")),
+    "cancel": ("{:.2f} mm and {:.2f} degrees at most", lambda: farthest(*CANCEL)),
+    "steps_changed": ("{:.2f} mm and {:.2f} degrees", lambda: farthest("steps of 0.5 mm")),
+    "ties_changed": ("{:.1f} mm and {:.1f} degrees", lambda: np.abs(
+        [np.array(variant(name)) - variant("pyramid, axes at 0 degrees") for name in tie_breaks()]
+    ).max(0)),
+    "ties_spread": ("{:.1f} mm and {:.1f} degrees", lambda: [ties("median [mm]"),
+                                                            ties("median [deg]")]),
+    "clouds": ("9 points are off by {:.2f} mm and {:.2f} degrees, 25 points by {:.2f} mm and "
+               "{:.2f} degrees, the patch by {:.2f} mm and {:.2f} degrees",
+               lambda: [*variant("9 points"), *variant("25 points"), *variant("ellipsoid")]),
+    "correlation": ("correlate by {:.2f}", lambda: [residual(
+        "correlation of displacement errors with the published simulator's")]),
+    "gap": ("is off by {:.1f} mm (standard deviation)",
+            lambda: [residual(GAP, "standard deviation")]),
+    "shifted": ("changes the mean error by {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees",
+                lambda: [*(residual(TOUCH, "change", part)[0] for part in ENDS),
+                         residual(TOUCH, "change", "mean")[1]]),
+    "grip": ("sticks throughout {:.1f} mm and {:.1f} degrees ({} pushes), where it slides "
+             "throughout {:.1f} mm and {:.1f} degrees ({}), where it does both {:.1f} mm and "
+             "{:.1f} degrees ({})",
+             lambda: [x for kind in ("sticks", "slides", "both") for x in (
+                 *residual("by grip of the finger", kind, "mean"),
+                 residual("by grip of the finger", kind, "pushes"))]),
+    "tripods": ("by {:.0f} to {:.0f} % of the median turn", lambda: [min(tripods()),
+                                                                    max(tripods())]),
+    "tripods_pyramid": ("With the pyramid it is {:.0f} to {:.0f} %", pyramids),
+    "tripods_16": ("with 16 facets {:.0f} to {:.0f} %", lambda: [min(tripods("facets-16")),
+                                                                max(tripods("facets-16"))]),
+    "frame": ("({:.2f}, {:.2f}) mm, {:.2f} degrees and a radius of {:.2f} mm", lambda: [
+        *(t := result("reality_tripods"))["offset [mm]"], t["angle [deg]"], t["radius [mm]"]]),
+}  # fmt: skip
+"""Name -> a phrase of the page, and what fills it."""
+
+
+def rows():
+    """Rows of the page's tables."""
+    names = list(result("reality_ablations")["variants"])
+    return [
+        *map(identified_row, identified()),
+        *map(error_row, result("reality")["pairs"]),
+        *map(ablation_row, names),
+        *map(tripod_row, result("reality_tripods")["variants"]["ellipsoid"]),
+    ]
+
+
+def held():
+    """What docs/reality.md has to say: phrases, and rows as phrases without braces."""
+    return [*PHRASES.values(), *((row, list) for row in rows())]

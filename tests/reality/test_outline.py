@@ -1,0 +1,73 @@
+"""Outlines: area, centre, gyration, and the closest point, against formulas."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.reality.cloud import support_points
+from quasistatic_ref.lab.reality.outline import Outline
+from tests.tolerances import ROUNDING
+
+A, B = 0.06, 0.02
+RECTANGLE = np.array([[0, 0], [A, 0], [A, B], [0, B]]) + np.array([0.1, -0.3])
+TRIANGLE = np.array([[0.0, 0.0], [0.15, 0.0], [0.0, 0.15]])
+BENT = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.2], [0.0, 1.0]])
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_a_rectangle_has_the_area_centre_and_gyration_of_the_formulas(turn):
+    outline = Outline(RECTANGLE[::turn])
+    assert outline.area == pytest.approx(A * B, rel=ROUNDING)
+    assert outline.centre == pytest.approx([0.1 + A / 2, -0.3 + B / 2], rel=ROUNDING)
+    # The mean square of x - A/2 over [0, A] is A^2 / 12.
+    assert outline.gyration == pytest.approx(np.sqrt((A**2 + B**2) / 12), rel=1e-9)
+
+
+def test_the_mean_distance_from_the_middle_of_a_square_is_that_of_the_formula():
+    # a / 6 (sqrt 2 + log(1 + sqrt 2)) for a side a; of a polygon near a disc, two thirds of r.
+    square = Outline(0.09 * np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
+    law = 0.09 / 6 * (np.sqrt(2) + np.log(1 + np.sqrt(2)))
+    assert square.mean_distance == pytest.approx(law, rel=1e-9)
+    turn = np.linspace(0, 2 * np.pi, 4000, endpoint=False)
+    disc = Outline(0.05 * np.column_stack([np.cos(turn), np.sin(turn)]))
+    assert disc.mean_distance == pytest.approx(0.05 * 2 / 3, rel=1e-5)
+
+
+def test_the_centre_of_a_triangle_is_the_mean_of_its_vertices():
+    assert Outline(TRIANGLE).centre == pytest.approx(TRIANGLE.mean(0), rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("point", "distance", "on", "normal"),
+    [
+        ((0.5, -0.25), 0.25, (0.5, 0.0), (0.0, 1.0)),  # below an edge
+        ((-0.3, -0.4), 0.5, (0.0, 0.0), (0.6, 0.8)),  # beyond a corner
+        ((0.1, 0.4), -0.1, (0.0, 0.4), (1.0, 0.0)),  # inside: out by the shortest way
+        ((1.0, 0.0), 0.0, (1.0, 0.0), (0.0, 1.0)),  # on an edge
+        ((1.0, 0.6), 0.4 / np.hypot(1, 0.8), None, None),  # in the notch, which is not convex
+    ],
+)
+@pytest.mark.parametrize("turn", [1, -1])
+def test_the_closest_point_of_an_outline_with_a_notch(point, distance, on, normal, turn):
+    found = Outline(BENT[::turn]).closest(np.array(point))
+    assert found[0] == pytest.approx(distance, abs=ROUNDING)
+    if on is not None:
+        assert found[1] == pytest.approx(on, abs=ROUNDING)
+        assert found[2] == pytest.approx(normal, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("vertices", [[[0, 0], [1, 1]], [[0, 0], [1, 1], [2, 2]], [[0, 0, 0]] * 3])
+def test_what_encloses_no_area_is_refused(vertices):
+    with pytest.raises(InputError, match="outline"):
+        Outline(np.array(vertices))
+
+
+def test_points_of_a_support_share_its_area_about_its_centre():
+    outline = Outline(RECTANGLE)
+    points = np.array(support_points(outline, 25))
+    assert points.shape == (25, 2)
+    assert np.abs(points.mean(0)).max() < ROUNDING
+    assert all(outline.closest(p + outline.centre)[0] < 0 for p in points)
+    # Shares of equal area lose what is inside of them: a 25th of the mean square, about.
+    square = (points**2).sum(1).mean() / outline.gyration**2
+    assert 0.9 < square < 1.0

@@ -1,0 +1,97 @@
+"""A push in steps: Lynch's motion, and what must not matter."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.reality.outline import Outline
+from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.predict import predicted, touching
+from quasistatic_ref.lab.reality.settings import Settings
+from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
+from quasistatic_ref.solve.solve import solve_step
+from tests.tolerances import QUASI_STATIC
+
+RATIO, RADIUS = 0.03, 0.005
+SQUARE = Outline(0.04 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
+PAIR = Pair("glass/square", SQUARE, 0.5, 0.4, RADIUS, None)
+START = np.array([0.2, 0.1, 0.0])
+UP = np.array([0.0, 1.0])
+BELOW = START[:2] + np.array([0.015, -0.04 - RADIUS])
+"""The finger touches the lower side, 15 mm off the middle."""
+PATH = np.array([BELOW, BELOW + 0.02 * UP])
+
+
+@pytest.mark.parametrize("mu_finger", ["0.9", "0.0"])
+def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
+    scene = Settings(finger=mu_finger, h=20.0, advance=1e-4).pushed(PAIR, RATIO)
+    body = np.append(START[:2], [0.0, 0.0])
+    found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
+    point, way, c2 = np.array([0.015, -0.04]), found.delta_q[:2], RATIO**2
+    if mu_finger == "0.0":
+        law = sliding_motion(point, UP, c2) * way[1]
+    else:
+        law = sticking_motion(point, way, c2)
+    off = np.linalg.norm((found.delta_q[[2, 3, 5]] - law) * [1, 1, RATIO]) / way[1]
+    assert off < QUASI_STATIC * scene.quasi_dynamic_number
+    assert found.certificate.kind == "enclosure"
+
+
+CHANGES = [{"m": 20.0}, {"h": 5.0}, {"mu_v": 0.9}, {"stiffness": 1e7}, {"gyration": 0.01}]
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=str)
+def test_mass_load_step_time_and_stiffness_do_not_matter(change):
+    base, other = Settings(advance=2e-3), Settings(**{"advance": 2e-3} | change)
+    ends = [predicted(s.pushed(PAIR, RATIO), START, PATH, "off").pose for s in (base, other)]
+    Pi = base.pushed(PAIR, RATIO).quasi_dynamic_number
+    turned = ends[0][2] - START[2]
+    assert abs(turned) > 0.1
+    assert np.abs((ends[1] - ends[0]) * [1, 1, RATIO]).max() < QUASI_STATIC * Pi * 0.02
+
+
+def test_steps_are_refused_whose_drag_is_not_small():
+    with pytest.raises(InputError, match="quasi-dynamic"):
+        Settings(h=0.01).pushed(PAIR, RATIO)
+
+
+def test_a_finger_that_passes_by_moves_nothing():
+    path = np.array([[0.0, 0.0], [0.4, 0.0]])  # 55 mm below the side that is nearest
+    found = predicted(Settings().pushed(PAIR, RATIO), START, path)
+    assert (found.pose == START).all()
+    assert found.kinds == {}
+
+
+def test_steps_begin_where_the_finger_first_touches():
+    scene = Settings().pushed(PAIR, RATIO)
+    ahead = np.array([BELOW - 0.03 * UP, BELOW + 0.01 * UP])
+    first, *targets = touching(scene, START, ahead)
+    assert first == pytest.approx(BELOW, abs=2e-6)
+    assert len(targets) == 10 + (first[1] < BELOW[1])  # 10 mm, and what is left of the gap
+    assert (targets[-1] == ahead[1]).all()
+
+
+def test_a_finger_that_starts_inside_comes_from_the_nearest_side():
+    scene = Settings().pushed(PAIR, RATIO)
+    inside = np.array([BELOW + 0.002 * UP, BELOW + 0.01 * UP])
+    first, *targets = touching(scene, START, inside)
+    assert first == pytest.approx(BELOW, abs=1e-12)
+    assert targets[1] == pytest.approx(inside[0])
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
+def test_steps_in_polyhedral_cones_are_exact(cone):
+    found = predicted(Settings(cone=cone).pushed(PAIR, RATIO), START, PATH)
+    assert set(found.kinds) == {"exact"}
+    assert found.error_bound == 0.0
+
+
+def test_a_cloud_of_three_points_loads_them_by_the_levers():
+    # The load of each of three points is its share of the weight: barycentric coordinates of the
+    # centre of mass, here 1/3 each; friction and finger act at the height of the support.
+    scene = Settings(advance=1e-4).pushed(PAIR, RATIO)
+    corners = ((0.03, 0.0), (-0.015, 0.02), (-0.015, -0.02))
+    scene = scene.but(points=corners, ratio=0.0)
+    body = np.append(START[:2], np.zeros(4))
+    found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
+    assert found.wrench[:3, 2] == pytest.approx(np.full(3, scene.m * 9.81 / 3), rel=1e-2)
