@@ -17,7 +17,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
-from quasistatic_ref.lab.vectors.distances.stationary import minimum, rational_near
+from quasistatic_ref.lab.vectors.distances.stationary import minimum
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
@@ -29,7 +29,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     squared,
     subtract,
 )
-from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near, root, sign
 
 
 def polytope_and_curved(flat: Core, curved: Placed) -> Witness:

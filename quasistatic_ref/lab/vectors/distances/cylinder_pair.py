@@ -17,7 +17,7 @@ from quasistatic_ref.lab.vectors.distances.curved_pair import flat_of, outside, 
 from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
-from quasistatic_ref.lab.vectors.distances.stationary import minimum, rational_near
+from quasistatic_ref.lab.vectors.distances.stationary import minimum
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
@@ -28,7 +28,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     scaled,
     squared,
 )
-from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near, root, sign
 from quasistatic_ref.lab.vectors.exact.rotation import cos_sin
 
 SECTORS = 48

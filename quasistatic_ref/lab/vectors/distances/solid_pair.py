@@ -29,13 +29,14 @@ def witnesses(case: Json) -> list[Witness]:
     if a.kind == b.kind and a.kind in ("cloud", "halfspace"):
         raise InputError(f"two {a.kind}s have no distance", field="alpha, beta", value=a.kind)
     if b.kind == "cloud":
-        return [_point(a, b.world(x)) for x in b.points]
+        return [point_witness(a, b.world(x)) for x in b.points]
     if a.kind == "cloud":
-        return [_point(b, a.world(x)).swapped() for x in a.points]
-    return [_pair(a, b)]
+        return [point_witness(b, a.world(x)).swapped() for x in a.points]
+    return [pair_witness(a, b)]
 
 
-def _point(solid: Placed, point: Vector) -> Witness:
+def point_witness(solid: Placed, point: Vector) -> Witness:
+    """Closest point of a solid, which is alpha's, to a point of the world."""
     if solid.kind in CLOSED_FORMS:
         return point_on_solid(solid, point)
     flat = core(solid)
@@ -43,11 +44,12 @@ def _point(solid: Placed, point: Vector) -> Witness:
     return polytope_pair(flat, Core(fmpq(0), [point], [], [], []))
 
 
-def _pair(a: Placed, b: Placed) -> Witness:
+def pair_witness(a: Placed, b: Placed) -> Witness:
+    """Closest points of two placed solids; InputError as for `witnesses`."""
     if b.kind == "sphere":
-        return _point(a, b.t).inflated(fmpq(0), b.sizes[0])
+        return point_witness(a, b.t).inflated(fmpq(0), b.sizes[0])
     if a.kind == "sphere":
-        return _point(b, a.t).inflated(fmpq(0), a.sizes[0]).swapped()
+        return point_witness(b, a.t).inflated(fmpq(0), a.sizes[0]).swapped()
     if a.kind == "halfspace":
         return solid_on_plane(a, b)
     if b.kind == "halfspace":

@@ -4,7 +4,12 @@ from collections.abc import Callable
 
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.lab.vectors.exact.precision import Real, Undecided, sign
+from quasistatic_ref.lab.vectors.exact.precision import (
+    Real,
+    Undecided,
+    rational_near,
+    sign,
+)
 
 SHORT = fmpq(1, 1 << 100)
 """A function that is zero on so long an interval is zero there without rounding."""
@@ -80,11 +85,3 @@ def _enclosed(function: Callable[[Real], Real], at: fmpq, width: fmpq) -> arb | 
             return arb(at) + arb(0, 1) * arb(width)
         width *= WIDER
     return None
-
-
-def rational_near(x: Real) -> fmpq:
-    """A rational number near x, or x itself where it is one."""
-    if isinstance(x, fmpq):
-        return x
-    m, e = x.mid().man_exp()
-    return fmpq(int(m) << max(int(e), 0), 1 << max(-int(e), 0))

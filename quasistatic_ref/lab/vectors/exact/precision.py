@@ -167,6 +167,14 @@ def is_zero(x: Real) -> bool:
     return bool(x.contains(0)) and bool(x.rad() < _threshold())
 
 
+def rational_near(x: Real) -> fmpq:
+    """A rational number near x, or x itself where it is one."""
+    if isinstance(x, fmpq):
+        return x
+    m, e = x.mid().man_exp()
+    return fmpq(int(m) << max(int(e), 0), 1 << max(-int(e), 0))
+
+
 @lru_cache(maxsize=1)
 def _threshold() -> arb:
     return arb(fmpq(1, 1 << 200))

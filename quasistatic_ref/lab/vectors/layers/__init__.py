@@ -14,6 +14,7 @@ LAYERS: Final = (
     "wrench",
     "integrate",
     "step",
+    "derivative",
 )
 """In the order in which a step goes through them; `step` is all of them at once."""
 

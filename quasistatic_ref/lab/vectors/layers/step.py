@@ -161,29 +161,38 @@ def _tangents(normal: list[float]) -> dict[str, Json]:
 
 def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
     """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
+    out = rounded(lambda: objective_of(tree, poses(tree, case["q"]), case))[0]
+    return out["H"], out["g"], max(out["sizes"], default=0.0)
+
+
+def objective_of(tree: Mechanism, at: Poses, case: Json) -> dict[str, Any]:
+    """The same without rounding: ``H``, ``g``, and the ``sizes`` of the terms of g.
+
+    Parameters
+    ----------
+    tree : Mechanism
+    at : Poses
+        At the q of the case.
+    case : dict
+        Its numbers are float64 or exact.
+    """
     h, n_a = number(case["h"]), tree.n_a
     K = [numbers(row) for row in case["K_q"]]
-
-    def formed() -> Any:
-        at = poses(tree, case["q"])
-        M, tau = mass_matrix_u(tree, at), _forces(tree, at, case)
-        change = difference(tree, case["q"], case["q_bar_a"], actuated=True)
-        H = [[fmpq(0)] * tree.n_v for _ in range(tree.n_v)]
-        for i in range(tree.n_v):
-            for j in range(tree.n_v):
-                if i < n_a and j < n_a:
-                    H[i][j] = h * K[i][j]  # Eq. (13)
-                elif i >= n_a and j >= n_a:
-                    H[i][j] = M[i - n_a][j - n_a] / h
-        g = [h * x for x in tau]
-        sizes = [abs(x) for x in g]
-        for i in range(n_a):
-            g[i] += h * dot(K[i], change)  # Eqs. (1), (13)
-            sizes[i] += h * dot([abs(x) for x in K[i]], [abs(x) for x in change])
-        return {"H": H, "g": g, "sizes": sizes}
-
-    out = rounded(formed)[0]
-    return out["H"], out["g"], max(out["sizes"], default=0.0)
+    M, tau = mass_matrix_u(tree, at), _forces(tree, at, case)
+    change = difference(tree, case["q"], case["q_bar_a"], actuated=True)
+    H = [[fmpq(0)] * tree.n_v for _ in range(tree.n_v)]
+    for i in range(tree.n_v):
+        for j in range(tree.n_v):
+            if i < n_a and j < n_a:
+                H[i][j] = h * K[i][j]  # Eq. (13)
+            elif i >= n_a and j >= n_a:
+                H[i][j] = M[i - n_a][j - n_a] / h
+    g = [h * x for x in tau]
+    sizes = [abs(x) for x in g]
+    for i in range(n_a):
+        g[i] += h * dot(K[i], change)  # Eqs. (1), (13)
+        sizes[i] += h * dot([abs(x) for x in K[i]], [abs(x) for x in change])
+    return {"H": H, "g": g, "sizes": sizes}
 
 
 def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:

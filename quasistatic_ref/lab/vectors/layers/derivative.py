@@ -1,0 +1,117 @@
+"""Layer `derivative`: of q+ by q, q_bar_a, forces and parameters, or why there is none.
+
+Nothing is rounded from the mechanism to q+: see :mod:`quasistatic_ref.lab.vectors.whole`. The
+numbers are differences of such steps, each proved to 15 digits by a second difference.
+"""
+
+from typing import Final
+
+from flint import fmpq, fmpq_mat
+
+from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.whole.derivatives import Derivatives, derivatives
+from quasistatic_ref.lab.vectors.whole.differences import Base, base
+from quasistatic_ref.lab.vectors.whole.nearby import Touching
+from quasistatic_ref.lab.vectors.whole.touching import touching_pairs
+
+FIELDS: Final = {
+    "q": "dq_dq",
+    "q_bar_a": "dq_dq_bar_a",
+    "tau": "dq_dtau",
+    "mu_v": "dq_dmu_v",
+    "mu_omega": "dq_dmu_omega",
+    "K_q": "dq_dK_q",
+    "h": "dq_dh",
+    "m": "dq_dm",
+}
+"""Name of each derivative in the output, a matrix of n_v rows; of h a list."""
+MOST: Final = 28
+"""Columns of a derivative: one by a larger K_q is left out."""
+SHARE: Final = 1e-9
+"""Of the largest entry, or of what the free step would show: the tolerance."""
+QUIET: Final = 1e-3
+"""A derivative that is smaller than that beside the free step's is compared with the latter."""
+NOTHING: Final = fmpq(1, 1 << 60)
+"""Beside the largest entry of its derivative, an entry that is smaller is 0."""
+
+
+def expected(case_input: Json) -> Expected:
+    """Every derivative in float64; or why there is none."""
+    try:
+        one = base(case_input)
+    except Touching:
+        listed = touching_pairs(case_input)
+        if not listed:
+            raise
+        return _verdict([{"kind": "touching", "pair": p, "index": [0], "rows": []} for p in listed])
+    found = derivatives(one)
+    if found.reasons:
+        return _verdict(found.reasons)
+    return _numbers(one, found)
+
+
+def own(case_input: Json) -> Json:
+    """The package's answer; it does not differentiate steps yet."""
+    raise InputError("steps are not differentiated by the package", field="layer")
+
+
+def _verdict(reasons: Json) -> Expected:
+    flags = {"differentiable": False, "switch": True}
+    return Expected({"differentiable": False, "reasons": reasons}, flags=flags)
+
+
+def _numbers(one: Base, found: Derivatives) -> Expected:
+    output: dict[str, Json] = {"differentiable": True, "reasons": []}
+    tolerance = {}
+    free = _free(one)
+    for name, columns in found.columns.items():
+        if not columns or len(columns) > MOST:
+            continue
+        field, largest = FIELDS[name], max(abs(x) for column in columns for x in column)
+        rows = [[_float(x, largest) for x in row] for row in zip(*columns, strict=True)]
+        output[field] = [row[0] for row in rows] if name == "h" else rows
+        size = max(float(largest), QUIET * free[name])
+        tolerance[field] = Tolerance(float(f"{SHARE * size:.1e}"), _why(float(largest), free[name]))
+    flags = {"differentiable": True, "switch": found.switch}
+    return Expected(output, flags=flags, tolerance=tolerance)
+
+
+def _float(x: fmpq, largest: fmpq) -> float:
+    return 0.0 if abs(x) <= NOTHING * largest else nearest_fraction(x)
+
+
+def _why(largest: float, free: float) -> str:
+    if largest >= QUIET * free:
+        return f"{SHARE:g} of the largest entry"
+    return f"{SHARE:g} of a thousandth of what the step without contacts shows"
+
+
+def _free(one: Base) -> dict[str, float]:
+    """The largest entry, roughly, of each derivative of the step without contacts."""
+    form, case = one.step.form, one.at.case
+    inverse = fmpq_mat(form.H).inv()
+    step = inverse * fmpq_mat(form.g)
+    x = float(max((abs(v) for v in step.entries()), default=fmpq(0)) * form.x_unit)
+    # lam = lam_unit y with H in other units: H^-1 in SI is x_unit / net_unit of the form's.
+    unit = form.x_unit / form.net_unit
+    flexible = float(max((abs(v) for v in inverse.entries()), default=fmpq(0)) * unit)
+    K: Vector = [abs(v) for row in case["K_q"] for v in row if v]
+    masses = [body["mass"] for body in case["mechanism"]["bodies"] if body.get("mass")]
+    pairs = case["pairs"]
+    return {
+        "q": 1.0,
+        "q_bar_a": 1.0,
+        "tau": float(case["h"]) * flexible,
+        "mu_v": x / _least([p["mu_v"] for p in pairs]),
+        "mu_omega": x / _least([p["mu_omega"] for p in pairs]),
+        "K_q": x / _least(K),
+        "h": x / float(case["h"]),
+        "m": x / _least(masses),
+    }
+
+
+def _least(values: Vector) -> float:
+    return float(min((v for v in values if v), default=1.0))

@@ -1,0 +1,69 @@
+"""Bodies and shapes of a case where they are, in rational numbers: exact, or of the grid."""
+
+from dataclasses import dataclass, replace
+
+from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, moved, product
+from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
+from quasistatic_ref.lab.vectors.exact.precision import numbers
+from quasistatic_ref.lab.vectors.exact.rotation import rotation
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.whole.grid import exact_or_on_grid, working
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A case at its configuration.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step``; its numbers are float64 or exact.
+    tree : Mechanism
+    at : Poses
+        Of every body, in rational numbers.
+    """
+
+    case: Json
+    tree: Mechanism
+    at: Poses
+
+    def shape(self, name: str) -> Placed:
+        """A shape of the case where it is."""
+        entry = self.case["shapes"][name]
+        with working():
+            R, t = rotation(numbers(entry["pose"]["quaternion"])), numbers(entry["pose"]["xyz"])
+            body = self.tree.number(entry["body"])
+            if body is not None:
+                R, t = product(self.at.R[body], R), moved(self.at.R[body], self.at.t[body], t)
+            return self._at(entry["shape"], _matrix(R), _vector(t))
+
+    def _at(self, shape: Json, R: Json, t: Json) -> Placed:
+        here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+        return replace(placed(shape, here), R=R, t=t)
+
+
+def world(case: Json) -> World:
+    """A case in the world.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step``; numbers that are no float64 are rational.
+    """
+    tree = mechanism(case["mechanism"])
+    with working():
+        at = poses(tree, case["q"])
+        columns = [
+            {v: (_vector(nu), _vector(w)) for v, (nu, w) in body.items()} for body in at.columns
+        ]
+        found = Poses([_matrix(R) for R in at.R], [_vector(t) for t in at.t], columns)
+    return World(case, tree, found)
+
+
+def _vector(x: Vector) -> Vector:
+    return [exact_or_on_grid(v) for v in x]
+
+
+def _matrix(A: Matrix) -> Matrix:
+    return [_vector(row) for row in A]
