@@ -40,21 +40,22 @@ RANGE = 2.0**-100, 2.0**100
 
 
 class Rounded(NamedTuple):
-    """An answer in natural units, with bounds of how far rounding has moved its sums [-].
+    """An answer in natural units, with bounds of how far rounding has moved its sums.
 
     Parameters
     ----------
     x, y : ndarray, shapes (n_v,) and (m,)
-        The answer, y >= 0.
+        The answer, y >= 0 [-].
     reach : ndarray, shape (n_c, n_v)
-        Above the absolute values that each contact's rows of A are summed of.
+        Above the absolute values that each contact's rows of A are summed of [-].
     slack, balance : ndarray, shapes (m,) and (n_v,)
-        A x - b and H x - g - A'y in float64.
+        A x - b and H x - g - A'y in float64 [-].
     off_slack : float
-        Bound of the error of a slack, but for u times its size.
+        Bound of the error of a slack, but for u times its size [-].
     off_balance : ndarray, shape (n_v,)
+        Bound of that of the balance [-].
     load : ndarray, shape (n_v,)
-        Above |g| and what it is summed of.
+        Above the absolute value of g, and of what it is summed of [-].
     """
 
     x: Array
@@ -101,7 +102,7 @@ class FloatBound:
         self._mu = self._weight = np.zeros(0)
 
     def fits(self, hessian: BallHessian, coordinate: Array) -> bool:
-        """Whether it is that of an H in balls and of these units, shape (n_v,) [m, rad]."""
+        """Whether it is that of an H in balls and of units `coordinate`, shape (n_v,) [m, rad]."""
         return hessian is self.hessian and coordinate is self.coordinate
 
     def error(
@@ -137,7 +138,15 @@ class FloatBound:
     def rounded(
         self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, y: Array
     ) -> Rounded:
-        """The sums of an answer, all in natural units [-]; arguments are those of :meth:`error`."""
+        """The sums of an answer.
+
+        Parameters
+        ----------
+        step, form, units, x
+            As in :meth:`error`.
+        y : ndarray, shape (m,)
+            Multipliers, none of them below zero [-].
+        """
         (n,), (ell, rho), contacts = x.shape, units, step.contacts
         reach = (np.abs(contacts.J) * self.weight(contacts.mu)).sum(axis=1)
         reach *= self.coordinate / ell
