@@ -142,8 +142,10 @@ class FloatBound:
 
         Parameters
         ----------
-        step, form, units, x
+        step, form, x
             As in :meth:`error`.
+        units : (float, float)
+            As there: [m] and [-].
         y : ndarray, shape (m,)
             Multipliers, none of them below zero [-].
         """
