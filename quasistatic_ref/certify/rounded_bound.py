@@ -150,7 +150,7 @@ class FloatBound:
             Multipliers, none of them below zero [-].
         """
         (n,), (ell, rho), contacts = x.shape, units, step.contacts
-        reach = (np.abs(contacts.J) * self.weight(contacts.mu)).sum(axis=1)
+        reach = np.einsum("cij,ci->cj", np.abs(contacts.J), self.weight(contacts.mu))
         reach *= self.coordinate / ell
         target = np.abs(step.delta_q_bar_a) / (rho * self.coordinate[: step.n_a])
         load = np.abs(form.g) + 2 * (self.sizes[:, : step.n_a] @ target) + UNDERFLOW
@@ -166,10 +166,10 @@ class FloatBound:
         return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
 
     def weight(self, mu: Array) -> Array:
-        """How much of each row of J is in a row of A at most, shape (n_c, 4, 1), for a `mu`."""
+        """How much of each row of J is in a row of A at most, shape (n_c, 4), for a `mu`."""
         if mu is not self._mu:
             sliding = 1 + mu[:, :1]
-            self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])[:, :, None]
+            self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])
             self._mu = mu
         return self._weight
 
