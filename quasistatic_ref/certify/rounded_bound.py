@@ -182,8 +182,8 @@ class FloatBound:
         """The way t ||d||_H and y'(A x' - b) at most [-]; None if no direction opens all rows."""
         if not at.y.size:
             return 0.0, 0.0
-        for anew in (False, True):
-            found = self.opening(step, anew)
+        for again in (False, True):
+            found = self.opening(step, again)
             if found is None:
                 return None
             d, length = found
@@ -196,9 +196,9 @@ class FloatBound:
                 return t * length, work + (at.off_slack + t * off) * float(at.y.sum())
         return None
 
-    def opening(self, step: StepData, anew: bool) -> tuple[Array, float] | None:
-        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `anew`."""
-        if anew or self._opening is None:
+    def opening(self, step: StepData, again: bool) -> tuple[Array, float] | None:
+        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `again`."""
+        if again or self._opening is None:
             d = opening_direction(step)
             if d is None:
                 return None
