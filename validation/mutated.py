@@ -94,7 +94,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/outward.py": LARGE,
     "certify/sizes.py": LARGE,
     "certify/sparse_bound.py": LARGE,
-    "certify/exchange.py": ("unit/test_exchange.py", "unit/test_confirm.py"),
+    "certify/exchange.py": ("unit/test_exchange.py",),
     "certify/gap.py": ("unit/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/test_judged.py", *FORGED),

@@ -59,7 +59,7 @@ def proved_nearby(
         Rows.
     form : StandardForm
     inverse : ndarray, shape (n_v, n_v)
-        Of its H.
+        Of its H [m^2/(N m s)].
     """
     found = prove(guess)
     for _ in range(CHANGES):
@@ -78,7 +78,7 @@ def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | Non
     ----------
     form : StandardForm
     inverse : ndarray, shape (n_v, n_v)
-        Of its H.
+        Of its H [m^2/(N m s)].
     found : Violated
     """
     p, working, lam, delta_q = found

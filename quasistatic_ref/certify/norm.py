@@ -18,7 +18,7 @@ class EnergyNorm:
         Units [m, rad] in which the diagonal of H is one: the factor stays regular at mass ratios
         of 1e9.
     L, inverse : ndarray, shape (n_v, n_v)
-        Lower Cholesky factor of H in these units, and the inverse of that.
+        Lower Cholesky factor of H in these units, and the inverse of that [-].
     """
 
     unit: Array

@@ -3,7 +3,7 @@
 Nothing here knows which solver gave the answer, or by which interface it was asked.
 """
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class Residuals:
     @property
     def worst(self) -> float:
         """The largest of the four [of its own unit]; NaN if any of them is."""
-        return float(np.max(list(asdict(self).values())))
+        return float(np.max(list(vars(self).values())))
 
 
 def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:

@@ -40,21 +40,22 @@ RANGE = 2.0**-100, 2.0**100
 
 
 class Rounded(NamedTuple):
-    """An answer in natural units, with bounds of how far rounding has moved its sums [-].
+    """An answer in natural units, with bounds of how far rounding has moved its sums.
 
     Parameters
     ----------
     x, y : ndarray, shapes (n_v,) and (m,)
-        The answer, y >= 0.
+        The answer, y >= 0 [-].
     reach : ndarray, shape (n_c, n_v)
-        Above the absolute values that each contact's rows of A are summed of.
+        Above the absolute values that each contact's rows of A are summed of [-].
     slack, balance : ndarray, shapes (m,) and (n_v,)
-        A x - b and H x - g - A'y in float64.
+        A x - b and H x - g - A'y in float64 [-].
     off_slack : float
-        Bound of the error of a slack, but for u times its size.
+        Bound of the error of a slack, but for u times its size [-].
     off_balance : ndarray, shape (n_v,)
+        Bound of that of the balance [-].
     load : ndarray, shape (n_v,)
-        Above |g| and what it is summed of.
+        Above the absolute value of g, and of what it is summed of [-].
     """
 
     x: Array
@@ -101,7 +102,7 @@ class FloatBound:
         self._mu = self._weight = np.zeros(0)
 
     def fits(self, hessian: BallHessian, coordinate: Array) -> bool:
-        """Whether it is that of an H in balls and of these units, shape (n_v,) [m, rad]."""
+        """Whether it is that of an H in balls and of units `coordinate`, shape (n_v,) [m, rad]."""
         return hessian is self.hessian and coordinate is self.coordinate
 
     def error(
@@ -137,9 +138,19 @@ class FloatBound:
     def rounded(
         self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, y: Array
     ) -> Rounded:
-        """The sums of an answer, all in natural units [-]; arguments are those of :meth:`error`."""
+        """The sums of an answer.
+
+        Parameters
+        ----------
+        step, form, x
+            As in :meth:`error`.
+        units : (float, float)
+            As there: [m] and [-].
+        y : ndarray, shape (m,)
+            Multipliers, none of them below zero [-].
+        """
         (n,), (ell, rho), contacts = x.shape, units, step.contacts
-        reach = (np.abs(contacts.J) * self.weight(contacts.mu)).sum(axis=1)
+        reach = np.einsum("cij,ci->cj", np.abs(contacts.J), self.weight(contacts.mu))
         reach *= self.coordinate / ell
         target = np.abs(step.delta_q_bar_a) / (rho * self.coordinate[: step.n_a])
         load = np.abs(form.g) + 2 * (self.sizes[:, : step.n_a] @ target) + UNDERFLOW
@@ -155,10 +166,10 @@ class FloatBound:
         return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
 
     def weight(self, mu: Array) -> Array:
-        """How much of each row of J is in a row of A at most, shape (n_c, 4, 1), for a `mu`."""
+        """How much of each row of J is in a row of A at most, shape (n_c, 4), for a `mu`."""
         if mu is not self._mu:
             sliding = 1 + mu[:, :1]
-            self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])[:, :, None]
+            self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])
             self._mu = mu
         return self._weight
 
@@ -171,8 +182,8 @@ class FloatBound:
         """The way t ||d||_H and y'(A x' - b) at most [-]; None if no direction opens all rows."""
         if not at.y.size:
             return 0.0, 0.0
-        for anew in (False, True):
-            found = self.opening(step, anew)
+        for again in (False, True):
+            found = self.opening(step, again)
             if found is None:
                 return None
             d, length = found
@@ -185,9 +196,9 @@ class FloatBound:
                 return t * length, work + (at.off_slack + t * off) * float(at.y.sum())
         return None
 
-    def opening(self, step: StepData, anew: bool) -> tuple[Array, float] | None:
-        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `anew`."""
-        if anew or self._opening is None:
+    def opening(self, step: StepData, again: bool) -> tuple[Array, float] | None:
+        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `again`."""
+        if again or self._opening is None:
             d = opening_direction(step)
             if d is None:
                 return None

@@ -114,7 +114,7 @@ class NativeSolver(Solver):
         form, units, program = scaled.form, scaled.units, self.program
         S, ell, rho = units.coordinate, units.length, units.size
         if self.metric is not scaled.metric:
-            np.multiply(form.H, S[:, None] * S, out=program.H)
+            program.H[:] = scaled.metric.natural
             self.metric = scaled.metric
         np.multiply(form.g, S / -rho, out=program.f)
         np.multiply(form.A, S / ell, out=program.A)

@@ -79,7 +79,7 @@ class Scaled:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
-        return natural_form(self.form, self.units)
+        return natural_form(self.form, self.units, self.metric.natural)
 
     @property
     def unlike(self) -> float:

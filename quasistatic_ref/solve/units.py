@@ -58,6 +58,8 @@ class Metric:
         Of H [m^2/(N m s)].
     squared : ndarray, shape (n_v,)
         Squares of `coordinate` [m^2, rad^2].
+    natural : ndarray, shape (n_v, n_v)
+        H in natural units [-].
     usable : bool
         Whether all units are finite and positive.
     """
@@ -66,6 +68,7 @@ class Metric:
     coordinate: Array
     inverse: Array
     squared: Array
+    natural: Array
     usable: bool
 
 
@@ -74,7 +77,8 @@ def metric(H: Array) -> Metric:
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     inverse: Array = np.linalg.inv(H).astype(np.float64)
-    return Metric(H, coordinate, inverse, coordinate * coordinate, usable)
+    natural = H * np.outer(coordinate, coordinate)
+    return Metric(H, coordinate, inverse, coordinate * coordinate, natural, usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -145,12 +149,19 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
     return Units(coordinate, length, _power_of_two(size))
 
 
-def natural_form(form: StandardForm, units: Units) -> StandardForm:
-    """The same quadratic program in natural units, bit for bit that of :func:`to_natural`."""
+def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> StandardForm:
+    """The same quadratic program in natural units, bit for bit that of :func:`to_natural`.
+
+    Parameters
+    ----------
+    form : StandardForm
+    units : Units
+    H : ndarray, shape (n_v, n_v), optional
+        In these units, where it is known [-].
+    """
     S, ell, rho = units.coordinate, units.length, units.size
-    return StandardForm(
-        form.H * np.outer(S, S), form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell))
-    )
+    H = form.H * np.outer(S, S) if H is None else H
+    return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
 
 def to_natural(step: StepData, units: Units) -> StepData:

@@ -9,7 +9,12 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
-from quasistatic_ref.lab.study.bench.grasp import bare_daqp, by_compiled_code, places
+from quasistatic_ref.lab.study.bench.grasp import (
+    bare_daqp,
+    by_compiled_code,
+    places,
+    residual_over_off,
+)
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
 from quasistatic_ref.solve.scaled import Scaled
@@ -89,12 +94,14 @@ def test_each_promise_is_judged_by_its_limit():
     heaps = [{"contacts": 252, "seconds": 1.0}, {"contacts": 1040, "seconds": 0.059}]
     tables = {"roads": ROADS, "clouds": clouds, "exponents": {"bodies": 1.1, "contacts": None}}
     tables["heaps"] = heaps
+    tables["residual_over_off"] = 1.6
     judged = {p["what"]: p["holds"] for p in promises(tables)}
     assert judged == {
         "step over the bare solver": False,
         "through CVXPY over native": True,
         "rebuilt each step over native": False,
         "hand-written loop over native": True,
+        "bounded step over the same without": False,
         "1e6 points over 992": True,
         "tree of 1e6 points [s]": False,
         "heap of 1,040 contacts [ms]": True,
@@ -111,6 +118,10 @@ def test_compiled_steps_are_judged_where_there_are_any(at):
     assert promises({"roads": ROADS, "compiled": None}) == promises({"roads": ROADS})
     measured = by_compiled_code(at, 1)
     assert measured is None or set(measured) == set(compiled)
+
+
+def test_a_step_with_a_bound_costs_more_than_one_without(at):
+    assert residual_over_off(at, 2) > 1
 
 
 def test_the_page_says_why_mujoco_was_not_run(tmp_path):

@@ -228,6 +228,14 @@ def certification(at: Places, repeat: int) -> Mapping[str, Any]:
     return {kind: microseconds(t) for kind, t in times.items()}
 
 
+def residual_over_off(at: Places, repeat: int) -> float:
+    """A step with a bound of its error over one that claims nothing, both by NumPy [-]."""
+    run = {kind: _Run(by_numpy(replace(at.scenario, certify=kind)), at) for kind in CERTIFY[1:]}
+    rounds = [{kind: partial(run[kind].step, k) for kind in run} for k in range(len(at.q))]
+    times = in_turn(rounds, repeat, time.thread_time)
+    return ratio(times[CERTIFY[1]], times[CERTIFY[2]])
+
+
 def bare_daqp(program: Program) -> Callable[[], Any]:
     """``daqp.solve`` with nothing around it, of the program as it stands at the time of the call.
 

@@ -17,6 +17,7 @@ from quasistatic_ref.lab.study.bench.grasp import (
     certification,
     parts,
     places,
+    residual_over_off,
     roads,
 )
 from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
@@ -67,6 +68,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["parts"] = parts(some, 1 if quick else 2)
     tell("certification")
     found["certification"] = certification(some, 1 if quick else 2)
+    found["residual_over_off"] = residual_over_off(some, 1 if quick else 2)
     tell("mujoco")
     found["mujoco"] = mujoco_grasp(steps, repeat)
     tell("push")
