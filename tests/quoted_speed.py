@@ -112,7 +112,7 @@ HELD = [
     ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms at first with PIQP, "
      "{:.0f} ms over 100 steps (99th percentile {:.0f}), {:.0f} ms with the bound; {:.0f} ms at "
      "first with Clarabel", heap),
-    ("at most {:.0e} in all of these scenes with PIQP", bounds),
+    ("at most {:.1e} in all of these scenes with PIQP", bounds),
     ("Clarabel takes {:.1f} times as long for a row of 8 boxes if its arrays are dense",
      clarabel_dense),
     ("takes {:.1f} times the bare DAQP call", lambda: [promise("step over the bare solver")]),

@@ -60,7 +60,6 @@ SOLVED = (
     "unit/test_problem.py",
     "unit/test_cones.py",
 )
-LARGE = ("unit/test_sparse_bound.py", "unit/test_sizes.py")
 CURVED = ("unit/test_curved_pairs.py", "unit/test_distance.py")
 
 
@@ -89,12 +88,12 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/confirm.py": ("unit/test_confirm.py",),
     "certify/bound.py": ("unit/test_bound.py", *FORGED),
     "certify/rounded_bound.py": ("unit/test_rounded_bound.py",),
-    "certify/least_eigenvalues.py": LARGE,
-    "certify/opening.py": LARGE,
-    "certify/outward.py": LARGE,
-    "certify/sizes.py": LARGE,
-    "certify/sparse_bound.py": LARGE,
     "certify/exchange.py": ("unit/test_exchange.py",),
+    "certify/least_eigenvalues.py": ("unit/test_sparse_bound.py",),
+    "certify/opening.py": ("unit/test_sparse_bound.py",),
+    "certify/outward.py": ("unit/test_sparse_bound.py", "unit/test_sizes.py"),
+    "certify/sizes.py": ("unit/test_sizes.py", "unit/test_sparse_bound.py"),
+    "certify/sparse_bound.py": ("unit/test_sparse_bound.py",),
     "certify/gap.py": ("unit/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/test_judged.py", *FORGED),
@@ -175,14 +174,14 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/adapters/quadprog.py": SOLVERS,
     "solve/backends.py": SOLVERS,
     "solve/cone_problem.py": ("unit/test_standard_form.py", *SOLVERS),
-    "solve/engines.py": SOLVERS,
+    "solve/engines.py": ("unit/test_defaults.py", *SOLVERS),
     "solve/extended.py": SOLVERS,
     "solve/native.py": ("unit/test_native.py", "unit/test_units.py"),
     "solve/scaled.py": SOLVERS,
     "solve/second_order.py": ("unit/test_native.py", "unit/test_cones.py"),
     "solve/solve.py": SOLVED,
     "solve/solver.py": SOLVED,
-    "solve/sparse.py": SPARSE,
+    "solve/sparse.py": (*SPARSE, "unit/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
     "solve/through_qpsolvers.py": SOLVED,
     "solve/units.py": ("unit/test_units.py", *SOLVERS),

@@ -8,27 +8,27 @@ from quasistatic_ref.step.data import Array
 
 
 def above(values: Array) -> Array:
-    """The next float64 numbers above: bounds of what was rounded once, in the same unit [-]."""
+    """The next float64 numbers above `values`, shape (n,) or any [-]: bounds of one operation."""
     return np.asarray(np.nextafter(values, np.inf))
 
 
 def below(values: Array) -> Array:
-    """The next float64 numbers below, in the same unit [-]."""
+    """The next float64 numbers below `values`, shape (n,) or any [-]."""
     return np.asarray(np.nextafter(values, -np.inf))
 
 
 def up(value: float) -> float:
-    """The next float64 number above, in the same unit [-]."""
+    """The next float64 number above a `value` [-]."""
     return math.nextafter(value, math.inf)
 
 
 def down(value: float) -> float:
-    """The next float64 number below, in the same unit [-]."""
+    """The next float64 number below a `value` [-]."""
     return math.nextafter(value, -math.inf)
 
 
 def total(values: Array) -> float:
-    """An upper bound of a sum, in the same unit [-]: it is rounded once."""
+    """An upper bound of the sum of `values`, shape (n,) [-]: it is rounded once."""
     return up(math.fsum(values.tolist()))
 
 

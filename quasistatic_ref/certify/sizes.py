@@ -34,7 +34,7 @@ TINY = 2.0**-604
 
 
 def rounding(terms: int, sizes: Array) -> Array:
-    """What sums of so many terms may be off by, from the sums of sizes, as they are computed."""
+    """What sums of so many terms may be off by, shape (k,), from their `sizes` (k,) [-]."""
     D = terms + ROUNDINGS
     part = D * UNIT / (1 - 2 * D * UNIT)  # gamma_D / (1 - gamma_D)
     return above(math.nextafter(part, math.inf) * sizes + TINY)
@@ -49,7 +49,7 @@ class Sizes:
     blocks : Blocks
         Of the contacts; only sizes are taken of it.
     axes : ndarray, shape (n_c, 3, 3)
-        Sizes of n, d1 and d2.
+        Sizes of n, d1 and d2 [-].
     mu : ndarray, shape (n_c, 4)
         1, mu_v, mu_v and mu_omega [-, -, -, m].
     cone : ndarray, shape (R, 4)
@@ -59,7 +59,7 @@ class Sizes:
     coordinate : ndarray, shape (n_v,)
         Units of the coordinates over that of lengths, S / ell [1/m, rad/m].
     load : ndarray, shape (n_v,)
-        Of g.
+        Of g [-].
     row_terms, column_terms : int
         Most terms of a row of A, and of a column of A or a row of K_q.
     usable : bool

@@ -139,7 +139,7 @@ def free_length(form: LargeForm) -> float:
 
 
 def least_way(low: Array, opens: Array) -> float:
-    """A t >= 0 with low + t opens >= 0 in all rows, both shape (m,); infinite if none is found."""
+    """A t >= 0 [-] with low + t opens >= 0 for all rows, each (m,) [-]; infinite if unknown."""
     short = low < 0
     if not (opens[short] > 0).all():
         return math.inf
