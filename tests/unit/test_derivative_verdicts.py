@@ -103,12 +103,22 @@ def test_a_ladder_that_sticks_at_wall_and_floor_contradicts_itself():
     ends = PointCloud(np.array([[0.0, 0, 0], [-0.3, 0, 0.4]]))
     wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
     simulator, q = free(ends, (0.3, 0, 0), (FLOOR, (0, 0, 0)), (wall, (0, 0, 0)), mu=(0.9, 0.01))
-    found, kinds = verdict(simulator, q, np.array([0.0, 0, -30.0, 0, -2.0, 0]))
+    force = np.array([0.0, 0, -30.0, 0, -2.0, 0])
+    found, kinds = verdict(simulator, q, force)
     assert kinds >= {reason.CONTRADICTION}
-    (why,) = [why for why in found.reasons if why.kind == reason.CONTRADICTION][:1]
+    (why,) = [why for why in found.reasons if why.kind == reason.CONTRADICTION]
     assert set(why.where) == {"c0/0", "c1/1"}
     assert why.fields == ("dq_dq",)
     assert np.isfinite(found.dq_dtau).all()
+    kinked = np.isnan(found.dq_dq).any(axis=0)
+    move = simulator.system.integrate
+    for e, expected in zip(np.eye(6), kinked, strict=True):
+
+        def moved(t, e=e):
+            return after(simulator, found.result.q, move(q, t * e), NONE, force)
+
+        apart = np.abs(sided(moved) + sided(lambda t: moved(-t))).max()
+        assert (apart > 0.1) if expected else (apart < 1e-3)
 
 
 def test_a_box_that_lies_flat_and_sticks_on_four_corners_has_a_derivative():
