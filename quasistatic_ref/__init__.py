@@ -25,7 +25,6 @@ _HOMES = {
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
     "simulate.derivatives": "derivatives",
-    "simulate.gradient": "Derivatives",
     "simulate.smoothed": "smoothed",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",

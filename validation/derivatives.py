@@ -137,8 +137,8 @@ def row(name, found):
 def main():
     """Write the table; 1 if a promise does not hold."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--per-couple", type=int, default=6)
-    parser.add_argument("--states", type=int, default=12)
+    parser.add_argument("--per-couple", type=int, default=12)
+    parser.add_argument("--states", type=int, default=25)
     parser.add_argument("--out", type=Path)
     asked = parser.parse_args()
     rows = [row("pushes of all couples of shapes", list(pushes(asked.per_couple)))]

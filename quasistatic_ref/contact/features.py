@@ -167,10 +167,12 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
 
 
 def _around(r: float, n: Array) -> Array:
-    """D of a circle of radius r about the z axis, where its normal is n."""
+    """D of a circle of radius r about the z axis, where its normal is n; 0 if that is the axis."""
     radial = np.hypot(n[0], n[1])
-    around = np.array([-n[1], n[0], 0.0]) / (radial or 1.0)
-    return np.asarray(r / (radial or np.inf) * np.outer(around, around))
+    if radial <= ON_RIM:
+        return np.zeros((3, 3))
+    around = np.array([-n[1], n[0], 0.0]) / radial
+    return np.asarray(r / radial * np.outer(around, around))
 
 
 def _across(n: Array) -> Array:

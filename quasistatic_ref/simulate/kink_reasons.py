@@ -9,6 +9,7 @@ from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
+from quasistatic_ref.contact.spare_pairs import spare_pair
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.step_rates import StepRates
@@ -52,13 +53,14 @@ def geometry_reasons(
         if kink.kind == reason.TANGENTS and frictionless:
             continue
         reasons.append(Reason(kink.kind, (name,), FIELDS, f"{name} {kink.says}"))
-    return [*reasons, *_ties(simulator, result, kept, safe)]
+    return [*reasons, *_ties(simulator, result, rates, safe)]
 
 
 def _ties(
-    simulator: Simulator, result: StepResult, kept: Sequence[Couple], safe: Mask
+    simulator: Simulator, result: StepResult, rates: StepRates, safe: Mask
 ) -> Iterator[Reason]:
-    at = 0
+    """What other points a motion may bring in, pair by pair."""
+    kept, at = rates.couples, 0
     for pair in simulator.pairs:
         own = slice(at, at + pair.n_c)
         at += pair.n_c
@@ -70,6 +72,9 @@ def _ties(
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
             says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
             yield Reason(reason.POINTS, where, FIELDS, says)
+        jump = spare_pair(kept[own], points, rates.motion.J)
+        if jump is not None:
+            yield Reason(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
 
 
 def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:

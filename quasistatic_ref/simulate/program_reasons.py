@@ -60,8 +60,11 @@ def row_reasons(
     def fields(bad: Mask) -> tuple[str, ...]:
         return tuple(name for name, place in places.items() if bad[slice(*place)].any())
 
+    together: dict[tuple[str, ...], Mask] = {}
     for contacts, bad in found.contradicts:
         where = tuple(names[j] for j in sorted(contacts))
+        together[where] = together.get(where, np.zeros_like(bad)) | bad
+    for where, bad in together.items():
         says = f"the equations of {_listed(where)} would contradict each other"
         reasons.append(Reason(reason.CONTRADICTION, where, fields(bad), says))
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
