@@ -23,7 +23,13 @@ WILD = 1e3
 
 
 def derivative_cases() -> Iterator[Case]:
-    """Id, provenance and input of each case; those that ask nothing are left out."""
+    """Id, provenance and input of each case; those that ask nothing are left out.
+
+    Raises
+    ------
+    AssertionError
+        If a constructed kink is none of its kind.
+    """
     for name, why, table in kink_cases():
         kind = name.split("/")[2]
         if kinds_of(table) != {kind}:

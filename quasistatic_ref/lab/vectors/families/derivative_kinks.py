@@ -57,7 +57,14 @@ def onto(table: Json, name: str, shape: Json, pose: Json = ORIGIN, **more: Any) 
 
 
 def pushed(table: Json, force: list[float], torque: list[float] | None = None) -> Json:
-    """The same with a wrench on the body."""
+    """The same with a wrench on the body.
+
+    Parameters
+    ----------
+    table : dict
+    force, torque : list of float
+        World frame, shape (3,) [N, N m].
+    """
     wrench = {"body": "body", "force": force, "torque": torque or [0.0, 0.0, 0.0]}
     return {**table, "wrenches": [wrench]}
 

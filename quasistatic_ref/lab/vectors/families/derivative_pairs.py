@@ -134,8 +134,6 @@ def placed_at(rng: Rng, shapes: Json, moving: str, gap: float) -> tuple[Json, np
     other = shapes["beta" if moving == "alpha" else "alpha"]
     if other["kind"] == "halfspace":
         way = np.array(other["normal"]) + 0.3 * way
-    if shapes[moving]["kind"] == "halfspace":
-        raise ValueError("a half-space does not move")
     xyz, quaternion = way / np.linalg.norm(way) * 0.4, random_quaternion(rng)
     n = np.zeros(3)
     for _ in range(3):

@@ -53,7 +53,13 @@ def expected(case_input: Json) -> Expected:
 
 
 def own(case_input: Json) -> Json:
-    """The package's answer; it does not differentiate steps yet."""
+    """The package's answer.
+
+    Raises
+    ------
+    InputError
+        It does not differentiate whole steps yet.
+    """
     raise InputError("steps are not differentiated by the package", field="layer")
 
 
