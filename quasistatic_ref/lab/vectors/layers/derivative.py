@@ -33,6 +33,8 @@ SHARE: Final = 1e-9
 """Of the largest entry, or of what the free step would show: the tolerance."""
 QUIET: Final = 1e-3
 """Share of the free step's derivative: smaller ones are compared with that share."""
+STILL: Final = 1e-6
+"""Size of what is 0 because nothing pulls: neither contacts nor the free step move."""
 NOTHING: Final = fmpq(1, 1 << 60)
 """Share of the largest entry of a derivative below which an entry is written as 0."""
 
@@ -78,7 +80,7 @@ def _numbers(one: Base, found: Derivatives) -> Expected:
         field, largest = FIELDS[name], max(abs(x) for column in columns for x in column)
         rows = [[_float(x, largest) for x in row] for row in zip(*columns, strict=True)]
         output[field] = [row[0] for row in rows] if name == "h" else rows
-        size = max(float(largest), QUIET * free[name])
+        size = max(float(largest), QUIET * free[name]) or STILL
         tolerance[field] = Tolerance(float(f"{SHARE * size:.1e}"), _why(float(largest), free[name]))
     flags = {"differentiable": True, "switch": found.switch}
     return Expected(output, flags=flags, tolerance=tolerance)
