@@ -15,6 +15,8 @@ ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "validation" / "vectors"
 RUNNERS = ROOT / "validation" / "runners"
 JAVASCRIPT = LAYERS[1:7]
+NUMPY = LAYERS[:8]
+"""Layers that the runners answer."""
 
 
 @functools.cache
@@ -40,7 +42,7 @@ def right_answers(layer):
 @functools.cache
 def small_cases(layer):
     """Every third case of a layer, and of the steps the 24 with the least input."""
-    if layer == "step":
+    if layer in ("step", "derivative"):
         return tuple(sorted(cases(layer), key=lambda case: len(str(case.input)))[:24])
     return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
 

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
 from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
-from tests.vectors.material import ROOT, RUNNERS, runner
+from tests.vectors.material import NUMPY, ROOT, RUNNERS, runner
 from tests.vectors.programs import command
 from validation import planted_bugs
 
@@ -22,7 +22,7 @@ TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
 
 
 def numpy_runner(name, case):
-    return getattr(runner(), name)(case)
+    return getattr(runner(), name)(case) if name in NUMPY else None
 
 
 def test_a_right_function_is_found_right_in_every_layer():
@@ -88,7 +88,7 @@ def test_the_first_round_has_one_contact_and_round_numbers():
         assert float(f"{contact['mu_v']:.1g}") == contact["mu_v"]
 
 
-@pytest.mark.parametrize("name", LAYERS)
+@pytest.mark.parametrize("name", LAYERS[:8])  # derivatives have the inputs of steps
 def test_every_move_makes_another_input_and_some_are_valid(name):
     case, _ = fresh_case(name, (0, 1, 0), PLAIN)
     text = json.dumps(case)

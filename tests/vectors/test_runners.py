@@ -16,8 +16,7 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
-from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.vectors.material import JAVASCRIPT, RUNNERS, VECTORS, cases
+from tests.vectors.material import JAVASCRIPT, NUMPY, RUNNERS, VECTORS, cases
 from validation import planted_bugs
 
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}
@@ -44,8 +43,8 @@ def javascript_answers(tmp_path_factory):
     return out
 
 
-def test_the_numpy_runner_passes_every_layer(numpy_answers):
-    report = check_answers(numpy_answers, VECTORS, LAYERS)
+def test_the_numpy_runner_passes_layers_1_to_8(numpy_answers):
+    report = check_answers(numpy_answers, VECTORS, NUMPY)
     assert report.ok, report.sentences
     assert all(layer.count("passed") > 0 for layer in report.layers)
 

@@ -336,7 +336,7 @@ def test_a_planted_bug_of_the_table_is_named_too(name, monkeypatch):
 
 
 def test_every_mistake_that_is_recognised_is_planted():
-    known = {hypothesis.name for hypothesis in HYPOTHESES}
+    known = {one.name for one in HYPOTHESES if set(one.predictions) - {"derivative"}}
     assert known == {bug["mistake"] for bug in planted_bugs().values()} - {""}
     assert len(known) == 36
 

@@ -18,6 +18,11 @@ from quasistatic_ref.lab.vectors.challenge.terms import terms
 from quasistatic_ref.lab.vectors.challenge.valid import is_valid
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families import rows as rows_family
+from quasistatic_ref.lab.vectors.families.derivative import (
+    derivative_at_random,
+    hangs_on_rounding,
+    is_tame,
+)
 from quasistatic_ref.lab.vectors.families.distance import SHAPES, mixed_points
 from quasistatic_ref.lab.vectors.families.integrate import step_at_random
 from quasistatic_ref.lab.vectors.families.jacobian import with_contacts
@@ -83,6 +88,9 @@ def record_of(name: str, case: Json) -> Json | None:
         tolerance["absolute"] *= MARGIN
     output, flags = record["output"], record["flags"]
     if name == "step" and (flags["tie"] or not _definite(output["H"])):
+        return None
+    smooth = name == "derivative" and output["differentiable"]
+    if smooth and (not is_tame(output) or hangs_on_rounding(case)):
         return None
     beyond = max(map(abs, output.get("delta_q", [])), default=0.0) > FARTHEST
     return None if beyond else record
@@ -216,4 +224,5 @@ MAKERS: Final[dict[str, Callable[[Rng, int], Json]]] = {
     "wrench": _wrench,
     "integrate": _integrate,
     "step": lambda rng, level: random_scene(rng, level == HARD),
+    "derivative": derivative_at_random,
 }

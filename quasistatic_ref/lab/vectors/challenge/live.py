@@ -23,7 +23,7 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 
 ROUND: Final = {
     "distance": 4, "selection": 4, "jacobian": 6, "rows": 6, "qp": 6, "wrench": 6,
-    "integrate": 6, "step": 8,
+    "integrate": 6, "step": 8, "derivative": 2,
 }  # fmt: skip
 """Cases of each layer in a round."""
 

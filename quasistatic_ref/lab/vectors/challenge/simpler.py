@@ -31,7 +31,7 @@ def few(value: Json, digits: int) -> Json:
 
 def rounded_case(name: str, case: Json) -> Json:
     """The same with numbers of one digit and frames along the axes; a whole step as it is."""
-    if name == "step":
+    if name in ("step", "derivative"):
         return case  # rounded, what nearly touches would not
     changed = few(case, 1)
     for contact in changed.get("contacts", []):

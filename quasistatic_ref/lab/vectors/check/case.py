@@ -7,6 +7,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.compare import CONTACT, OPTIONAL, differences, shape_problem
+from quasistatic_ref.lab.vectors.check.derivative import derivative_verdict
 from quasistatic_ref.lab.vectors.check.freedoms import (
     FREEDOMS,
     aligned,
@@ -40,6 +41,8 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     Verdict
         Its id is empty.
     """
+    if layer == "derivative":
+        return derivative_verdict(record, answer)
     expected = record["output"]
     if layer in ("qp", "step") and isinstance(answer, dict):
         if "farkas" in answer and "farkas" in expected:

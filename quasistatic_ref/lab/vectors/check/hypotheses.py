@@ -15,6 +15,7 @@ from quasistatic_ref.lab.vectors.check.predictions import (
     times,
 )
 from quasistatic_ref.lab.vectors.check.wrong_contacts import mu_omega, of_rows, with_mu_omega
+from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.check.wrong_steps import PLACED
 
 HYPOTHESES: Final = (
@@ -186,5 +187,6 @@ HYPOTHESES: Final = (
         },
     ),
     *FORCES_AND_ORDERS,
+    *DERIVATIVES,
 )
 """Tried in this order; of equally good explanations all are named."""

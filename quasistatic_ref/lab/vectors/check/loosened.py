@@ -3,6 +3,7 @@
 from quasistatic_ref.lab.vectors.check.compare import leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import NEGLIGIBLE
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.derivative import SHARE
 from quasistatic_ref.lab.vectors.layers.qp import UNIQUE
 
 
@@ -10,7 +11,8 @@ def loosened(record: Json, digits: float) -> Json:
     """What is expected of a program that rounds to `digits` [-], or stops there.
 
     Every tolerance is what float64's would be with that unit of rounding, 10^-digits in the place
-    of 1e-16, and at least 10^-digits of the largest number of its field. Whole numbers stay.
+    of 1e-16 (of derivatives: of 1e-9), and at least 10^-digits of the largest number of its field.
+    Whole numbers stay.
 
     Parameters
     ----------
@@ -20,11 +22,12 @@ def loosened(record: Json, digits: float) -> Json:
     """
     unit, wide = 10.0**-digits, {}
     flags = dict(record["flags"])
+    rounding = SHARE if "differentiable" in record["output"] else 1e-16
     for field, value in parts(record["output"]).items():
         numbers = [abs(v) for _, v in leaves(value) if isinstance(v, float)]
         exact = tolerance_of(record["tolerance"], field)
         if numbers and field != "farkas":
-            wide[field] = {"absolute": max(exact * unit * 1e16, unit * max(numbers))}
+            wide[field] = {"absolute": max(exact * unit / rounding, unit * max(numbers))}
         if field == "lam" and numbers:
             known = wide[field]["absolute"] <= UNIQUE * max(numbers)
             flags["unique_multipliers"] = flags["unique_multipliers"] and known

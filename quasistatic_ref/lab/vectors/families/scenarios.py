@@ -8,6 +8,7 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.derivative import kinds_of
 from quasistatic_ref.lab.vectors.families.rows import rows_input
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import (
     mechanism_of,
@@ -68,6 +69,8 @@ def _cases(name: str, scenario: Scenario, say: Say) -> Found:
                 case["wrenches"] = _wrenches(scenario, t)
             where = f"step {k} of the scenario {name}"
             yield from _whole(f"step/{name}/{k}", where, case, say)
+            if k == starts[-1] and kinds_of(case) == set():
+                yield "derivative", Case(f"derivative/{name}/{k}", where, case)
             if k in starts[1:]:
                 kinematics = system.kinematics(q)
                 yield from _parts(f"{name}/{k}", where, scenario, case, result, kinematics)

@@ -12,6 +12,7 @@ from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.whole.along import with_held_wrenches
 from quasistatic_ref.lab.vectors.whole.derivatives import Derivatives, derivatives
 from quasistatic_ref.lab.vectors.whole.differences import Base, base
 from quasistatic_ref.lab.vectors.whole.nearby import Touching
@@ -28,23 +29,23 @@ FIELDS: Final = {
     "m": "dq_dm",
 }
 """Name of each derivative in the output, a matrix of n_v rows; of h a list."""
-MOST: Final = 28
-"""Columns of a derivative: one by a larger K_q is left out."""
 SHARE: Final = 1e-9
 """Of the largest entry, or of what the free step would show: the tolerance."""
 QUIET: Final = 1e-3
-"""A derivative that is smaller than that beside the free step's is compared with the latter."""
+"""Share of the free step's derivative: smaller ones are compared with that share."""
+STILL: Final = 1e-6
+"""Size of what is 0 because nothing pulls: neither contacts nor the free step move."""
 NOTHING: Final = fmpq(1, 1 << 60)
-"""Beside the largest entry of its derivative, an entry that is smaller is 0."""
+"""Share of the largest entry of a derivative below which an entry is written as 0."""
 
 
 def expected(case_input: Json) -> Expected:
     """Every derivative in float64; or why there is none."""
     try:
-        one = base(case_input)
+        one = base(with_held_wrenches(case_input))
     except Touching:
         listed = touching_pairs(case_input)
-        if not listed:
+        if not listed:  # apart or in penetration the pair has derivatives, but no closed form
             raise
         return _verdict([{"kind": "touching", "pair": p, "index": [0], "rows": []} for p in listed])
     found = derivatives(one)
@@ -54,7 +55,13 @@ def expected(case_input: Json) -> Expected:
 
 
 def own(case_input: Json) -> Json:
-    """The package's answer; it does not differentiate steps yet."""
+    """The package's answer.
+
+    Raises
+    ------
+    InputError
+        It does not differentiate whole steps yet.
+    """
     raise InputError("steps are not differentiated by the package", field="layer")
 
 
@@ -68,12 +75,12 @@ def _numbers(one: Base, found: Derivatives) -> Expected:
     tolerance = {}
     free = _free(one)
     for name, columns in found.columns.items():
-        if not columns or len(columns) > MOST:
+        if not columns:
             continue
         field, largest = FIELDS[name], max(abs(x) for column in columns for x in column)
         rows = [[_float(x, largest) for x in row] for row in zip(*columns, strict=True)]
         output[field] = [row[0] for row in rows] if name == "h" else rows
-        size = max(float(largest), QUIET * free[name])
+        size = max(float(largest), QUIET * free[name]) or STILL
         tolerance[field] = Tolerance(float(f"{SHARE * size:.1e}"), _why(float(largest), free[name]))
     flags = {"differentiable": True, "switch": found.switch}
     return Expected(output, flags=flags, tolerance=tolerance)
@@ -98,7 +105,7 @@ def _free(one: Base) -> dict[str, float]:
     # lam = lam_unit y with H in other units: H^-1 in SI is x_unit / net_unit of the form's.
     unit = form.x_unit / form.net_unit
     flexible = float(max((abs(v) for v in inverse.entries()), default=fmpq(0)) * unit)
-    K: Vector = [abs(v) for row in case["K_q"] for v in row if v]
+    K: Vector = [row[j] for j, row in enumerate(case["K_q"])]
     masses = [body["mass"] for body in case["mechanism"]["bodies"] if body.get("mass")]
     pairs = case["pairs"]
     return {

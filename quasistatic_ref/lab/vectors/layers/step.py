@@ -199,6 +199,12 @@ def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
     """Generalised forces besides the stiffness: gravity where nothing is actuated, and wrenches."""
     weight = gravity_force(tree, at, case["gravity"])
     tau: Vector = [fmpq(0)] * tree.n_a + weight[tree.n_a :]
+    return [x + y for x, y in zip(tau, wrench_force(tree, at, case), strict=True)]
+
+
+def wrench_force(tree: Mechanism, at: Poses, case: Json) -> Vector:
+    """Generalised force of a case's wrenches, of n_v numbers [N, N m]."""
+    tau: Vector = [fmpq(0)] * tree.n_v
     for wrench in case.get("wrenches", []):
         k = tree.number(wrench["body"])
         if k is None:

@@ -15,7 +15,9 @@ from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, root
 from quasistatic_ref.lab.vectors.exact.rotation import quaternion_product, rotation
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import on_grid, working
+from quasistatic_ref.lab.vectors.layers.step import wrench_force
+from quasistatic_ref.lab.vectors.whole.grid import on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.whole.world import world
 
 
 def curved(tree: Mechanism, q: Sequence[Real], way: Vector) -> Vector:
@@ -80,6 +82,14 @@ def with_force(case: Json, way: Vector) -> Json:
     return {**case, "tau": add(case["tau"], way) if "tau" in case else way}
 
 
+def with_held_wrenches(case: Json) -> Json:
+    """The case with its wrenches as the generalised force ``tau`` that they are at its q."""
+    at = world(case)
+    with working():
+        tau = vector_on_grid(wrench_force(at.tree, at.at, case))
+    return {**case, "wrenches": [], "tau": tau}
+
+
 def with_friction(case: Json, name: str, pair: int, by: Real) -> Json:
     """The case with another coefficient of one of its pairs, ``mu_v`` or ``mu_omega``."""
     pairs = [dict(one) for one in case["pairs"]]
@@ -87,12 +97,10 @@ def with_friction(case: Json, name: str, pair: int, by: Real) -> Json:
     return {**case, "pairs": pairs}
 
 
-def with_stiffness(case: Json, i: int, j: int, by: Real) -> Json:
-    """The case with other K_q[i][j] and K_q[j][i]."""
+def with_stiffness(case: Json, j: int, by: Real) -> Json:
+    """The case with another K_q[j][j]."""
     K = [numbers(row) for row in case["K_q"]]
-    K[i][j] += by
-    if i != j:
-        K[j][i] += by
+    K[j][j] += by
     return {**case, "K_q": K}
 
 

@@ -59,14 +59,13 @@ def moves(one: Base) -> dict[str, list[Move]]:
     tree, case = one.at.tree, one.at.case
     n, n_a, pairs = tree.n_v, tree.n_a, range(len(case["pairs"]))
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
-    upper = [(i, j) for i in range(n_a) for j in range(i, n_a)]
     found: dict[str, list[Move]] = {
         "q": [partial(_along_q, tree, _way(n, j)) for j in range(n)],
         "q_bar_a": [partial(_along_target, tree, _way(n_a, j)) for j in range(n_a)],
         "tau": [partial(_along_force, _way(n, j)) for j in range(n)],
         "mu_v": [partial(_along_friction, "mu_v", p) for p in pairs],
         "mu_omega": [partial(_along_friction, "mu_omega", p) for p in pairs],
-        "K_q": [partial(_along_stiffness, i, j) for i, j in upper],
+        "K_q": [partial(_along_stiffness, j) for j in range(n_a)],
         "h": [along.with_time],
         "m": [partial(_along_mass, k) for k in masses],
     }
@@ -96,8 +95,8 @@ def _along_friction(name: str, pair: int, case: Json, by: fmpq) -> Json:
     return along.with_friction(case, name, pair, by)
 
 
-def _along_stiffness(i: int, j: int, case: Json, by: fmpq) -> Json:
-    return along.with_stiffness(case, i, j, by)
+def _along_stiffness(j: int, case: Json, by: fmpq) -> Json:
+    return along.with_stiffness(case, j, by)
 
 
 def _along_mass(body: int, case: Json, by: fmpq) -> Json:

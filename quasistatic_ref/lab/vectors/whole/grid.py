@@ -3,7 +3,7 @@
 Roots, sines and quotients have no end; each is taken as the nearest multiple of 2^-320, and stays
 one of these multiples from the mechanism to q+. Sums and products of such numbers are exact, so
 that every comparison has an answer; what float64 writes is a multiple already. A difference
-quotient over 2 * 2^-66 thus keeps more than 70 decimal places.
+quotient over 2 * 2^-100 thus keeps more than 60 decimal places.
 """
 
 from collections.abc import Sequence
@@ -21,9 +21,9 @@ PRECISION: Final = BITS + 96
 """Bits of a ball on the way to the grid."""
 SMALL: Final = fmpq(1, 1 << 200)
 """What is smaller counts as 0: it comes from numbers that were moved to the grid."""
-STEP: Final = fmpq(1, 1 << 66)
-"""Of a central difference: 1.4e-20; its square is what the quotient is off by."""
-OTHER_STEP: Final = fmpq(3, 1 << 64)
+STEP: Final = fmpq(1, 1 << 100)
+"""Of a central difference: 8e-31; its square is what the quotient is off by."""
+OTHER_STEP: Final = fmpq(3, 1 << 98)
 """A second one, to prove the digits."""
 
 

@@ -1,7 +1,7 @@
 """Candidates of a pair of shapes without rounding, and the contacts that are kept of them.
 
 What a step keeps is decided as in the layer ``step``, but on numbers of the grid. Of all
-candidates at one configuration, a *pool* is those that a change of 1e-20 can bring among the kept
+candidates at one configuration, a *pool* is those that a change of 1e-30 can bring among the kept
 ones: distances change by no more than bodies move.
 """
 

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.vectors.whole.step import Contact, rows
 KINDS: Final = ("row", "selection", "feature", "tangents", "touching", "multipliers")
 BEND: Final = fmpq(1, 10**12)
 """A second difference over eps that is larger is a jump of the derivative: that of a smooth q+ is
-its second derivative times 1.4e-20."""
+its second derivative times 8e-31."""
 
 
 def reasons(one: Base, found: Sequence[Quotient]) -> list[Json]:
@@ -32,7 +32,7 @@ def reasons(one: Base, found: Sequence[Quotient]) -> list[Json]:
     listed = [*_rows(one), *_selections(one, touching)]
     for k in touching:
         contact = one.contacts[k]
-        if any(_bends(_place(contact), k, q, _place) for q in found):
+        if any(_bends(one.contacts, k, q, _place) for q in found):
             listed.append(_reason("feature", one, contact))
         elif any(_turns(one, k, q) for q in found):
             listed.append(_reason("tangents", one, contact))
@@ -44,8 +44,8 @@ def switches(one: Base, found: Sequence[Quotient]) -> bool:
     if _rows(one) or _selections(one, range(len(one.contacts))):
         return True
     return any(
-        _bends(part(contact), k, q, part)
-        for k, contact in enumerate(one.contacts)
+        _bends(one.contacts, k, q, part)
+        for k in range(len(one.contacts))
         for q in found
         for part in (_place, _frame)
     )
@@ -115,15 +115,21 @@ def _frame(contact: Contact) -> Vector:
     return [*contact.d1, *contact.d2]
 
 
-def _bends(own: Vector, k: int, found: Quotient, part: Callable[[Contact], Vector]) -> bool:
-    """Whether the second difference of a contact's numbers does not vanish."""
+def _bends(
+    own: Sequence[Contact], k: int, found: Quotient, part: Callable[[Contact], Vector]
+) -> bool:
+    """Whether the second difference of a contact's numbers does not vanish; of another, no."""
     (_, ahead), (_, behind) = found.sides
-    both = zip(own, part(ahead[k]), part(behind[k]), strict=True)
+    if len({contacts[k].near.index for contacts in (own, ahead, behind)}) > 1:
+        return False
+    both = zip(part(own[k]), part(ahead[k]), part(behind[k]), strict=True)
     return any(abs(x + y - 2 * z) > BEND * STEP for z, x, y in both)
 
 
 def _turns(one: Base, k: int, found: Quotient) -> bool:
     """Whether the rows of a contact, as a set, jump or bend."""
+    if len({side[1][k].near.index for side in found.sides} | {one.contacts[k].near.index}) > 1:
+        return False
     own, *sides = (
         rows(one.at.case, [contacts[k]])[0]
         for contacts in (one.contacts, found.sides[0][1], found.sides[1][1])

@@ -70,7 +70,7 @@ class Solved:
 
 
 Change: TypeAlias = Callable[[World, Near], Near]
-"""What somebody takes a contact for, who is mistaken."""
+"""A mistake: from a contact to what it is taken for."""
 
 
 def tangents(n: Vector) -> tuple[Vector, Vector]:
