@@ -300,6 +300,18 @@ MEANT = {
         "mu_omega = 1 mm",
         "ProxQP 0.8 calls",
     ],
+    "docs/reality.md": [
+        "a round finger of 9.5 mm",
+        "about 44 mm",
+        "a 95 % interval",
+        "| 95 % |",
+        "(95 %)",
+        "with 95 % intervals",
+        "in steps of 1 mm",
+        "1 mm / ($\\mu_v g h^2$) = 0.0014",
+        "the same to 1 mm",
+        "it is not 4.75 mm",
+    ],
     "docs/speed.md": [
         "a step takes less than 90 us",
         '"less than 90 μs"',

@@ -151,13 +151,26 @@ PHRASES = {
                 lambda: [f([variant(f"pyramid, axes at {a} degrees")[k] for a in ("0", "22.5",
                          "45")]) for k in (0, 1) for f in (min, max)]),
     "base": ("the ellipsoid by {:.1f} mm and {:.1f} degrees", lambda: variant("ellipsoid")),
-    "cancel": ("{:.2f} mm and {:.2f} degrees at most", lambda: farthest(*CANCEL)),
+    "cancel": ("less than {:.2f} mm and {:.2f} degrees", lambda: farthest(*CANCEL) + 0.005),
     "steps_changed": ("{:.2f} mm and {:.2f} degrees", lambda: farthest("steps of 0.5 mm")),
-    "ties_changed": ("{:.1f} mm and {:.1f} degrees", lambda: np.abs(
+    "ties_changed": ("{:.2f} mm and {:.2f} degrees", lambda: np.abs(
         [np.array(variant(name)) - variant("pyramid, axes at 0 degrees") for name in tie_breaks()]
     ).max(0)),
-    "ties_spread": ("{:.1f} mm and {:.1f} degrees", lambda: [ties("median [mm]"),
-                                                            ties("median [deg]")]),
+    "ties_spread": ("{:.1f} mm and {:.1f} degrees", lambda: [ties("95th percentile [mm]"),
+                                                            ties("95th percentile [deg]")]),
+    "facets": ("facets-16 is off by {:.1f} mm and {:.1f} degrees, with the ratio identified for it "
+               "by {:.1f} mm and {:.1f} degrees",
+               lambda: [*variant("facets-16"), *variant("facets-16, ratio identified for it")]),
+    "torsion": ("predictions are off by {:.1f} mm and {:.1f} degrees, with half of it by {:.1f} mm "
+                "and {:.1f} degrees",
+                lambda: [*variant("no torsion"), *variant("half of the torsion")]),
+    "finger": ("With 0.15 in its place predictions are off by {:.2f} mm and {:.2f} degrees, with "
+               "0.35 by {:.2f} mm and {:.2f} degrees, with the fitted values by {:.2f} mm and "
+               "{:.2f} degrees", lambda: [x for value in ("0.15", "0.35", "fitted")
+                                   for x in variant(f"finger's friction {value}")]),
+    "ratio": ("with the published ratios in place of ours by {:.2f} mm and {:.2f} degrees, with "
+              "the reverse ones by {:.2f} mm and {:.2f} degrees",
+              lambda: [*variant("ratio published"), *variant("ratio reverse")]),
     "clouds": ("9 points are off by {:.2f} mm and {:.2f} degrees, 25 points by {:.2f} mm and "
                "{:.2f} degrees, the patch by {:.2f} mm and {:.2f} degrees",
                lambda: [*variant("9 points"), *variant("25 points"), *variant("ellipsoid")]),
@@ -174,7 +187,7 @@ PHRASES = {
              lambda: [x for kind in ("sticks", "slides", "both") for x in (
                  *residual("by grip of the finger", kind, "mean"),
                  residual("by grip of the finger", kind, "pushes"))]),
-    "tripods": ("by {:.0f} to {:.0f} % of the median turn", lambda: [min(tripods()),
+    "tripods": ("{:.0f} to {:.0f} % of the median turn", lambda: [min(tripods()),
                                                                     max(tripods())]),
     "tripods_pyramid": ("With the pyramid it is {:.0f} to {:.0f} %", pyramids),
     "tripods_16": ("with 16 facets {:.0f} to {:.0f} %", lambda: [min(tripods("facets-16")),

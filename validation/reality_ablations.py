@@ -49,7 +49,6 @@ VARIANTS: dict[str, dict[str, Any]] = {
     "facets-16, ratio identified for it": {"cone": "facets-16", "ratio": "facets-16"},
     **{f"pyramid, tie broken by a {name}": PYRAMID | {"nudge": n} for name, n in TIES.items()},
     "pyramid, tie broken by gyration 4 mm": PYRAMID | {"gyration": 0.004},
-    "pyramid, tie broken by gyration 0.4 m": PYRAMID | {"gyration": 0.4},
     "9 points": QUICK | {"points": 9},
     "25 points": QUICK | {"points": 25},
     "steps of 2 mm": QUICK | {"advance": 2e-3},

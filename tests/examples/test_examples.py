@@ -69,7 +69,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 29
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 33
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -153,6 +153,16 @@ def test_a_slider_turns_as_lynch_says_when_it_is_slow():
     slow, fast, law = found.T
     np.testing.assert_allclose(slow, 1.0, atol=2e-3)  # Pi (1 - (rho / c)^2), Pi = 1e-3
     np.testing.assert_allclose(fast, law, rtol=ROUNDING)
+
+
+def test_the_ellipsoid_predicts_measured_pushes_far_better_than_the_pyramid():
+    ratio, moved, turned, *errors = numbers("which_cone_is_real").values()
+    # A square of side a under a uniform pressure: a / 6 (sqrt 2 + log(1 + sqrt 2)), a = 90 mm.
+    uniform = 90 / 6 * (np.sqrt(2) + np.log(1 + np.sqrt(2)))
+    assert ratio == pytest.approx(uniform, rel=0.1)
+    ellipsoid, pyramid = np.array(errors).reshape(2, 2)
+    assert (ellipsoid < np.array([moved, turned]) / 3).all()
+    assert (pyramid > 1.5 * ellipsoid).all()
 
 
 def test_finger_and_block_go_where_the_two_equations_say():

@@ -70,7 +70,7 @@ def test_values_of_options_are_offered(offered):
     cones = offered("run", "block_push", "--cone", "")
     assert len([cone(name) for name in cones]) == len(CONES)  # each is one that can be asked for
     assert offered("run", "block_push", "--out", "") == {"inner"}
-    assert offered("validate", "") == set(BY_NAME)
+    assert offered("validate", "") == {*BY_NAME, "reality"}
     assert offered("verify", "") == {"scene.toml", "notes.txt", "arm.urdf", "inner"}
 
 

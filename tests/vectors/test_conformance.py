@@ -73,7 +73,7 @@ def words_of(svg):
 def test_all_layers_passed_are_said_as_all_and_counted(whole):
     found, files = whole
     cases = sum(SIZE.values())
-    assert found.message == f"all 8 layers: {cases}/{cases}"
+    assert found.message == f"all 9 layers: {cases}/{cases}"
     texts, colours = words_of(files["badge.svg"])
     assert texts == [LABEL, found.message]
     assert badge.GREEN in colours
@@ -85,7 +85,7 @@ def test_all_layers_passed_are_said_as_all_and_counted(whole):
 
 def test_layers_that_are_not_answered_are_not_in_the_badge_and_said_on_the_page(two):
     found, files = two
-    assert found.message.startswith(f"2 of 8 layers: rows {SIZE['rows']}/{SIZE['rows']}, wrench ")
+    assert found.message.startswith(f"2 of 9 layers: rows {SIZE['rows']}/{SIZE['rows']}, wrench ")
     silent = ", ".join(name for name in LAYERS if name not in ("rows", "wrench"))
     assert f"Layers that are not answered: {silent}." in files["report.md"]
     row = f"| qp | not answered | {SIZE['qp']} | - | - | - | - | - |"
@@ -112,7 +112,7 @@ def test_answers_in_part_are_not_counted_as_passed(tmp_path):
     answers = answered(tmp_path / "answers", ["step"], up_to_A_and_b)
     found, files = made(answers, tmp_path / "out")
     assert found.report.ok
-    assert found.message == f"1 of 8 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
+    assert found.message == f"1 of 9 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
     assert badge.AMBER in words_of(files["badge.svg"])[1]
     assert "nothing is said of contacts, delta_q" in files["report.md"]
 
@@ -124,7 +124,7 @@ def test_fewer_digits_are_in_the_badge_where_they_were_needed_and_only_there(tmp
     answers = answered(tmp_path / "answers", ("rows", "integrate"), rounded)
     found, files = made(answers, tmp_path / "six", digits=6)
     sizes = f"rows {SIZE['rows']}/{SIZE['rows']} to 6 digits, integrate {SIZE['integrate']}"
-    assert found.message == f"2 of 8 layers: {sizes}/{SIZE['integrate']}"
+    assert found.message == f"2 of 9 layers: {sizes}/{SIZE['integrate']}"
     assert badge.AMBER in words_of(files["badge.svg"])[1]
     assert "right to 6 digits were accepted" in files["report.md"]
     found, files = made(answers, tmp_path / "all")
@@ -138,7 +138,7 @@ def test_steps_in_part_and_to_fewer_digits_are_still_said_to_be_in_part(tmp_path
         return {name: np.float32(output[name]).tolist() for name in ("H", "g")}
 
     found, _ = made(answered(tmp_path / "answers", ["step"], coarse), tmp_path / "out", digits=6)
-    assert found.message == f"1 of 8 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
+    assert found.message == f"1 of 9 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
 
 
 def test_a_layer_whose_file_is_not_as_it_should_be_is_said_to_be_that(tmp_path):
@@ -248,7 +248,7 @@ def test_the_command_says_what_was_passed_and_ends_with_the_status_of_the_check(
     assert main([*given, "--implementation", "other 2"]) == 0
     said, *wrote = capsys.readouterr().out.splitlines()
     size = SIZE["selection"]
-    assert said == f"{LABEL}: 1 of 8 layers: selection {size}/{size}"
+    assert said == f"{LABEL}: 1 of 9 layers: selection {size}/{size}"
     names = ("report.html", "report.md", "badge.svg", "digits.svg", "report.json")
     assert wrote == [f"wrote {out / name}" for name in names]
     assert (out / "report.md").read_text().startswith(f"# other 2 and the {LABEL}\n")

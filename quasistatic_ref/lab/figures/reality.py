@@ -77,7 +77,8 @@ def errors_by_pair(record: Record, within: Any = None) -> Figure:
         _spans(axes, [e["error"] for e in entries], k, -0.15, marker="o", label="ellipsoid, 95 %")
         _spans(axes, [e["published"] for e in entries], k, 0.15, marker="s", markerfacecolor="none",
                label="published simulator")  # fmt: skip
-        _named(axes, ["mean over pairs" if name == "all" else name for name in names])
+        shown = ["mean over pairs" if name == "all" else name for name in names]
+        _named(axes, [""] * len(shown) if k else shown)
         axes.set_xlim(left=0)
         labelled(axes, f"mean error of the {unit}", key=False)
     legend_below(both, both[0].get_legend_handles_labels()[0])
@@ -90,19 +91,19 @@ def ablations(record: Record, names: Sequence[str], within: Any = None) -> Figur
     entries = [record["variants"][name]["error"] for name in names]
     for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
         _spans(axes, entries, k, 0.0, marker="o")
-        _named(axes, names)
+        _named(axes, [""] * len(names) if k else names)
         axes.set_xlim(left=0)
-        labelled(axes, f"mean error of the {unit}", key=False)
+        labelled(axes, f"error of the {unit}", key=False)
     return figure
 
 
 def tripods(record: Record, within: Any = None) -> Figure:
     """Median error of the turn over the median turn, by set of supports and by cone."""
-    figure, (axes,) = panels(5.6, 2.8, within=within)
+    figure, (axes,) = panels(6.3, 2.8, within=within)
     variants = {
         "ellipsoid": ["ellipsoid"],
         "facets-16": ["facets-16"],
-        "pyramid, axes at 0, 22.5, 45 deg": [
+        "pyramid, three angles": [
             name for name in record["variants"] if name.startswith("pyramid")
         ],
     }

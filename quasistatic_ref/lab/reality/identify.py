@@ -160,7 +160,7 @@ def fisher_information(loads: Loads, c: float, rho: float) -> float:
 
 
 def concentration(mean: float) -> float:
-    """The kappa [-] of a von Mises-Fisher distribution whose `mean` cosine is coth k - 1 / k [-]."""
+    """The kappa [-] of a von Mises-Fisher distribution of a `mean` cosine coth k - 1 / k [-]."""
     low, high = 0.0, 1e9
     for _ in range(200):
         k = (low + high) / 2
@@ -226,7 +226,7 @@ def best_ratio(loss: Callable[[float], float]) -> float:
 def drawn_ratios(
     loads: Loads, losses: Callable[[Loads, float], Array], ratio: float, seed: int
 ) -> Array:
-    """Best ratios of loads drawn with replacement, shape (DRAWS,) [m]; that of all is `ratio` [m]."""
+    """Best ratios of loads drawn with replacement, shape (DRAWS,) [m], around `ratio` [m]."""
     fine = np.concatenate([GRID[::8], ratio * np.geomspace(0.5, 2.0, 401)])
     table = np.array([losses(loads, c) for c in fine])
     count = table.shape[1]

@@ -80,7 +80,7 @@ def evidence() -> Evidence:
 CLAIM = Claim(
     name="measured_pushes",
     sentence="With one number for each object and surface, mu_omega / mu_v identified from "
-    "measured loads alone, the ellipsoid predicts measured pushes as well as the published "
+    "measured loads alone, the ellipsoid predicts measured pushes about as well as the published "
     "simulator made for them; the pyramid does not.",
     where="docs/reality.md; data of Yu, Bauza, Fazeli & Rodriguez (2016), as processed by Zhou et "
     "al. (2017)",
