@@ -1,4 +1,4 @@
-"""Every committed result made anew, and what changed: ``python -m validation.release``.
+"""Every committed result made again, and what changed: ``python -m validation.release``.
 
 Each result is a command and the paths that it writes. The commands run one after the other (an hour
 or two on two cores in all; name results to make only those, ``--list`` shows them), and then git
@@ -211,6 +211,11 @@ RESULTS = (
         ("validation.reality_figures", "--out", "{temporary}"),
         tuple(f"docs/figures/reality_{name}.png" for name in REALITY),
         copied=(("reality_*.png", "docs/figures"),),
+    ),
+    Result(
+        "mutations",
+        ("validation.mutations", "--stale"),
+        ("validation/results/mutations.md",),
     ),
     Result(
         "bench",
