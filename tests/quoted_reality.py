@@ -171,9 +171,15 @@ PHRASES = {
     "ratio": ("with the published ratios in place of ours by {:.2f} mm and {:.2f} degrees, with "
               "the reverse ones by {:.2f} mm and {:.2f} degrees",
               lambda: [*variant("ratio published"), *variant("ratio reverse")]),
+    "clouds_more": ("{:+.2f} degrees ({:+.2f} to {:+.2f}) with 9 points, {:+.2f} ({:+.2f} to "
+                    "{:+.2f}) with 25 and {:+.2f} ({:+.2f} to {:+.2f}) with 100",
+                    lambda: [result("reality_ablations")["variants"][f"{n} points"]["more"][end][1]
+                             for n in (9, 25, 100) for end in ENDS]),
     "clouds": ("9 points are off by {:.2f} mm and {:.2f} degrees, 25 points by {:.2f} mm and "
-               "{:.2f} degrees, the patch by {:.2f} mm and {:.2f} degrees",
-               lambda: [*variant("9 points"), *variant("25 points"), *variant("ellipsoid")]),
+               "{:.2f} degrees, 100 points by {:.2f} mm and {:.2f} degrees, the patch by {:.2f} mm "
+               "and {:.2f} degrees",
+               lambda: [x for name in ("9 points", "25 points", "100 points", "ellipsoid")
+                        for x in variant(name)]),
     "correlation": ("correlate by {:.2f}", lambda: [residual(
         "correlation of displacement errors with the published simulator's")]),
     "gap": ("is off by {:.1f} mm (standard deviation)",

@@ -14,7 +14,7 @@ RESULTS = ROOT / "validation" / "results"
 SHOWN = (
     "ellipsoid", "facets-16", "facets-8", "pyramid, axes at 0 degrees",
     "pyramid, axes at 22.5 degrees", "pyramid, axes at 45 degrees", "product",
-    "half of the torsion", "no torsion", "9 points", "25 points",
+    "half of the torsion", "no torsion", "9 points", "25 points", "100 points",
 )  # fmt: skip
 
 
