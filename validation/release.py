@@ -84,6 +84,11 @@ RESULTS = (
         ("validation/results/planted_bugs.md",),
     ),
     Result(
+        "engines",
+        ("validation.engines.__main__",),
+        ("validation/engines",),
+    ),
+    Result(
         "claims",
         (CLI, "validate", "--out", "{temporary}"),
         ("validation/claims.md", "validation/figures"),
