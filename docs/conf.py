@@ -221,9 +221,9 @@ def _mended(app, what, name, obj, options, lines):
     """|x| is a magnitude; and types of attributes are prose, as those of parameters."""
     lines[:] = _one_liners.pop(name, lines)
     types = dict(m.groups() for line in lines if (m := re.match(r":vartype ([^:]+): (.*)", line)))
-    told = [line for line in lines if not line.startswith(":vartype ")]
+    kept = [line for line in lines if not line.startswith(":vartype ")]
     in_math, mended = False, []
-    for line in told:
+    for line in kept:
         in_math = line.startswith(".. math::") or (in_math and (not line or line.startswith(" ")))
         if (found := re.match(r":ivar ([^:]+):", line)) and (names := found.group(1)) in types:
             # "a, b" without its space: the word before a space would be taken for a type.

@@ -84,7 +84,7 @@ def fingerprint(value: Any) -> str:
 
 
 def _flat(value: Any) -> Iterator[bytes]:
-    """The bits of a value as bytes from which it could be told from any other."""
+    """The bits of a value as bytes, which differ from those of any other value."""
     if isinstance(value, tuple):
         yield b"("
         for inner in value:

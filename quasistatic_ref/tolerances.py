@@ -167,7 +167,7 @@ KNOWN: Final = 1e-6
 """Largest error, in the one definition, at which an enclosed answer grades solvers.
 
 The bound is the root of a duality gap: float64 data whose ties are split at 1e-17 leave 2e-8. No
-digit beyond the bound is told."""
+digit beyond the bound is reported."""
 
 UNSEEN: Final = 1e-11
 """Room for rounding in the proof that unmeasured points are not among the closest, relative to the

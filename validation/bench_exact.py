@@ -86,7 +86,7 @@ def families(steps: int) -> Iterator[tuple[str, list[StepData]]]:
 def main(steps: int) -> int:
     """Print a table, and whether the promises are kept."""
     print(f"{'family':21} {'start':9} {'median ms':>9} {'p99 ms':>7} {'walks':>6} {'verify ms':>9}")
-    told, broken = [], False
+    report, broken = [], False
     for family, problems in families(steps):
         answers = []
         for backend in STARTS:
@@ -113,10 +113,10 @@ def main(steps: int) -> int:
                 broken |= not kept
                 limits = f"median <= {most[0]:g} ms"
                 limits += f", p99 <= {most[1]:g} ms" if np.isfinite(most[1]) else ""
-                told.append(f"{family} from {backend}: {limits}: {'kept' if kept else 'BROKEN'}")
+                report.append(f"{family} from {backend}: {limits}: {'kept' if kept else 'BROKEN'}")
         assert answers[0] == answers[1] == answers[2]
     print(f"equal bits of delta_q and A'lam from every start, {steps} steps each")
-    print("\n".join(told))
+    print("\n".join(report))
     return int(broken)
 
 

@@ -3,7 +3,7 @@
 Run ``python validation/bench_step.py``. All of it is measured in one run, each taking its
 turn step by step, over the steps of bunny_grasp; medians are printed. The ratio promised is
 solve_step with ``certify="off"`` (units, filling parameters, solving, converting back) against
-``problem.solve`` of the same problem with its parameters set anew: at most 2.
+``problem.solve`` of the same problem with its parameters set again: at most 2.
 """
 
 from __future__ import annotations

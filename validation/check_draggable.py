@@ -104,10 +104,10 @@ def main() -> None:
             shot = browser.ask("Page.captureScreenshot", format="png", captureBeyondViewport=True)
             (Path(sys.argv[1]) / "draggable.png").write_bytes(base64.b64decode(shot["data"]))
         for event in browser.events:
-            told = event.get("params", {})
-            url = told.get("request", {}).get("url", "file:")
+            params = event.get("params", {})
+            url = params.get("request", {}).get("url", "file:")
             check(not url.startswith(("file:", "data:")), f"it asks for {url}")
-            check(event.get("method") == "Runtime.exceptionThrown", f"an error: {told}")
+            check(event.get("method") == "Runtime.exceptionThrown", f"an error: {params}")
     print("wedge, cone and layer answer as the package does, and need no network: good")
 
 

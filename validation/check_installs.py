@@ -135,7 +135,7 @@ def python_code(page: str, word: str) -> str:
 
 
 def faults(at: Environment, extra: str) -> list[str]:
-    """What is wrong with the commands of an extra, each told as it runs."""
+    """What is wrong with the commands of an extra, each printed as it runs."""
     scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
     for name, text in (scripts | WALK_FILES).items():
         (at.folder / name).write_text(text, "utf-8")

@@ -57,18 +57,18 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Take up one element."""
-        told = {key: value or "" for key, value in attrs}
+        given = {key: value or "" for key, value in attrs}
         self._inside = tag
-        self.names |= {told[key] for key in ("id", "name") if key in told}
-        if tag == "a" and "href" in told:
-            self.links.append(told["href"])
-        if tag == "link" and LOADED_RELATIONS & set(told.get("rel", "").split()):
-            self.loads.append(told["href"])
-        if tag in LOADED and LOADED[tag] in told:
-            self.loads.append(told[LOADED[tag]])
-        if tag == "img" and "src" in told:
-            self.pictures.append(told["src"])
-        self.text.append(f"style: {told['style']}" if "style" in told else "")
+        self.names |= {given[key] for key in ("id", "name") if key in given}
+        if tag == "a" and "href" in given:
+            self.links.append(given["href"])
+        if tag == "link" and LOADED_RELATIONS & set(given.get("rel", "").split()):
+            self.loads.append(given["href"])
+        if tag in LOADED and LOADED[tag] in given:
+            self.loads.append(given[LOADED[tag]])
+        if tag == "img" and "src" in given:
+            self.pictures.append(given["src"])
+        self.text.append(f"style: {given['style']}" if "style" in given else "")
 
     def handle_data(self, data: str) -> None:
         """Keep the text of styles and scripts."""
@@ -96,7 +96,7 @@ def site_faults(site: Path) -> Iterator[str]:
         for address in page.links:
             yield from link_faults(path, address, pages, site)
     for path in sorted((*site.rglob("*.css"), *site.rglob("*.js"))):
-        if "mathjax" not in path.parts:  # it names addresses, and is not told to use them
+        if "mathjax" not in path.parts:  # it names addresses, and does not use them
             for found in _remote(path.read_text("utf-8", "replace")):
                 yield f"{path.relative_to(site)} loads {found}"
 

@@ -93,12 +93,12 @@ def check_scene(name: str, settings: list[str], folder: Path) -> None:
         check(min(colours) < COLOURS, f"a picture has {min(colours)} colours only")
         check(bool((pictures[0] == pictures[-1]).all()), "nothing moves in the pictures")
         for event in browser.events:
-            told = event.get("params", {})
-            url = told.get("request", {}).get("url", "file:")
+            params = event.get("params", {})
+            url = params.get("request", {}).get("url", "file:")
             check(not url.startswith(("file:", "data:", "blob:")), f"it asks for {url}")
-            check(event.get("method") == "Runtime.exceptionThrown", f"an error: {told}")
-            level = told.get("entry", {}).get("level") or told.get("type")
-            check(level == "error", f"an error in the console: {told}")
+            check(event.get("method") == "Runtime.exceptionThrown", f"an error: {params}")
+            level = params.get("entry", {}).get("level") or params.get("type")
+            check(level == "error", f"an error in the console: {params}")
     print(f"{name}: {len(moments)} frames, {len(moments[0].contacts)} forces: good")
 
 

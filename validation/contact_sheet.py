@@ -32,7 +32,7 @@ COLUMNS, CELL, HEADING = 4, (630, 470), 24
 
 
 def claim_figure(name: str) -> Figure:
-    """The figure of a claim, measured anew."""
+    """The figure of a claim, measured again."""
     evidence = finding(BY_NAME[name]).evidence
     if evidence is None:
         sys.exit(f"the claim {name} could not be measured")

@@ -204,19 +204,19 @@ def main() -> int:
     families["sphere_spin"] = run_steps("sphere_spin", [], options.every)
     families[f"random, until {options.random} are optimal"] = map(mixed_step, count())
     title = f"warm starts from {', '.join(BACKENDS[:-1])}, and from a cold start"
-    told, faults = [title], 0
+    report, faults = [title], 0
     print(title, flush=True)
     with ProcessPoolExecutor(2) as pool:
         for name, steps in families.items():
             wanted = len(steps) if isinstance(steps, list) else options.random
             lines, found = family_checked(name, iter(steps), wanted, pool)
-            told.append(lines)
+            report.append(lines)
             faults += found
             print(lines, flush=True)
-    told.append("all bits equal" if not faults else f"{faults} faults")
-    print(told[-1])
+    report.append("all bits equal" if not faults else f"{faults} faults")
+    print(report[-1])
     if options.out:
-        text_written(options.out, "\n".join(told) + "\n")
+        text_written(options.out, "\n".join(report) + "\n")
     return int(faults > 0)
 
 

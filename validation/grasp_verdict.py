@@ -62,10 +62,10 @@ def verdict(scenario: Path, settings: list[str], h: float = 0.01) -> tuple[str, 
         rotations.append(float(str(report["rotation_deg"])))
         sizes.add((report["variables"], report["rows"]))
     holds = rotations[0] < TURNS_NOT < TURNS < rotations[1]
-    told = HOLDS if holds else "breaks"
+    said = HOLDS if holds else "breaks"
     if sizes != {(13, 80)}:
-        told += f", size {sorted(sizes)}"
-    return (f"{rotations[0]:.3f}", f"{rotations[1]:.1f}", told)
+        said += f", size {sorted(sizes)}"
+    return (f"{rotations[0]:.3f}", f"{rotations[1]:.1f}", said)
 
 
 def table(bodies: tuple[tuple[float, int], ...]) -> int:
@@ -75,9 +75,9 @@ def table(bodies: tuple[tuple[float, int], ...]) -> int:
         with tempfile.TemporaryDirectory() as temporary:
             scenario = folder_with(mass, start, Path(temporary))
             for h in TIME_STEPS:
-                torsion, none, told = verdict(scenario, [], h)
-                broken += told != HOLDS
-                row = f"{mass:9g}  {1e3 * h:6g}  {start:5d}  {torsion:>11}  {none:>13}  {told}"
+                torsion, none, said = verdict(scenario, [], h)
+                broken += said != HOLDS
+                row = f"{mass:9g}  {1e3 * h:6g}  {start:5d}  {torsion:>11}  {none:>13}  {said}"
                 print(row, flush=True)
     return broken
 
@@ -91,11 +91,11 @@ def main() -> int:
     print("\npushed, one number at a time (0.2 kg, 10 ms, start 0)")
     for title, settings in PUSHED.items():
         for setting in settings:
-            torsion, none, told = verdict(
+            torsion, none, said = verdict(
                 models_folder() / "bunny_grasp/bunny_grasp.toml", [setting]
             )
             value = setting.split("=")[1]
-            print(f"{title:30} {value:>6}  {torsion:>9}  {none:>7}  {told}", flush=True)
+            print(f"{title:30} {value:>6}  {torsion:>9}  {none:>7}  {said}", flush=True)
     return int(broken > 0)
 
 

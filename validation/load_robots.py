@@ -25,7 +25,7 @@ LOADED = 64
 
 
 def robots_folder() -> Path:
-    """Where the package keeps its robots: beside every Python path, under its own prefix."""
+    """Where the package keeps its robots: in some folder of Python's path, with its own prefix."""
     for place in map(Path, sys.path):
         found = place / "cmeel.prefix" / "share" / "example-robot-data" / "robots"
         if found.is_dir():
@@ -35,7 +35,7 @@ def robots_folder() -> Path:
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Nothing on standard error: urdfdom and assimp print there what is told here."""
+    """Nothing on standard error: urdfdom and assimp print there what the table says."""
     kept, null = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(null, 2)

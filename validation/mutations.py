@@ -1,15 +1,18 @@
 """Mutants of the paper's page, the judge, contacts and coordinates: which the tests notice.
 
-Run ``python -m validation.mutations`` (about half an hour on two cores; name files of the package
-to try only theirs, or ``--sample 100``). Each mutant is put into a temporary copy of the package,
-and the tests of its file, a fast selection, are run on it: killed, or survived. Survivors are
-listed in validation/mutation_survivors.md with a reason each; the exit status is 1 if one has none.
-The tests run a fixed sample of the mutants, all of which they must kill.
+Run ``python -m validation.mutations`` (some hours on two cores; name files of the package to try
+only theirs, or ``--sample 100``). Each mutant is put into a temporary copy of the package, and the
+tests of its file, a fast selection, are run on it: killed, or survived. Survivors are listed in
+validation/mutation_survivors.md with a reason each; the exit status is 1 if one has none. What came
+of each file stands in validation/results/mutations.md, with the file's hash: ``--stale`` tries the
+files that have changed since, or were never tried. The tests run a fixed sample of the mutants, all
+of which they must kill.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import os
 import random
@@ -20,7 +23,7 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import SimpleQueue
@@ -28,105 +31,25 @@ from types import TracebackType
 
 from tqdm import tqdm
 
+from quasistatic_ref.files import text_written
 from validation.mutants import Mutant, mutants
+from validation.mutated import EXACT, TESTS
 
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quasistatic_ref"
 SURVIVORS = ROOT / "validation" / "mutation_survivors.md"
-PAGE = (
-    "equations/test_eq01_impedance.py",
-    "equations/test_eq04_contact_rows.py",
-    "equations/test_eq05_tangential_directions.py",
-    "equations/test_eq06_opposite_tangents.py",
-    "equations/test_eq07_torsional_directions.py",
-    "equations/test_eq08_stacked_rows.py",
-    "equations/test_eq13_step_problem.py",
-)
-JUDGE = (
-    "equations/test_eq09_force_balance.py",
-    "equations/test_eq10_primal_feasibility.py",
-    "equations/test_eq11_dual_feasibility.py",
-    "equations/test_eq12_complementarity.py",
-)
-EXACT = (
-    "unit/test_exact.py",
-    "unit/test_active_set.py",
-    "unit/test_rational.py",
-    "unit/test_rounding.py",
-    "unit/test_certificate.py",
-    "unit/test_farkas.py",
-    "properties/test_exact_against_enumeration.py",
-)
+RESULTS = ROOT / "validation" / "results" / "mutations.md"
+KINDS = ("killed", "broken", "hangs", "survived")
+HEAD = """# Mutants by file
 
-SYSTEM = ("unit/test_system.py", "unit/test_system_forces.py", "unit/test_system_refusals.py")
-CONTACT = (
-    "equations/test_eq02_relative_velocity.py",
-    "equations/test_eq03_contact_jacobian.py",
-)
-FOLLOWED = ("unit/test_shortlist.py", "properties/test_tracker.py")
-FORGED = ("unit/test_single_faults.py", "unit/test_enclosure.py", "properties/test_forgeries.py")
-CURVED = ("unit/test_curved_pairs.py", "unit/test_distance.py")
+Written by `python -m validation.mutations`: of each file of the package the SHA-256 (its first
+digits) at which its mutants were tried, how many there are, and what the tests say of them. Files
+that have changed since, or are not here, are tried by `--stale`. Why the survivors survive stands
+in `validation/mutation_survivors.md`.
 
-
-def ordered(own: str) -> tuple[str, ...]:
-    """The tests of the exact method, those of one unit first."""
-    first = f"unit/test_{own}.py"
-    return (first, *(test for test in EXACT if test != first))
-
-
-TESTS: dict[str, tuple[str, ...]] = {
-    "step/problem.py": ("unit/test_standard_form.py", *PAGE, "unit/test_problem.py"),
-    "step/friction.py": ("unit/test_friction.py", *PAGE, "unit/test_cones.py"),
-    "step/standard_form.py": ("unit/test_standard_form.py", *PAGE),
-    "certify/optimality.py": ("unit/test_optimality.py", *JUDGE, "unit/test_enclosure.py"),
-    "certify/dyadic.py": ordered("rational"),
-    "certify/rational.py": ordered("rational"),
-    "certify/kkt.py": ordered("exact"),
-    "certify/dependence.py": ordered("dependence"),
-    "certify/balls.py": ordered("exact"),
-    "certify/point.py": ordered("exact"),
-    "certify/active_set.py": ordered("active_set"),
-    "certify/degeneracy.py": ordered("exact"),
-    "certify/rounding.py": ordered("rounding"),
-    "certify/exact.py": ordered("exact"),
-    "certify/exact_step.py": ordered("farkas"),
-    "certify/confirm.py": ("unit/test_confirm.py",),
-    "certify/bound.py": ("unit/test_bound.py", *FORGED),
-    "certify/gap.py": ("unit/test_gap.py", *FORGED),
-    "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
-    "certify/judged.py": ("unit/test_judged.py", *FORGED),
-    "certify/ellipsoid.py": FORGED,
-    "certify/apex.py": FORGED,
-    "certify/conic.py": FORGED,
-    "certify/verdict.py": ("unit/test_certificate.py", *FORGED),
-    "certify/warm.py": ("unit/test_warm.py", *EXACT),
-    "certify/sensitivity.py": ("unit/test_sensitivity.py",),
-    "certify/parameters.py": ("unit/test_sensitivity.py",),
-    "certify/rows.py": ("unit/test_certificate.py", "unit/test_farkas.py"),
-    "certify/farkas.py": ("unit/test_farkas.py",),
-    "certify/certificate.py": ordered("certificate"),
-    "certify/norm.py": ("unit/test_digits.py", "unit/test_farkas.py"),
-    "certify/digits.py": ("unit/test_digits.py",),
-    "model/coordinates.py": ("unit/test_system.py",),
-    "model/rotation.py": ("unit/test_rotation.py",),
-    "model/system.py": SYSTEM,
-    "contact/jacobian.py": ("unit/test_jacobian.py", *CONTACT),
-    "contact/cloud.py": ("unit/test_cloud.py",),
-    "contact/pairs.py": ("unit/test_pairs.py", "unit/test_jacobian.py"),
-    "contact/tracker.py": FOLLOWED,
-    "contact/cloud_tracker.py": FOLLOWED,
-    "contact/batch.py": FOLLOWED,
-    "contact/shortlist.py": FOLLOWED,
-    "contact/ball_tree.py": FOLLOWED,
-    "contact/settle.py": CURVED,
-    "contact/faces.py": CURVED,
-    "contact/by_coal.py": CURVED,
-    "contact/curved_pair.py": CURVED,
-    "solve/native.py": ("unit/test_native.py",),
-    "step/blocks.py": ("unit/test_sparse.py",),
-    "step/sparse_form.py": ("unit/test_sparse.py",),
-}
-"""The files that are mutated, and the tests that are to notice, the quickest first."""
+| file | SHA-256 | mutants | killed | broken | hangs | survived |
+|-|-|-|-|-|-|-|
+"""
 
 # Slow, and asks nothing of the package.
 LEFT_OUT = f"tests/{EXACT[-1]}::test_the_family_holds_every_kind_of_problem"
@@ -253,14 +176,42 @@ def reasons() -> dict[str, str]:
     return dict(re.findall(r"^- `(.+?)`: (.+)$", SURVIVORS.read_text(), re.MULTILINE))
 
 
+def source_hash(file: str) -> str:
+    """The first digits of the SHA-256 of a file of the package."""
+    return hashlib.sha256((PACKAGE / file).read_bytes()).hexdigest()[:12]
+
+
+def tried_files() -> dict[str, tuple[str, ...]]:
+    """What stands in the table of results: by file its hash, then how many mutants came to what."""
+    if not RESULTS.exists():
+        return {}
+    rows = [row.strip("| ").split(" | ") for row in RESULTS.read_text().splitlines()]
+    return {row[0].strip("`"): tuple(row[1:]) for row in rows if row[0].startswith("`")}
+
+
+def table_written(found: Mapping[str, str]) -> None:
+    """Enter each file all of whose mutants were tried into the table of results."""
+    rows = tried_files()
+    for file in TESTS:
+        said = [found.get(mutant.key) for mutant in all_mutants([file])]
+        if None not in said:
+            counts = (str(said.count(kind)) for kind in KINDS)
+            rows[file] = (source_hash(file), str(len(said)), *counts)
+    lines = [f"| `{file}` | {' | '.join(rows[file])} |" for file in TESTS if file in rows]
+    text_written(RESULTS, HEAD + "\n".join(lines) + "\n")
+
+
 def main() -> int:
     """Try mutants, and list the survivors."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("files", nargs="*", default=list(TESTS), help="certify/exact.py, ...")
     parser.add_argument("--sample", type=int, help="only so many, chosen at random, always alike")
+    parser.add_argument("--stale", action="store_true", help="only files that the table has not")
     parser.add_argument("--log", type=Path, help="outcomes, from which the same command goes on")
     options = parser.parse_args()
-    chosen = all_mutants(options.files)
+    known_rows = tried_files() if options.stale else {}
+    files = [f for f in options.files if known_rows.get(f, ("",))[0] != source_hash(f)]
+    chosen = all_mutants(files)
     if options.sample is not None:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
     log: Path | None = options.log
@@ -268,9 +219,11 @@ def main() -> int:
     found = {key: said for said, key in (json.loads(line) for line in lines)}
     left = [mutant for mutant in chosen if mutant.key not in found]
     with Workbench() as bench:
-        for file in sorted({mutant.file for mutant in left}):
-            if bench.outcome(Mutant(file, file, 1, (PACKAGE / file).read_text())) != "survived":
-                sys.exit(f"the tests of {file} fail without a mutant")
+        by_tests = {TESTS[mutant.file]: mutant.file for mutant in left}
+        as_it_is = [Mutant(f, f, 1, (PACKAGE / f).read_text()) for f in by_tests.values()]
+        for mutant, said in bench.outcomes(as_it_is):
+            if said != "survived":
+                sys.exit(f"the tests of {mutant.file} fail without a mutant")
         for mutant, said in tqdm(bench.outcomes(left), total=len(left)):
             found[mutant.key] = said
             if log is not None:
@@ -278,6 +231,7 @@ def main() -> int:
                     print(json.dumps([said, mutant.key]), file=file)
             if said == "survived":
                 tqdm.write(f"line {mutant.line}: {mutant.key}", file=sys.stderr)
+    table_written(found)
     known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")
     survivors = [mutant for mutant in chosen if found[mutant.key] == "survived"]

@@ -82,10 +82,10 @@ def _fault(name: str, client: NotebookClient) -> str:
     except CellExecutionError as error:
         return f"{name}: {error}"
     numbers, drawn = (cell.outputs for cell in made.cells[2:])
-    told = [output for output in numbers if output.output_type == "execute_result"]
+    results = [output for output in numbers if output.output_type == "execute_result"]
     seen = [output for output in drawn if "image/png" in output.get("data", {})]
-    if len(told) != 1 or len(seen) != 1:
-        return f"{name}: {len(told)} results of main() and {len(seen)} figures, not one each"
+    if len(results) != 1 or len(seen) != 1:
+        return f"{name}: {len(results)} results of main() and {len(seen)} figures, not one each"
     return ""
 
 

@@ -1,4 +1,4 @@
-"""Every committed result made anew, and what changed: ``python -m validation.release``.
+"""Every committed result made again, and what changed: ``python -m validation.release``.
 
 Each result is a command and the paths that it writes. The commands run one after the other (an hour
 or two on two cores in all; name results to make only those, ``--list`` shows them), and then git
@@ -181,6 +181,11 @@ RESULTS = (
         ("validation.fuzz", "--readers", "validation.hostile_steps", "--inputs", "105000",
          "--out", "{temporary}", "--table", "validation/results/hostile_steps.md"),
         ("validation/results/hostile_steps.md",),
+    ),
+    Result(
+        "mutations",
+        ("validation.mutations", "--stale"),
+        ("validation/results/mutations.md",),
     ),
     Result(
         "bench",

@@ -1,4 +1,4 @@
-"""The committed studies made anew: ``python -m validation.study_reports [NAME...]``.
+"""The committed studies made again: ``python -m validation.study_reports [NAME...]``.
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
 that the numbers of the committed report are those of the committed rows.

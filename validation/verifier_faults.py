@@ -18,7 +18,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from quasistatic_ref.files import text_written
-from validation.check_verifier import VERIFIER, Case, all_cases, disagreement, verdicts
+from validation.check_verifier import VERIFIER, disagreement, verdicts
+from validation.verifier_files import Case, all_cases
 
 CHANGES = (
     ("ahead < 0n ||", "ahead > 0n ||"),

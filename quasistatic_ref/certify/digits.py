@@ -21,7 +21,7 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 MOST = 16.0
-"""Digits of a float64: more cannot be told."""
+"""Digits of a float64: more cannot be known."""
 
 
 @dataclass(frozen=True)

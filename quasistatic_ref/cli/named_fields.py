@@ -33,8 +33,8 @@ def _flat(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
 
 def field_lines(fields: Mapping[str, Any]) -> list[str]:
     """One line a field, ``name = value``, long values cut."""
-    told = {name: json_text(value) for name, value in fields.items()}
+    texts = {name: json_text(value) for name, value in fields.items()}
     return [
         f"{name} = {text if len(text) <= WIDTH else text[: WIDTH - 4] + ' ...'}"
-        for name, text in told.items()
+        for name, text in texts.items()
     ]

@@ -17,7 +17,7 @@ from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
 from quasistatic_ref.step.cones import cone
 
-TOLD = 4
+PRINTED = 4
 """Free bodies whose motion is printed; all of them are in the JSON object."""
 
 
@@ -135,8 +135,8 @@ def _artifacts(header: Mapping[str, Any]) -> str:
 
 
 def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
-    for body, told in list(bodies.items())[:TOLD]:
-        turned, rose = told["largest_rotation_deg"], told["largest_rise_mm"]
+    for body, motion in list(bodies.items())[:PRINTED]:
+        turned, rose = motion["largest_rotation_deg"], motion["largest_rise_mm"]
         yield f"{body}: turned by at most {turned:.3g} deg and rose by at most {rose:.3g} mm"
-    if len(bodies) > TOLD:
-        yield f"{len(bodies) - TOLD} more free bodies: see --json"
+    if len(bodies) > PRINTED:
+        yield f"{len(bodies) - PRINTED} more free bodies: see --json"

@@ -61,8 +61,8 @@ def run(options: argparse.Namespace) -> int:
     if options.digits is None or options.output is not None:
         _write(options.output, solution_text(step, solution))
     digits = solution.statistics.digits
-    told = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
-    print(f"{in_words(step, solution.certificate)}{told}", file=sys.stderr)
+    own_digits = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
+    print(f"{in_words(step, solution.certificate)}{own_digits}", file=sys.stderr)
     return 0
 
 

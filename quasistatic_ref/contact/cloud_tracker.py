@@ -2,7 +2,7 @@
 
 The brute force measures every point at every step. Here a short list of each pair's points is
 measured, with a proof at each step that no other point can be among the k closest, ties included;
-where the proof fails, the list is made anew. docs/distances.md derives the bounds.
+where the proof fails, the list is made again. docs/distances.md derives the bounds.
 """
 
 from collections.abc import Sequence

@@ -19,7 +19,7 @@ class ContactTracker:
     """What :func:`~quasistatic_ref.contact.distance.closest_points` gives, sooner.
 
     It remembers which points of the clouds can matter, so one object belongs to one run. Poses may
-    jump; that costs time only. Pairs of two solids are measured anew at each step: the number of
+    jump; that costs time only. Pairs of two solids are measured again at each step: the number of
     their contacts is fixed, and the distance of each is part of the step, near or far.
 
     Parameters

@@ -1,4 +1,4 @@
-"""What scene.h is told of a simulator's contacts."""
+"""A simulator's contacts as the structures of scene.h."""
 
 import numpy as np
 

@@ -1,7 +1,7 @@
 """A trajectory as one HTML file with a 3-D scene that plays, by meshcat's viewer, without network.
 
-meshcat is needed for one file of JavaScript only, its viewer; what that file is told is made here,
-as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
+meshcat is needed for one file of JavaScript only, its viewer; the commands for that file are made
+here, as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
 """
 
 from html import escape
@@ -105,7 +105,7 @@ def metres_per_newton(moments: list[Moment], half: float) -> float:
 def scene_commands(
     moments: list[Moment], fps: float, half: float, scale: float
 ) -> list[dict[str, Any]]:
-    """What the viewer is told: every object once, where it is at first, and how all move.
+    """Commands for the viewer: every object once, where it is at first, and how all move.
 
     Parameters
     ----------

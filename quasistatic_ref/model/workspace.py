@@ -26,7 +26,7 @@ class Part(NamedTuple):
     ----------
     model, data : pinocchio.Model, pinocchio.Data
     R, t : list of ndarray, shapes (3, 3) and (3,)
-        Poses of the links of these bodies: views of the workspace, which pinocchio writes anew.
+        Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
     q, v : slice
     """
 

@@ -10,8 +10,8 @@ class Interrupt:
     """Notes a Ctrl-C while it is open; a second one raises KeyboardInterrupt at once.
 
     An exception raised in the middle of a step could be swallowed by a solver's own handlers, or
-    leave a step half recorded. Where Ctrl-C is handled by somebody else, or this is not the main
-    thread, nothing is changed.
+    leave a step half recorded. Where another handler of Ctrl-C is installed, or this is not the
+    main thread, nothing is changed.
     """
 
     def __init__(self) -> None:

@@ -1,7 +1,7 @@
 """Where the files that a scenario names may be.
 
 A path in a scenario file is relative to the file's folder and leads to a file inside it, symbolic
-links followed: a scenario from somebody else reads nothing but what came with it. A path given by
+links followed: a scenario of another author reads only what came with it. A path given by
 ``--set`` is the user's own, and may lead anywhere.
 
 ``package://NAME/PATH`` is a file of an installed Python package that keeps robots, as those of

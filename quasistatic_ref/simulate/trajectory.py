@@ -238,8 +238,8 @@ def certified(trajectory: Trajectory) -> str:
     """
     kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
     exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
-    told = f", {enclosed} enclosed" if enclosed else ""
-    return f"{exact} of {trajectory.steps} steps exact{told}"
+    rest = f", {enclosed} enclosed" if enclosed else ""
+    return f"{exact} of {trajectory.steps} steps exact{rest}"
 
 
 def worst_residual(trajectory: Trajectory) -> float | None:

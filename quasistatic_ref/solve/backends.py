@@ -1,6 +1,6 @@
 """The table of backends: one accuracy in each one's own options, and all else that differs.
 
-A backend is somebody else's solver. It is reached by three interfaces: through CVXPY under its
+A backend is a solver of another project. It is reached by three interfaces: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
 form; and natively, where ``solve/adapters/`` has a file of its name.
 """

@@ -18,7 +18,7 @@ Mask = NDArray[np.bool_]
 QUIET = copy_context()
 """Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
 NumPy warns of, get lost between BLAS's threads. (np.errstate sets a variable that every call of
-NumPy then looks up anew: 9 us a step.)"""
+NumPy then looks up again: 9 us a step.)"""
 QUIET.run(np.seterr, all="ignore")
 
 

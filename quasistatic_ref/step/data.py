@@ -218,7 +218,7 @@ class StepData(Plain):
         return hessian(self.h, self.K_q, self.M_u)
 
     def replace(self, **changes: Any) -> "StepData":
-        """Return a copy with some fields changed, validated anew."""
+        """Return a copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
 
 

@@ -24,7 +24,7 @@ class Pattern:
     Attributes
     ----------
     A, P : scipy.sparse.csc_matrix
-        Of shapes (m, n_v) and (n_v, n_v); their data are written anew by :meth:`sparse_form`.
+        Of shapes (m, n_v) and (n_v, n_v); their data are overwritten by :meth:`sparse_form`.
     """
 
     def __init__(self, step: StepData) -> None:

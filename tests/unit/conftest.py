@@ -1,12 +1,14 @@
-"""The scene that the tests of System share."""
+"""A scene of a System, and a scenario with lines replaced, that some tests share."""
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.model.system import System
-from tests.scenes import chain_scene
+from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from tests.scenes import PUSH, chain_scene, written_scenario
 
 
 @pytest.fixture
@@ -19,3 +21,17 @@ def scene(tmp_path: Path) -> System:
 def q(scene: System, rng: np.random.Generator) -> np.ndarray:
     """A configuration without symmetries."""
     return scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Callable[..., Scenario]:
+    """The scenario PUSH with some of its lines replaced."""
+
+    def loaded(*changes: tuple[str, str], settings: Sequence[str] = ()) -> Scenario:
+        text = PUSH
+        for old, new in changes:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        return load_scenario(written_scenario(tmp_path, text), settings)
+
+    return loaded

@@ -1,24 +1,17 @@
 """The command line, in this process: exit statuses, plain sentences on failure, JSON."""
 
-import errno
-import io
 import json
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.cli import solve as solve_command
-from quasistatic_ref.cli.main import COMMANDS, main
-from quasistatic_ref.cli.options import WIDTH
-from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read, step_sha256, step_written
 from tests.helpers import point_on_floor
-from tests.scenes import PUSH, RAIL, SWING, written_scenario
+from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import EXACT, MULTIPLIERS, ROUNDING
 from tests.unit.urdf_texts import CHAIN, written
 
@@ -275,130 +268,9 @@ def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
         assert (demo.folder / name).stat().st_size > 1000
 
 
-STEP = json.dumps({"format": "quasistatic-ref/step", "version": 1, "h": -1})
-BAD = {
-    "run nothing": (["run", "{}/none.toml"], "none.toml: no such file"),
-    "run an unknown name": (["run", "bunny_gras"], "did you mean 'bunny_grasp'?"),
-    "run a folder": (["run", "{}"], "cannot be read: Is a directory"),
-    "run with a bad setting": (["run", "{}/scene.toml", "--set", "h"], "--set: must read"),
-    "run with a bad value": (
-        ["run", "{}/scene.toml", "--set", "h=-1"],
-        "h: must be greater than 0",
-    ),
-    "run with a bad backend": (
-        ["run", "{}/scene.toml", "--backend", "clarabell"],
-        "did you mean 'clarabel'?",
-    ),
-    "run with a bad certificate": (
-        ["run", "{}/scene.toml", "--certify", "ful"],
-        "solver.certify: is not a choice",
-    ),
-    "run into a file": (["run", "{}/scene.toml", "--out", "{}/scene.toml"], "cannot be written"),
-    "solve nothing": (["solve", "{}/none.json"], "none.json: no such file"),
-    "solve what is not JSON": (["solve", "{}/scene.toml"], "is not JSON"),
-    "solve a bad step": (
-        ["solve", "{}/step.json"],
-        "step.json: h: must be greater than 0 (got -1)",
-    ),
-    "extract from nothing": (["extract", "{}/none.npz", "--step", "0"], "no such file"),
-    "extract from text": (["extract", "{}/scene.toml", "--step", "0"], "is not a trajectory"),
-    "inspect nothing": (["inspect", "{}/none.urdf"], "none.urdf: no such file"),
-    "inspect what is not XML": (["inspect", "{}/broken.urdf"], "broken.urdf"),
-    "inspect an unknown name": (["inspect", "sphere"], "is neither a file nor a scenario"),
-}
-
-
-@pytest.mark.parametrize(("arguments", "says"), BAD.values(), ids=BAD)
-def test_bad_input_is_one_plain_sentence_and_status_2(
-    tmp_path, monkeypatch, capsys, arguments, says
-):
-    monkeypatch.chdir(tmp_path)
-    written_scenario(tmp_path)
-    (tmp_path / "step.json").write_text(STEP)
-    (tmp_path / "broken.urdf").write_text("<robot")
-    assert main([argument.replace("{}", str(tmp_path)) for argument in arguments]) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert says in one_sentence(captured.err)
-
-
-@pytest.mark.parametrize("k", ["-1", "5", "99999"])
-def test_a_step_that_a_run_does_not_have_is_bad_input(scene, out, capsys, k):
-    main(["run", scene, "--out", str(out)])
-    capsys.readouterr()
-    assert main(["extract", str(out / "scene.npz"), "--step", k]) == 2
-    said = one_sentence(capsys.readouterr().err)
-    assert said == f"{out / 'scene.npz'}: step: must be 0 to 4 (got {k})"
-
-
-def test_a_backend_that_does_not_exist_leaves_no_trajectory(scene, out, capsys):
-    assert main(["run", scene, "--out", str(out), "--backend", "clarabell"]) == 2
-    assert not out.exists()
-
-
-def test_a_matrix_that_is_no_stiffness_is_refused_before_the_run(tmp_path, out, capsys):
-    text = PUSH.replace("slide = 500", "slide = [[-500]]")
-    path = written_scenario(tmp_path, text)
-    assert main(["run", str(path), "--out", str(out)]) == 2
-    assert "K_q" in capsys.readouterr().err
-    assert not out.exists()
-
-
 @pytest.mark.parametrize("name", ["my robot.urdf", "world.urdf"])
 def test_inspect_takes_a_urdf_of_any_file_name(tmp_path, capsys, name):
     assert main(["inspect", str(written(tmp_path, RAIL, name))]) == 0
-
-
-USAGE = {
-    "no command": ([], "the following arguments are required: COMMAND"),
-    "an unknown command": (["fly"], "invalid choice: 'fly'"),
-    "an unknown option": (["run", "x.toml", "--fast"], "unrecognized arguments: --fast"),
-    "a step in words": (["extract", "x.npz", "--step", "first"], "invalid int value: 'first'"),
-    "no step": (["extract", "x.npz"], "required: --step"),
-}
-
-
-@pytest.mark.parametrize(("arguments", "says"), USAGE.values(), ids=USAGE)
-def test_wrong_usage_is_status_2(capsys, arguments, says):
-    with pytest.raises(SystemExit) as caught:
-        main(arguments)
-    assert caught.value.code == 2
-    assert says in capsys.readouterr().err
-
-
-def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
-    """A folder called bench is a folder: the module of that command is not even imported."""
-    monkeypatch.setitem(sys.modules, "quasistatic_ref.lab.commands.bench", None)
-    monkeypatch.chdir(tmp_path)
-    assert main(["run", scene, "--out", "bench"]) == 0
-    assert (tmp_path / "bench" / "scene.npz").is_file()
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(capsys, command):
-    with pytest.raises(SystemExit) as caught:
-        main([command, "--help"])
-    assert caught.value.code == 0
-    assert f"usage: quasistatic-ref {command}" in capsys.readouterr().out
-
-
-HEAVY = ("cvxpy", "pinocchio", "coal", "matplotlib", "scipy", "qpsolvers")
-
-
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"]])
-def test_help_does_not_pay_for_heavy_imports(arguments):
-    code = (
-        "import sys\n"
-        "from quasistatic_ref.cli.main import main\n"
-        "try:\n"
-        f"    main({arguments!r})\n"
-        "finally:\n"
-        f"    loaded = [name for name in {HEAVY!r} if name in sys.modules]\n"
-        "    print('loaded:', loaded, file=sys.stderr)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stderr == "loaded: []\n"
-    assert done.stdout
 
 
 def test_figures_are_made_by_name(out, capsys):
@@ -410,22 +282,6 @@ def test_figures_are_made_by_name(out, capsys):
     assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)
 
 
-def test_a_file_that_cannot_be_used_is_named_and_not_taken_for_standard_output(monkeypatch, capsys):
-    def full(options):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
-
-    monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
-    assert main(["backends"]) == 2
-    told = capsys.readouterr().err
-    assert told == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"
-
-
-@pytest.mark.parametrize("name", scenario_names())
-def test_what_is_inspected_fits_a_terminal(name, capsys):
-    assert main(["inspect", name]) == 0
-    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
-
-
 def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
     assert main(["run", scene, "--out", str(tmp_path), "--quiet"]) == 0
     capsys.readouterr()
@@ -433,43 +289,3 @@ def test_a_step_that_is_extracted_into_a_file_is_named(scene, tmp_path, capsys):
     (trajectory,) = tmp_path.glob("*.npz")
     assert main(["extract", str(trajectory), "--step", "1", "-o", str(path)]) == 0
     assert capsys.readouterr().out == f"wrote {path}\n"
-
-
-@pytest.mark.parametrize(
-    "words",
-    [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
-    ids=" ".join,
-)
-def test_every_command_takes_quiet(words, capsys):
-    with pytest.raises(SystemExit):
-        main([*words, "--help"])
-    assert "--quiet" in capsys.readouterr().out
-
-
-def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
-    class Terminal(io.StringIO):
-        def isatty(self):
-            return True
-
-    for words, shown in (([], True), (["--quiet"], False)):
-        terminal = Terminal()
-        monkeypatch.setattr(sys, "stderr", terminal)
-        assert main(["run", scene, "--out", str(tmp_path), *words]) == 0
-        assert ("step/s" in terminal.getvalue()) is shown
-
-
-@pytest.mark.parametrize(
-    "words", [["figures", "cone_surfaces"], ["validate", "incline_sliding"]], ids=lambda w: w[0]
-)
-def test_quiet_is_taken_by_whatever_says_what_it_does(words, tmp_path, capsys):
-    for more, shown in (([], True), (["--quiet"], False)):
-        assert main([*words, "--out", str(tmp_path), *more]) == 0
-        assert (f"{words[1]} ..." in capsys.readouterr().err) is shown
-
-
-def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
-    assert main(["run", "block_incline", "--quiet", "--out", str(tmp_path)]) == 0
-    warned = capsys.readouterr().err
-    assert warned.startswith("quasistatic-ref: the spurious drag")
-    assert main(["run", "block_incline", "--quiet", "--strict", "--out", str(tmp_path)]) == 1

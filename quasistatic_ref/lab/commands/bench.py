@@ -1,4 +1,4 @@
-"""``bench``: what a step costs, beside the solver alone and what else one might run."""
+"""``bench``: what a step costs, compared with the solver alone and with other ways to take it."""
 
 import argparse
 

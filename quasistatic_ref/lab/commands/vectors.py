@@ -14,7 +14,7 @@ ACTIONS = {
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
-    "harvest": "collect the inputs anew: for a release of the vectors",
+    "harvest": "collect the inputs again: for a release of the vectors",
 }
 
 

@@ -17,7 +17,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 R, W = 0.6, 0.045
-"""The tip's distance beside the hinge; its radius and half of the door's thickness [m]."""
+"""The tip's distance from the hinge, sideways; its radius and half of the door's thickness [m]."""
 
 H, TIME = 0.04, 4.8
 """Time step and length of the run [s]."""

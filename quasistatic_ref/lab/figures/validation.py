@@ -236,4 +236,4 @@ PICTURES: Final[dict[str, Callable[..., Figure]]] = {
         patch_torsion, flat_patch, peg_wedging, mujoco_friction, planar_push,
     )
 }  # fmt: skip
-"""Claim -> its figure, of what was measured, drawn where it is told to."""
+"""Claim -> its figure, of what was measured, drawn into given axes."""

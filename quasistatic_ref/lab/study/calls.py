@@ -139,7 +139,7 @@ def _calling(function: Callable[..., Any]) -> Call:
         begin = time.perf_counter()
         try:
             returned = function(P, q, G, h, **options)
-        except Exception as error:  # whatever somebody's solver raises
+        except Exception as error:  # whatever a user's solver raises
             return _failed(_words(error), time.perf_counter() - begin)
         seconds = time.perf_counter() - begin
         if returned is None:

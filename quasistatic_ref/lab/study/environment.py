@@ -1,4 +1,4 @@
-"""Where a study ran: machine and versions, for the record beside its times."""
+"""Where a study ran: machine and versions, recorded with its times."""
 
 import os
 import platform

@@ -133,7 +133,7 @@ def _digits(paper: Exam, x: Array, lam: Array | None) -> dict[str, float | None]
 def _digits_of(size: float, paper: Exam) -> float:
     if paper.free == 0:
         return MOST if size == 0 else 0.0
-    # Of an enclosure no more digits are told than are known.
+    # Of an enclosure no more digits are reported than are known.
     return digits_of_error(max(size / paper.free, paper.answer.bound))
 
 

@@ -1,4 +1,4 @@
-"""The keeper of one solver's process: starts it, asks it, kills it when it hangs, starts anew."""
+"""The keeper of one solver's process: start, question, kill when it hangs, start again."""
 
 import contextlib
 import os

@@ -34,7 +34,7 @@ def packed(folder: str | Path, out: str | Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written. A packed store is not continued: ``study run`` starts anew beside it.
+        What was written. A packed store is not continued: ``study run`` starts a new one.
     """
     folder, out = Path(folder), writable_folder(out)
     study = study_checked(folder)

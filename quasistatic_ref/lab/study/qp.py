@@ -1,6 +1,6 @@
 """One problem of a study: a quadratic program in float64, and its exact answer.
 
-The problem is the four arrays as they are: somebody who reads them from a file has the same
+The problem is the four arrays as they are: whoever reads them from a file has the same
 numbers, and the exact answer belongs to these, not to the step that they were rounded from.
 """
 

@@ -99,7 +99,7 @@ TABLES = Tables({
                       default=[False], least=1,
                       schema={"type": "array", "items": {"type": "boolean"}}),
         "repetitions": Field("integer", "of each call", default=1, least=1, most=1000),
-        "every": Field("integer", "each so-manieth problem only", default=1, least=1,
+        "every": Field("integer", "take the first problem of every so many", default=1, least=1,
                        most=MOST_PROBLEMS),
     },
     SWEEPS: {

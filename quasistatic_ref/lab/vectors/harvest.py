@@ -21,7 +21,7 @@ def harvested(folder: Path, say: Callable[[str], None]) -> dict[str, int]:
     ----------
     folder : Path
     say : callable
-        Told what is being done.
+        Called with a line on what is being done.
 
     Returns
     -------

@@ -1,1 +1,1 @@
-"""What a step costs, beside what it is compared with: the tables of ``quasistatic-ref bench``."""
+"""What a step costs, and what it is compared with: the tables of ``quasistatic-ref bench``."""

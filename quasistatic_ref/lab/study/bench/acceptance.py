@@ -1,4 +1,4 @@
-"""What was promised, with its limit, beside what was measured."""
+"""What was promised, with its limit, and what was measured."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""What the number of points costs: the bunny's surface sampled anew, and grasped as before."""
+"""What the number of points costs: the bunny's surface with more points, grasped as before."""
 
 import time
 from collections.abc import Sequence
@@ -44,9 +44,9 @@ def with_cloud(scenario: Scenario, points: Array) -> Scenario:
 def clouds(at: Places, sizes: Sequence[int]) -> list[dict[str, Any]]:
     """Steps along one run with clouds of several sizes, which take turns, and their trees.
 
-    Processor time of the thread, as means are told: a step that waits for its turn costs nothing.
-    The first steps, which make the first short lists, and every later list are counted: `mean` is
-    the whole run over its steps. The tree is built before, once, and told apart.
+    Processor time of the thread, since means are given: a step that waits for its turn costs
+    nothing. The first steps, which make the first short lists, and every later list are counted:
+    `mean` is the whole run over its steps. The tree is built before, once, and listed by itself.
     """
     scenarios = {992: at.scenario} | {n: with_cloud(at.scenario, sampled(n)) for n in sizes}
     trees = {}

@@ -1,4 +1,4 @@
-"""Times that can be compared: taken in turn, in one process, and told by their medians."""
+"""Times that can be compared: taken in turn, in one process, as medians."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Stick and slip in torsion and along a tangent: our zero beside MuJoCo's creep."""
+"""Stick and slip in torsion and along a tangent: our zero against MuJoCo's creep."""
 
 from importlib import import_module
 from typing import Any

@@ -95,7 +95,7 @@ def _differences(system: System, pair: ContactPair, q: Array, chosen: NDArray[np
 
 
 def _outline() -> dict[str, Array]:
-    """A planar case to draw: a capsule beside a box, seen along y."""
+    """A planar case to draw: a capsule next to a box, seen along y."""
     system = pair_system()
     alpha = on_link(system, "one", Capsule(0.03, 0.05))
     corners = np.array([[x, 0.0, z] for x in (-0.04, 0.04) for z in (-0.03, 0.03)])

@@ -65,7 +65,7 @@ def _largest_root(squares: Sequence[Real], p: Vector, pole: Real) -> Real:
     for _ in range(4 * ctx.prec):
         step = (-F(t) / slope(t)).mid()
         t = (t + step).mid()
-        # Beside the sizes of the ellipsoid: next to its surface t itself is next to nothing.
+        # Relative to the ellipsoid's own sizes: close to its surface t itself is close to zero.
         if abs(step) <= (abs(t) + ball(max(squares))) * arb(2) ** (16 - ctx.prec):
             break
     # As wide as it takes: a point that is itself a ball has no narrower root.

@@ -1,4 +1,4 @@
-"""Closest points of two solids in exact numbers, by the road that suits them."""
+"""Closest points of two solids in exact numbers, by the method that suits them."""
 
 from flint import fmpq
 

@@ -41,7 +41,7 @@ def scenario_cases(say: Say) -> Found:
     Parameters
     ----------
     say : callable
-        Told which scenario runs, and which steps are left out.
+        Called with which scenario runs, and which steps are left out.
     """
     for name in scenario_names():
         say(f"{name} ...")

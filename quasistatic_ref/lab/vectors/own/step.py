@@ -1,8 +1,10 @@
 """A whole step by the package itself: its System, pairs, simulator and solver, in float64."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.lab.vectors.expected import Json
@@ -14,8 +16,27 @@ from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 
-def own_step(case_input: Json) -> Json:
-    """The answer of the layer `step`."""
+class PosedCase(NamedTuple):
+    """The step that a case of the layer `step` poses, by the package itself.
+
+    Parameters
+    ----------
+    mine : OwnSystem
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+    points : ClosestPoints
+    step : StepData
+    """
+
+    mine: OwnSystem
+    simulator: Simulator
+    q: Array
+    points: ClosestPoints
+    step: StepData
+
+
+def posed_case(case_input: Json) -> PosedCase:
+    """The step of a case of the layer `step`."""
     mine = own_system(case_input["mechanism"])
     system, n_a = mine.system, mine.system.n_a
     pairs = [_pair(pair, case_input["shapes"], mine) for pair in case_input["pairs"]]
@@ -39,6 +60,12 @@ def own_step(case_input: Json) -> Json:
     points = points.chosen(order)
     force = _force(case_input, mine, q)
     step = simulator.step_data(q, target[: system.n_q_a], force, points, kinematics)
+    return PosedCase(mine, simulator, q, points, step)
+
+
+def own_step(case_input: Json) -> Json:
+    """The answer of the layer `step`."""
+    mine, simulator, q, points, step = posed_case(case_input)
     at = step.contacts
     output = _program(step, mine)
     output["contacts"] = [
@@ -55,12 +82,12 @@ def own_step(case_input: Json) -> Json:
         solution = simulator.solution(step)
     except StepInfeasible as failure:
         return {**output, "farkas": failure.farkas.y.tolist()}
-    after = system.integrate(q, solution.delta_q)
+    after = mine.system.integrate(q, solution.delta_q)
     return {
         **output,
         "delta_q": solution.delta_q[mine.v].tolist(),
         "lam": solution.lam.tolist(),
-        "A_lam": (np.array(output["A"]).reshape(-1, system.n_v).T @ solution.lam).tolist(),
+        "A_lam": (np.array(output["A"]).reshape(-1, step.n_v).T @ solution.lam).tolist(),
         "wrench": solution.wrench.tolist(),
         "q_next": (after[mine.q] + 0.0).tolist(),
     }

@@ -1,0 +1,95 @@
+"""What commands print: help without heavy imports, lines that fit, nothing when quiet."""
+
+import io
+import subprocess
+import sys
+
+import pytest
+
+from quasistatic_ref.cli.main import COMMANDS, main
+from quasistatic_ref.cli.options import WIDTH
+from quasistatic_ref.resources import scenario_names
+from tests.scenes import written_scenario
+
+
+@pytest.fixture
+def scene(tmp_path):
+    return str(written_scenario(tmp_path))
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(capsys, command):
+    with pytest.raises(SystemExit) as caught:
+        main([command, "--help"])
+    assert caught.value.code == 0
+    assert f"usage: quasistatic-ref {command}" in capsys.readouterr().out
+
+
+HEAVY = ("cvxpy", "pinocchio", "coal", "matplotlib", "scipy", "qpsolvers")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"]])
+def test_help_does_not_pay_for_heavy_imports(arguments):
+    code = (
+        "import sys\n"
+        "from quasistatic_ref.cli.main import main\n"
+        "try:\n"
+        f"    main({arguments!r})\n"
+        "finally:\n"
+        f"    loaded = [name for name in {HEAVY!r} if name in sys.modules]\n"
+        "    print('loaded:', loaded, file=sys.stderr)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == "loaded: []\n"
+    assert done.stdout
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_what_is_inspected_fits_a_terminal(name, capsys):
+    assert main(["inspect", name]) == 0
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
+
+
+@pytest.mark.parametrize(
+    "words",
+    [[name] for name in COMMANDS if name not in ("study", "vectors")]
+    + [["study", "report"], ["study", "pack"], ["study", "export"], ["vectors", "check"]],
+    ids=" ".join,
+)
+def test_every_command_takes_quiet(words, capsys):
+    with pytest.raises(SystemExit):
+        main([*words, "--help"])
+    assert "--quiet" in capsys.readouterr().out
+
+
+def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    for words, shown in (([], True), (["--quiet"], False)):
+        terminal = Terminal()
+        monkeypatch.setattr(sys, "stderr", terminal)
+        assert main(["run", scene, "--out", str(tmp_path), *words]) == 0
+        assert ("step/s" in terminal.getvalue()) is shown
+
+
+@pytest.mark.parametrize(
+    "words", [["figures", "cone_surfaces"], ["validate", "incline_sliding"]], ids=lambda w: w[0]
+)
+def test_quiet_is_taken_by_whatever_says_what_it_does(words, tmp_path, capsys):
+    for more, shown in (([], True), (["--quiet"], False)):
+        assert main([*words, "--out", str(tmp_path), *more]) == 0
+        assert (f"{words[1]} ..." in capsys.readouterr().err) is shown
+
+
+def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
+    assert main(["run", "block_incline", "--quiet", "--out", str(tmp_path)]) == 0
+    warned = capsys.readouterr().err
+    assert warned.startswith("quasistatic-ref: the spurious drag")
+    assert main(["run", "block_incline", "--quiet", "--strict", "--out", str(tmp_path)]) == 1

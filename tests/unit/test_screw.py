@@ -1,0 +1,98 @@
+"""Screw motions of bases against the matrix exponential of the twist, in 40 digits."""
+
+import mpmath
+import numpy as np
+import pytest
+
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.screw import change, changes, dot, linear_part, position, translation
+from tests.tolerances import ROUNDING
+
+ANGLES = (0.0, 1e-13, 1e-9, 2e-4, 0.3, 1.5, 3.0)
+LINEAR = (0.3, -0.7, 1.1)
+AXIS = np.array([2.0, -3.0, 6.0]) / 7
+FLOATING = Joint("base", "floating", False, slice(1, 8), slice(1, 7))
+PLANAR = Joint("puck", "planar", False, slice(1, 5), slice(1, 4))
+CONTINUOUS = Joint("wheel", "continuous", False, slice(1, 3), slice(1, 2))
+
+
+def screw(v, w):
+    """The exponential of the 4 x 4 matrix of a twist: its rotation matrix and its translation."""
+    x, y, z = w
+    with mpmath.workdps(40):
+        twist = [[0, -z, y, v[0]], [z, 0, -x, v[1]], [-y, x, 0, v[2]], [0, 0, 0, 0]]
+        moved = mpmath.expm(mpmath.matrix([[mpmath.mpf(float(t)) for t in row] for row in twist]))
+        moved = np.array(moved.tolist(), dtype=np.float64)
+    return moved[:3, :3], moved[:3, 3]
+
+
+def quaternion_about(axis, angle):
+    """[axis sin(angle / 2), cos(angle / 2)]."""
+    return [*(axis * np.sin(angle / 2)), np.cos(angle / 2)]
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_the_translation_of_a_screw_is_that_of_the_matrix_exponential(angle):
+    w = angle * AXIS
+    np.testing.assert_allclose(
+        translation(LINEAR, w.tolist()), screw(LINEAR, w)[1], rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle):
+    w = (angle * AXIS).tolist()
+    v = linear_part(LINEAR, w)
+    np.testing.assert_allclose(screw(v, w)[1], LINEAR, rtol=0, atol=4 * ROUNDING)
+
+
+def test_the_translation_is_right_to_the_last_digits_where_the_linear_part_is_along_the_axis():
+    # Along its own axis a screw carries a base by v, whatever the angle.
+    v = (0.25 * AXIS).tolist()
+    for angle in ANGLES:
+        np.testing.assert_allclose(translation(v, (angle * AXIS).tolist()), v, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
+    # position' = position + R t, where t is the translation of the screw
+    about, at, w = np.array([1.0, 2.0, -2.0]) / 3, np.array([0.5, -0.25, 2.0]), angle * AXIS
+    R = screw(np.zeros(3), 0.8 * about)[0]
+    q = [9.0, *at, *quaternion_about(about, 0.8)]
+    delta_q = [7.0, *LINEAR, *w]
+    expected = at + R @ screw(LINEAR, w)[1]
+    np.testing.assert_allclose(position(FLOATING, q, delta_q), expected, rtol=0, atol=ROUNDING * 4)
+    q_next = [9.0, *expected, *quaternion_about(about, 0.8)]
+    found = change(FLOATING, q, q_next, delta_q)
+    np.testing.assert_allclose(found, delta_q[1:], rtol=0, atol=8 * ROUNDING)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_a_planar_base_moves_by_its_twist_in_its_own_frame(angle):
+    heading, at, delta_q = 0.7, np.array([0.5, -0.25]), [7.0, 0.3, -0.7, angle]
+    R = screw(np.zeros(3), [0, 0, heading])[0]
+    q = [9.0, *at, np.cos(heading), np.sin(heading)]
+    expected = at + (R @ screw([0.3, -0.7, 0.0], [0.0, 0.0, angle])[1])[:2]
+    np.testing.assert_allclose(position(PLANAR, q, delta_q), expected, rtol=0, atol=ROUNDING * 4)
+    q_next = [9.0, *expected, np.cos(heading + angle), np.sin(heading + angle)]
+    found = change(PLANAR, q, q_next, delta_q)
+    np.testing.assert_allclose(found, delta_q[1:], rtol=0, atol=8 * ROUNDING)
+
+
+@pytest.mark.parametrize("angle", [*ANGLES, -0.3, -3.0])
+def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle):
+    q = [9.0, np.cos(0.7), np.sin(0.7)]
+    q_next = [9.0, np.cos(0.7 + angle), np.sin(0.7 + angle)]
+    np.testing.assert_allclose(change(CONTINUOUS, q, q_next, [0.0, 0.0]), [angle], atol=ROUNDING)
+
+
+def test_changes_are_made_anew_for_the_joints_that_are_named_and_are_there():
+    # The wheel's change is an angle of 0.2; the entry of the other joint is left as it is.
+    q, q_next = np.array([9.0, 1.0, 0.0]), np.array([9.0, np.cos(0.2), np.sin(0.2)])
+    found = changes([CONTINUOUS], q, q_next, np.array([5.0, 0.0]))
+    np.testing.assert_allclose(found, [5.0, 0.2], rtol=ROUNDING)
+    assert changes([CONTINUOUS], q, q_next, np.array([5.0])).tolist() == [5.0]
+
+
+def test_a_product_of_three_numbers_is_their_sum_of_products():
+    assert dot([1.0, 2.0, 4.0], [8.0, 16.0, 32.0]) == 8.0 + 32.0 + 128.0

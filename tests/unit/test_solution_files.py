@@ -1,0 +1,131 @@
+"""Solutions as JSON: the documented fields, bit for bit; what is no solution is refused."""
+
+import copy
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.files import (
+    step_sha256,
+)
+from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
+from tests.helpers import random_step
+from tests.tolerances import EXACT, ROUNDING
+
+PLAIN = random_step(np.random.default_rng(11), n_a=2, n_u=3, rows=(6, 4))
+
+
+def changed(record, path, value=None):
+    """A deep copy with the field at a path replaced, or removed where no value is given."""
+    new = copy.deepcopy(record)
+    *way, last = path
+    at = new
+    for key in way:
+        at = at[key]
+    if value is None:
+        del at[last]
+    else:
+        at[last] = value
+    return new
+
+
+def test_the_solution_has_the_documented_fields():
+    step = PLAIN.replace(extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0)))
+    solution = solve_step(step)
+    read = json.loads(solution_text(step, solution))
+    assert list(read) == [
+        "format", "version", "status", "cone", "step_sha256", "delta_q", "lam", "lam_extra",
+        "wrench", "certificate",
+    ]  # fmt: skip
+    assert (read["format"], read["version"]) == ("quasistatic-ref/solution", 2)
+    assert (read["status"], read["cone"]) == ("optimal", "pyramid")
+    assert read["step_sha256"] == step_sha256(step)
+    assert [len(row) for row in read["lam"]] == [6, 4]
+    assert np.shape(read["wrench"]) == (2, 4)
+    assert len(read["lam_extra"]) == 2
+    np.testing.assert_allclose(read["delta_q"], solution.delta_q, rtol=EXACT)
+    np.testing.assert_allclose(np.concatenate(read["lam"]), solution.lam, rtol=EXACT)
+    assert set(read["certificate"]) == {
+        "kind", "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
+)
+def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
+    step = PLAIN.replace(extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0)))
+    solution, path = solve_step(step, certify=certify), tmp_path / "solution.json"
+    path.write_text(solution_text(step, solution))
+    back = solution_read(path, step)
+    assert back.certificate == replace(solution.certificate, residuals={})
+    assert back.certificate.kind == kind
+    assert not back.unchecked
+    np.testing.assert_array_equal(back.delta_q, solution.delta_q)
+    lam = np.concatenate([solution.lam, solution.lam_extra])
+    np.testing.assert_array_equal(back.lam, np.maximum(lam, 0.0) if kind == "residual" else lam)
+    # Both are the same combination; the file's is rounded once.
+    size = np.abs(solution.wrench).max()
+    np.testing.assert_allclose(back.wrench, solution.wrench, rtol=0.0, atol=ROUNDING * size)
+
+
+SOLUTION_REFUSED = {
+    "an unknown field": (["note"], "x", "note: is unknown"),
+    "a step": (["format"], "quasistatic-ref/step", "format: must be 'quasistatic-ref/solution'"),
+    "a later version": (["version"], 3, "version: is not known here; this program reads 1 and 2"),
+    "a field of version 1": (["backend"], "daqp", "backend: is unknown"),
+    "another status": (["status"], "solved", "status: is not a choice"),
+    "delta_q too long": (["delta_q"], [0.0] * 6, "delta_q: must be 5 numbers"),
+    "delta_q NaN": (["delta_q"], [float("nan")] * 5, "delta_q: must hold finite"),
+    "lam flat": (["lam"], [0.0] * 10, "lam: must have one list for each of 2 contacts"),
+    "lam of a wrong contact": (["lam", 1], [0.0] * 6, "lam[1]: must be 4 numbers"),
+    "wrench too narrow": (["wrench"], [[0.0] * 3] * 2, "wrench: must be 2 x 4"),
+    "an unknown kind": (["certificate", "kind"], "sure", "certificate.kind: is not a choice"),
+    "an unknown claim": (["certificate", "sure"], 1, "certificate.sure: is unknown"),
+    "active out of order": (
+        ["certificate", "active"],
+        [[0, 1], [0, 0]],
+        "certificate.active: must be in increasing",
+    ),
+    "active twice": (
+        ["certificate", "active"],
+        [[0, 0], [0, 0]],
+        "certificate.active: must be in increasing",
+    ),
+    "active flat": (["certificate", "active"], [1], "certificate.active: must be a list of"),
+}
+
+
+@pytest.mark.parametrize(("path", "value", "says"), SOLUTION_REFUSED.values(), ids=SOLUTION_REFUSED)
+def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
+    record = json.loads(solution_text(PLAIN, solve_step(PLAIN)))
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(changed(record, path, value)))
+    with pytest.raises(InputError) as caught:
+        solution_read(file, PLAIN)
+    assert str(caught.value).startswith(f"{file}: {says}")
+
+
+def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path):
+    text = infeasible_text(PLAIN, ["1/3", "0"])
+    assert list(json.loads(text)) == [
+        "format", "version", "status", "cone", "step_sha256", "farkas",
+    ]  # fmt: skip
+    path = tmp_path / "solution.json"
+    path.write_text(text)
+    back = solution_read(path, PLAIN)
+    assert back.farkas == ("1/3", "0")
+    assert back.delta_q is None
+    assert back.certificate is None
+
+
+def test_no_timing_enters_the_solution():
+    one, two = (solution_text(PLAIN, solve_step(PLAIN)) for _ in range(2))
+    assert one == two
+    assert "time" not in one
