@@ -250,6 +250,7 @@ MEANT = {
     ],
     "docs/derivations.md": ["A body 1 mm deep with h = 10 ms"],
     "docs/distances.md": ["sqrt 3 times"],
+    "docs/engines.md": ["Steps are 1 ms in all engines but ours, which takes 10 ms"],
     "docs/exactness.md": ["a step lifts the bunny by 0.2 mm"],
     "docs/exercises.md": [
         "with h = 10 ms",

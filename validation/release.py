@@ -92,6 +92,11 @@ RESULTS = (
         ("validation/results/challenges.md",),
     ),
     Result(
+        "engines",
+        ("validation.engines.__main__",),
+        ("validation/engines",),
+    ),
+    Result(
         "claims",
         (CLI, "validate", "--out", "{temporary}"),
         ("validation/claims.md", "validation/figures"),

@@ -16,7 +16,7 @@ from quasistatic_ref.quoting import suggestion
 IN = {
     "daqp": "daqp",
     "mujoco": "'quasistatic-ref[engines]'",
-    "pydrake": "'quasistatic-ref[drake]'",
+    "drake": "'quasistatic-ref[drake]'",
 }
 """What an engine of a claim comes in."""
 HELP = "all claims by default; 'reality' by itself: measured pushes, predicted"

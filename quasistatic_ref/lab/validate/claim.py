@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
+from importlib import metadata
 from typing import Any, Final
 
 import numpy as np
@@ -136,7 +136,9 @@ class Claim:
     measure : callable
         Returns Evidence.
     engine : str, optional
-        A package without which it cannot be measured.
+        A distribution without which it cannot be measured: its version is a part of the finding.
+    setting : str
+        At which settings that engine is asked; others are its defaults.
     """
 
     name: str
@@ -146,6 +148,18 @@ class Claim:
     reason: str
     measure: Callable[[], Evidence]
     engine: str | None = None
+    setting: str = ""
+
+    @property
+    def installed(self) -> str | None:
+        """The engine's name, version and setting: "" if it needs none, None if there is none."""
+        if self.engine is None:
+            return ""
+        try:
+            version = metadata.version(self.engine)
+        except metadata.PackageNotFoundError:
+            return None
+        return ", ".join(filter(None, (f"{self.engine} {version}", self.setting)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +194,7 @@ class Finding:
 
 def finding(claim: Claim) -> Finding:
     """Measure a claim, or say that its engine is missing."""
-    if claim.engine is not None and find_spec(claim.engine) is None:
+    if claim.installed is None:
         return Finding(claim, None)
     start = time.perf_counter()
     evidence, trouble = None, ""

@@ -24,6 +24,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "claim": claim.sentence,
         "where": claim.where,
         "sweep": claim.sweep,
+        "engine": claim.installed,
         "reason": claim.reason,
         "verdict": finding.verdict,
         "trouble": finding.trouble,
@@ -91,12 +92,14 @@ def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[s
 
 def _chapter(finding: Finding) -> list[str]:
     record = finding_record(finding)
+    engine = f"*Engine:* {record['engine']}. " if record["engine"] else ""
     lines = [
         f"### {record['name']}: {record['verdict']}",
         "",
         record["claim"],
         "",
-        f"*Where:* {record['where']}. *Sweep:* {record['sweep']}. *Tolerance:* {record['reason']}",
+        f"*Where:* {record['where']}. {engine}*Sweep:* {record['sweep']}. "
+        f"*Tolerance:* {record['reason']}",
         "",
     ]
     if record["trouble"]:

@@ -161,5 +161,6 @@ CLAIM = Claim(
     "joints, 12 configurations",
     reason="DISTANCE_TOLERANCE and MATRIX_TOLERANCE: closed forms and short recursions, rounded.",
     measure=evidence,
-    engine="pydrake",
+    engine="drake",
+    setting="queries and kinematics, which have no settings",
 )

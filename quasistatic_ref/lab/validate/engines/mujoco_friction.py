@@ -102,10 +102,12 @@ CLAIM = Claim(
     name="mujoco_friction",
     sentence="Below the same thresholds at which MuJoCo's bodies begin to slide and spin freely, "
     "where they creep, ours do not move at all.",
-    where="MuJoCo, soft contacts with default parameters; docs/derivations.md (R5), (R7)",
+    where="MuJoCo, its soft contacts; docs/derivations.md (R5), (R7)",
     sweep="ten loads from 0.1 to 2 times the limit, torsion and tangent, both cones, 0.5 s",
     reason="Zero, bit for bit, for ours. Creep and soft contact are MuJoCo's by design: shown in "
     "the figure, not a disagreement; THRESHOLD_TOLERANCE for where it begins to accelerate.",
     measure=evidence,
     engine="mujoco",
+    setting="timestep 1 ms, condim 4, cone pyramidal and elliptic, noslip_iterations 0, "
+    "impratio 1; with noslip_iterations 3 its elliptic cone sticks (docs/engines.md)",
 )

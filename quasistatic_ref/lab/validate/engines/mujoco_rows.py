@@ -148,4 +148,5 @@ CLAIM = Claim(
     reason="ROWS_TOLERANCE; the shift itself is larger by ten orders of magnitude.",
     measure=evidence,
     engine="mujoco",
+    setting="condim 4, cone pyramidal and elliptic, jacobian dense",
 )

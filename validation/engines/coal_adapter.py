@@ -6,7 +6,7 @@ from typing import Any
 
 import coal
 import numpy as np
-from common import Unsupported, rotation
+from door import Unsupported, answer, rotation
 
 NAME = f"coal {coal.__version__}"
 
@@ -66,4 +66,5 @@ def distance(case: Any) -> Any:
     return dict(zip(("phi", "alpha", "beta", "n"), pair(case), strict=True))
 
 
-LAYERS = {"distance": distance}
+if __name__ == "__main__":
+    answer(NAME, {"distance": distance})

@@ -1,4 +1,4 @@
-"""pinocchio by itself, without this package's System: layers jacobian and integrate."""
+"""pinocchio: layers jacobian and integrate; phenomena by its ADMM solver (pinocchio_admm.py)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,18 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from common import Unsupported, rotation
+from door import Unsupported, answer, rotation
+from pinocchio_admm import phenomena
 
 NAME = f"pinocchio {pin.__version__}"
-AXES = np.eye(3)
 UNIT = {"floating": 3, "planar": 2, "continuous": 0}
+JOINTS = {
+    "floating": lambda _: pin.JointModelFreeFlyer(),
+    "planar": lambda _: pin.JointModelPlanar(),
+    "revolute": pin.JointModelRevoluteUnaligned,
+    "continuous": lambda _: pin.JointModelRUBZ(),
+    "prismatic": pin.JointModelPrismaticUnaligned,
+}
 
 
 class Mechanism:
@@ -28,10 +35,13 @@ class Mechanism:
             if body["joint"] == "fixed":
                 self.frames[body["name"]] = parent, placement
                 continue
-            turned = pin.SE3.Identity()
+            turned, axis = pin.SE3.Identity(), np.array(body.get("axis", [0, 0, 1.0]), dtype=float)
+            axis /= np.linalg.norm(axis)
             if body["joint"] == "continuous":  # its axis cannot be given: z is turned onto it
-                turned.rotation = pin.Quaternion.FromTwoVectors(AXES[2], unit(body)).matrix()
-            model = joint_model(body)
+                turned.rotation = pin.Quaternion.FromTwoVectors(
+                    np.array([0, 0, 1.0]), axis
+                ).matrix()
+            model = JOINTS[body["joint"]](axis)
             joint = self.model.addJoint(parent, model, placement * turned, body["name"])
             joints[body["name"]] = joint
             self.frames[body["name"]] = joint, turned.inverse()
@@ -44,8 +54,7 @@ class Mechanism:
             self.q += range(joint.idx_q, joint.idx_q + joint.nq)
             self.v += range(joint.idx_v, joint.idx_v + joint.nv)
             if body["joint"] in UNIT:
-                first = joint.idx_q + UNIT[body["joint"]]
-                self.units.append(slice(first, joint.idx_q + joint.nq))
+                self.units.append(slice(joint.idx_q + UNIT[body["joint"]], joint.idx_q + joint.nq))
 
     def model_q(self, q: Any) -> np.ndarray:
         """Pinocchio's q; it takes quaternions and (cos, sin) as they are, so at length one."""
@@ -54,24 +63,6 @@ class Mechanism:
         for part in self.units:
             found[part] /= np.linalg.norm(found[part])
         return found
-
-
-def unit(body: Any) -> np.ndarray:
-    """Axis of a joint at length one."""
-    axis = np.array(body.get("axis", [0, 0, 1]), dtype=float)
-    return axis / np.linalg.norm(axis)
-
-
-def joint_model(body: Any) -> Any:
-    """The joint of a body."""
-    axis = unit(body)
-    return {
-        "floating": pin.JointModelFreeFlyer,
-        "planar": pin.JointModelPlanar,
-        "revolute": lambda: pin.JointModelRevoluteUnaligned(axis),
-        "continuous": pin.JointModelRUBZ,
-        "prismatic": lambda: pin.JointModelPrismaticUnaligned(axis),
-    }[body["joint"]]()
 
 
 def jacobian(case: Any) -> Any:
@@ -85,8 +76,7 @@ def jacobian(case: Any) -> Any:
         if joint == 0:
             return np.zeros((3, model.nv)), np.zeros((3, model.nv))
         J = pin.getJointJacobian(model, data, joint, pin.LOCAL_WORLD_ALIGNED).reshape(6, -1)
-        r = np.array(point) - data.oMi[joint].translation
-        return J[:3] - pin.skew(r) @ J[3:], J[3:]
+        return J[:3] - pin.skew(np.array(point) - data.oMi[joint].translation) @ J[3:], J[3:]
 
     found = []
     for contact in case["contacts"]:
@@ -102,8 +92,9 @@ def integrate(case: Any) -> Any:
     mechanism = Mechanism(case["mechanism"])
     delta_q = np.zeros(mechanism.model.nv)
     delta_q[mechanism.v] = case["delta_q"]
-    after = pin.integrate(mechanism.model, mechanism.model_q(case["q"]), delta_q)
-    return {"q": after[mechanism.q]}
+    q = mechanism.model_q(case["q"])
+    return {"q": pin.integrate(mechanism.model, q, delta_q)[mechanism.q]}
 
 
-LAYERS = {"jacobian": jacobian, "integrate": integrate}
+if __name__ == "__main__":
+    answer(NAME, {"jacobian": jacobian, "integrate": integrate, "phenomena": phenomena})

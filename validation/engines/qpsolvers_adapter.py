@@ -1,7 +1,8 @@
-"""The solvers behind qpsolvers, each with its default settings: layer qp."""
+"""A solver behind qpsolvers, with its default settings, by its name: layer qp."""
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable
 from importlib.metadata import version
@@ -9,9 +10,7 @@ from typing import Any
 
 import numpy as np
 import qpsolvers
-from common import Unsupported
-
-NAMES = [name for name in sorted(qpsolvers.available_solvers) if name != "ecos"]
+from door import Unsupported, answer
 
 
 def version_of(solver: str) -> str:
@@ -44,3 +43,6 @@ def answered_by(solver: str) -> Callable[[Any], Any]:
 
 
 LIMITS: dict[str, dict[str, Any]] = {"highs": {"time_limit": 2.0}}
+
+if __name__ == "__main__":
+    answer(version_of(sys.argv[1]), {"qp": answered_by(sys.argv[1])})

@@ -1,0 +1,143 @@
+"""Phenomena that engines are asked: data by their formulas, answers judged, committed results."""
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from validation.engines import phenomena as asked
+from validation.engines.judge import ENGINES, HERE
+from validation.engines.reproduce import FOLDER, LIST, missing
+from validation.engines.tables import layers_page, phenomena_page
+
+G, M = 9.81, 0.3
+RECORDS = {
+    name: json.loads(path.read_text("utf-8"))
+    for name in ENGINES
+    if (path := HERE / "results" / f"{name}.json").exists()
+}
+MUJOCO = sorted(e["file"] for e in LIST if e["engines"][0] == "mujoco" and e["phenomena"])
+SETTLED = 1e-9
+"""Digits with which the file's loads are written, against their formulas [N, N m]."""
+
+
+def loads(name, body):
+    runs = asked.PHENOMENA[name]["runs"]
+    return [(run["x"], load) for run in runs for load in run["loads"] if load["body"] == body]
+
+
+@pytest.mark.parametrize("name", ["sticks_on_slope", "incline_angle", "incline_diagonal"])
+def test_a_slope_is_the_weight_turned_by_its_angle(name):
+    way = np.array([1, 1]) / math.sqrt(2) if name == "incline_diagonal" else np.array([1, 0])
+    for tangent, load in loads(name, "sled"):
+        a = math.atan(tangent)
+        turned = M * G * np.array([*(math.sin(a) * way), 1 - math.cos(a)])
+        assert np.allclose(load["force"], turned, atol=SETTLED, rtol=0)
+
+
+def test_torques_are_shares_of_mu_omega_m_g():
+    for name in ("sticks_in_torsion", "torsional_limit"):
+        for share, load in loads(name, "ball"):
+            assert load["torque"][2] == pytest.approx(share * 0.01 * M * G, abs=SETTLED)
+
+
+def test_the_grips_lie_about_the_limits_of_the_three_cones():
+    # (R21) to (R23): u = m g / (2 mu_v), w = m g d / (2 mu_omega).
+    u, w = 0.2 * G / (2 * 0.6), 0.2 * G * 0.03 / (2 * 0.005)
+    limits = [max(u, w), math.hypot(u, w), u + w]
+    pinch = asked.PHENOMENA["pinch"]
+    assert np.allclose(pinch["expected"], limits, atol=SETTLED, rtol=0)
+    grips = [run["x"] for run in pinch["runs"][:-1]]
+    assert np.allclose(grips, [k * N for N in limits for k in (0.99, 1.01)], rtol=2e-4)
+
+
+def coulomb(scene):
+    """A stick-slip body by the closed form: at rest below the limit, else uniformly accelerated."""
+    poses = []
+    (load,) = scene["loads"] or [{"from": 0.0, "force": [0, 0, 0], "torque": [0, 0, 0]}]
+    pull, normal = np.hypot(*load["force"][:2]), M * G - load["force"][2]
+    a = max(0.0, pull - 0.5 * normal) / M
+    spin = max(0.0, load["torque"][2] - 0.01 * M * G) / 3e-4
+    way = np.array(load["force"][:2]) / (pull or 1)
+    body = scene["bodies"][0]
+    floor = body["xyz"][2] - (0.001 if body["xyz"][2] > 0.05 else 0)
+    for time in scene["times"]:
+        t = max(0.0, time - load["from"])
+        z = max(floor, body["xyz"][2] - G / 2 * time**2)
+        half = spin * t**2 / 4
+        poses.append([*(way * a * t**2 / 2), z, 0, 0, math.sin(half), math.cos(half)])
+    return {"poses": {body["name"]: poses}}
+
+
+def one_body(scene):
+    if len(scene["bodies"]) > 1:
+        raise ValueError("not asked")
+    return coulomb(scene)
+
+
+def test_coulomb_s_law_itself_holds_in_every_cell():
+    found = {cell.phenomenon: cell for cell in asked.cells(one_body, 1e-3)}
+    assert [name for name, cell in found.items() if not cell.holds] == ["pinch"]
+    assert "not asked" in found["pinch"].words
+
+
+def test_an_engine_that_creeps_lifts_and_bounces_differs():
+    def wrong(scene):
+        answer = one_body(scene)
+        for poses in answer["poses"].values():
+            for k, time in enumerate(scene["times"]):
+                poses[k][0] += 1e-4 * time
+                poses[k][2] += 5e-5 * math.sin(300 * time) ** 2
+        return answer
+
+    differs = {cell.phenomenon for cell in asked.cells(wrong, 1e-3) if not cell.holds}
+    assert {"sticks_on_slope", "no_lift_off", "no_rebound", "comes_to_rest"} <= differs
+
+
+def test_poses_that_are_no_numbers_are_no_answer():
+    cell = next(asked.cells(lambda _: {"poses": {"sled": [[math.nan] * 7] * 26}}, 1e-3))
+    assert not cell.holds
+    assert cell.words.startswith("no answer")
+
+
+def test_every_red_cell_has_a_reproduction():
+    assert missing(RECORDS) == []
+
+
+def test_the_pages_are_those_of_the_results():
+    assert set(RECORDS) == set(ENGINES)
+    assert (HERE / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
+    assert (HERE / "layers.md").read_text("utf-8") == layers_page(RECORDS)
+
+
+def test_every_setting_of_the_table_is_one_that_is_asked():
+    for name, record in RECORDS.items():
+        assert list(record["settings"]) == list(ENGINES[name].get("settings", {}))
+        assert record["requires"] == ENGINES[name]["requires"]
+
+
+def lines(path):
+    """Lines of a program that are not blank, after its docstring."""
+    return sum(1 for line in path.read_text("utf-8").splitlines()[1:] if line.strip())
+
+
+def test_reproductions_have_at_most_fifteen_lines_and_adapters_a_hundred():
+    files = sorted(FOLDER.glob("*.py"))
+    assert {path.name for path in files} == {entry["file"] for entry in LIST}
+    assert {path.name: lines(path) for path in files if lines(path) > 15} == {}
+    adapters = [*HERE.glob("*_adapter.py"), *HERE.glob("*_layers.py"), HERE / "pinocchio_admm.py"]
+    assert [p.name for p in adapters if len(p.read_text("utf-8").splitlines()) > 100] == []
+
+
+@pytest.mark.parametrize("file", MUJOCO)
+def test_a_reproduction_of_mujoco_prints_what_is_committed(file):
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra engines")
+    if f"mujoco=={mujoco.__version__}" not in ENGINES["mujoco"]["requires"]:
+        pytest.skip("the committed lines are another version's")
+    command = [sys.executable, str(Path(FOLDER) / file)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.rstrip() == RECORDS["mujoco"]["printed"][file]

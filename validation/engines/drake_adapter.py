@@ -1,0 +1,90 @@
+"""Drake: phenomena by its discrete MultibodyPlant; layer distance (drake_layers.py)."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+import pydrake.all as drake
+from door import answer, run
+from drake_layers import SOLIDS, distance
+
+
+def plant_of(scene: Any, setting: Any) -> tuple[Any, Any]:
+    """Plant and diagram of a scene."""
+    builder = drake.DiagramBuilder()
+    config = drake.MultibodyPlantConfig(
+        time_step=setting["h"],
+        contact_model=setting["contact_model"],
+        discrete_contact_approximation=setting["approximation"],
+        **setting.get("plant", {}),
+    )
+    plant, _ = drake.AddMultibodyPlant(config, builder)
+    plant.mutable_gravity_field().set_gravity_vector(scene["gravity"])
+    properties = drake.ProximityProperties()
+    friction = drake.CoulombFriction(scene["mu_v"], scene["mu_v"])
+    drake.AddContactMaterial(friction=friction, properties=properties)
+    soft = drake.ProximityProperties(properties)
+    if setting["contact_model"] == "hydroelastic":
+        drake.AddCompliantHydroelasticProperties(0.01, 1e7, soft)
+        drake.AddRigidHydroelasticProperties(0.01, properties)
+    identity = drake.RigidTransform()
+    if scene["floor"]:
+        plant.RegisterCollisionGeometry(
+            plant.world_body(), identity, drake.HalfSpace(), "floor", properties
+        )
+    for body in scene["bodies"]:
+        inertia = drake.SpatialInertia(
+            body["mass"], np.zeros(3),
+            drake.UnitInertia(*(np.array(body["inertia"]) / body["mass"])),
+        )  # fmt: skip
+        added = plant.AddRigidBody(body["name"], inertia)
+        for k, shape in enumerate(body["shapes"]):
+            solid = SOLIDS[shape["kind"]](shape)
+            inside = drake.RigidTransform(shape["xyz"])
+            plant.RegisterCollisionGeometry(added, inside, solid, f"{body['name']} {k}", soft)
+        at = drake.RigidTransform(body["xyz"])
+        if body["joint"] == "fixed":
+            plant.WeldFrames(plant.world_frame(), added.body_frame(), at)
+        elif body["joint"] == "rail_x":
+            frame = plant.AddFrame(
+                drake.FixedOffsetFrame(body["name"] + "_rail", plant.world_frame(), at)
+            )
+            plant.AddJoint(drake.PrismaticJoint(body["name"], frame, added.body_frame(), [1, 0, 0]))
+        else:
+            plant.SetDefaultFloatingBaseBodyPose(added, at)
+    plant.Finalize()
+    return plant, builder.Build()
+
+
+def phenomena(case: Any) -> Any:
+    """A scene, by the simulator."""
+    scene, setting = case["scene"], case["setting"]
+    plant, diagram = plant_of(scene, setting)
+    simulator = drake.Simulator(diagram)
+    context = simulator.get_mutable_context()
+    within = plant.GetMyMutableContextFromRoot(context)
+    port = plant.get_applied_spatial_force_input_port()
+    bodies = {b["name"]: plant.GetBodyByName(b["name"]) for b in scene["bodies"]}
+
+    def step(loads: Any) -> None:
+        forces = []
+        for name, (force, torque) in loads.items():
+            applied = drake.ExternallyAppliedSpatialForce()
+            applied.body_index = bodies[name].index()
+            applied.F_Bq_W = drake.SpatialForce(torque, force)
+            forces.append(applied)
+        port.FixValue(within, forces)
+        simulator.AdvanceTo(context.get_time() + setting["h"])
+
+    def pose(name: str) -> Any:
+        X = plant.EvalBodyPoseInWorld(within, bodies[name])
+        w, x, y, z = X.rotation().ToQuaternion().wxyz()
+        return [*X.translation(), x, y, z, w]
+
+    return run(scene, setting["h"], step, pose)
+
+
+if __name__ == "__main__":
+    answer(f"drake {version('drake')}", {"distance": distance, "phenomena": phenomena})

@@ -1,0 +1,71 @@
+"""MuJoCo: phenomena by mj_step; layers distance and rows (mujoco_layers.py)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from door import answer, run
+from mujoco_layers import distance, heap
+
+JOINT = {
+    "free": "<freejoint/>",
+    "fixed": "",
+    "rail_x": '<joint type="slide" axis="1 0 0"/>',
+}
+
+
+def words(values: Any) -> str:
+    """Numbers for MJCF."""
+    return " ".join(repr(float(x)) for x in np.ravel(values))
+
+
+def geom(shape: Any) -> str:
+    """A shape of a body; MuJoCo's sizes are half-lengths."""
+    size = [shape["radius"]] if shape["kind"] == "sphere" else np.array(shape["size"]) / 2
+    return f'<geom type="{shape["kind"]}" size="{words(size)}" pos="{words(shape["xyz"])}"/>'
+
+
+def mjcf(scene: Any, setting: Any) -> str:
+    """The scene."""
+    friction = f'condim="4" friction="{scene["mu_v"]!r} {scene["mu_omega"]!r} 0.0001"'
+    bodies = ['<geom type="plane" size="1 1 1"/>'] if scene["floor"] else []
+    for body in scene["bodies"]:
+        geoms = "".join(geom(shape) for shape in body["shapes"])
+        bodies.append(
+            f'<body name="{body["name"]}" pos="{words(body["xyz"])}">{JOINT[body["joint"]]}'
+            f'<inertial pos="0 0 0" mass="{body["mass"]!r}" '
+            f'diaginertia="{words(body["inertia"])}"/>{geoms}</body>'
+        )
+    option = {"timestep": setting["h"], **setting.get("option", {})}
+    return (
+        f'<mujoco><option gravity="{words(scene["gravity"])}" '
+        f"{' '.join(f'{key}={chr(34)}{value}{chr(34)}' for key, value in option.items())}/>"
+        f"<default><geom {friction} {setting.get('geom', '')}/></default>"
+        f"<worldbody>{''.join(bodies)}</worldbody></mujoco>"
+    )
+
+
+def phenomena(case: Any) -> Any:
+    """A scene by mj_step."""
+    scene, setting = case["scene"], case["setting"]
+    model = mujoco.MjModel.from_xml_string(mjcf(scene, setting))
+    data = mujoco.MjData(model)
+
+    def step(loads: Any) -> None:
+        for name, load in loads.items():
+            data.body(name).xfrc_applied[:] = load.ravel()
+        mujoco.mj_step(model, data)
+
+    def pose(name: str) -> Any:
+        mujoco.mj_kinematics(model, data)
+        w, x, y, z = data.body(name).xquat
+        return [*data.body(name).xpos, x, y, z, w]
+
+    return run(scene, setting["h"], step, pose)
+
+
+if __name__ == "__main__":
+    layers = {"distance": distance, "heap": heap, "phenomena": phenomena}
+    answer(f"mujoco {mujoco.__version__}", layers)

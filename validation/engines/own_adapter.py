@@ -1,0 +1,95 @@
+"""quasistatic_ref itself, by the same door: phenomena by its simulator, each step certified."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from door import answer, run
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import __version__
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.scenes.systems import (
+    body_text,
+    joint_text,
+    link_text,
+    robot_text,
+    system_of,
+    world_plane,
+)
+from quasistatic_ref.model.shapes import Box, PlacedShape, Sphere
+from quasistatic_ref.simulate.simulator import Simulator
+
+
+def robot(body: Any) -> tuple[str, dict[str, Any]]:
+    """URDF of a body, and how it is placed."""
+    if body["joint"] == "free":
+        return body_text(body["mass"], body["inertia"]), {"xyz": tuple(body["xyz"])}
+    link = link_text("body", body["mass"], body["inertia"])
+    kind = {"fixed": "fixed", "rail_x": "prismatic"}[body["joint"]]
+    joint = joint_text("joint", kind, "base", "body")
+    text = robot_text(link_text("base", 1.0, (1, 1, 1)), link, joint)
+    return text, {"base": "fixed", "xyz": tuple(body["xyz"])}
+
+
+def solid(shape: Any) -> Any:
+    """A shape."""
+    return Sphere(shape["radius"]) if shape["kind"] == "sphere" else Box(np.array(shape["size"]))
+
+
+def phenomena(case: Any) -> Any:
+    """A scene, step by step."""
+    scene, setting = case["scene"], case["setting"]
+    bodies = {body["name"]: body for body in scene["bodies"]}
+    made = {name: robot(body) for name, body in bodies.items()}
+
+    def link(name: str) -> str:
+        return name if bodies[name]["joint"] == "free" else f"{name}/body"
+
+    system = system_of(
+        {name: text for name, (text, _) in made.items()},
+        **{name: place for name, (_, place) in made.items()},
+    )
+    placed = {"floor": [world_plane()]}
+    for name, body in bodies.items():
+        placed[name] = [
+            PlacedShape(f"{name} {k}", system.link(link(name)), np.eye(3), np.array(shape["xyz"]),
+                        solid(shape))
+            for k, shape in enumerate(body["shapes"])
+        ]  # fmt: skip
+    pairs = [
+        ContactPair(f"{a.name}, {b.name}", a, b, scene["mu_v"], scene["mu_omega"], 6, 1)
+        for first, second in scene["contacts"]
+        for a in placed[first]
+        for b in placed[second]
+    ]
+    simulator = Simulator(
+        system, pairs, h=setting["h"], K_q=np.zeros((0, 0)), cone=setting["cone"],
+        gravity=np.array(scene["gravity"]),
+    )  # fmt: skip
+    state = {"q": system.q_start}
+
+    def step(loads: Any) -> None:
+        force = np.zeros(system.n_v)
+        for name, load in loads.items():
+            if bodies[name]["joint"] == "free":
+                force += system.centre_of_mass_force(state["q"], name, *load)
+            elif bodies[name]["joint"] == "rail_x":
+                force[system.joint(f"{name}/joint").v] += load[0, 0]
+        state["q"] = simulator.step(state["q"], np.zeros(0), force).q
+
+    def pose(name: str) -> Any:
+        at, k = system.kinematics(state["q"]), system.link(link(name))
+        return [*at.t[k], *quaternion(at.R[k])]
+
+    return run(scene, setting["h"], step, pose)
+
+
+def quaternion(R: Any) -> Any:
+    """Of a rotation, x, y, z, w."""
+    return Rotation.from_matrix(R).as_quat()
+
+
+if __name__ == "__main__":
+    answer(f"quasistatic_ref {__version__}", {"phenomena": phenomena})

@@ -1,0 +1,67 @@
+"""pinocchio's ADMM solver for contacts, in a time stepping loop of ours: it has no simulator.
+
+Semi-implicit Euler, spheres on the floor: v+ = v + h M^-1 f + M^-1 J' lam. The solver finds
+impulses lam in Coulomb's cone, without torsion, so that J v+ + gap / h is in the dual cone: with
+``ncp`` after De Saxce's correction, which is Coulomb's law, without it of the convex problem.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from door import Unsupported, run
+
+
+def phenomena(case: Any) -> Any:
+    """A scene of one free body."""
+    scene, setting = case["scene"], case["setting"]
+    if len(scene["bodies"]) > 1 or not scene["floor"]:
+        raise Unsupported("the loop knows one body on a floor")
+    (body,) = scene["bodies"]
+    h, feet = setting["h"], body["shapes"]
+    model = pin.Model()
+    model.gravity.linear = np.array(scene["gravity"])
+    joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body["name"])
+    inertia = pin.Inertia(body["mass"], np.zeros(3), np.diag(body["inertia"]))
+    model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
+    data = model.createData()
+    models, datas = pin.StdVec_ConstraintModel(), pin.StdVec_ConstraintData()
+    for _ in feet:
+        at = pin.SE3.Identity()
+        contact = pin.PointContactConstraintModel(model, 0, at, joint, at)
+        contact.setFriction(scene["mu_v"])
+        models.append(pin.ConstraintModel(contact))
+        datas.append(models[-1].createData())
+    solver, settings = pin.ADMMConstraintSolver(), pin.ADMMSolverSettings()
+    settings.absolute_feasibility_tol = settings.absolute_complementarity_tol = setting["tolerance"]
+    settings.relative_feasibility_tol = settings.relative_complementarity_tol = setting["tolerance"]
+    settings.max_iterations, settings.solve_ncp = setting["iterations"], setting["ncp"]
+    result = pin.ADMMSolverResult()
+    state = {"q": np.array([*body["xyz"], 0, 0, 0, 1.0]), "v": np.zeros(model.nv)}
+
+    def step(loads: Any) -> None:
+        q, v = state["q"], state["v"]
+        pin.computeJointJacobians(model, data, q)
+        R, centre = data.oMi[joint].rotation, data.oMi[joint].translation
+        world = pin.getJointJacobian(model, data, joint, pin.LOCAL_WORLD_ALIGNED)
+        rows, gaps = [], []
+        for foot in feet:
+            arm = R @ np.array(foot["xyz"]) - [0, 0, foot["radius"]]
+            rows.append(world[:3] - pin.skew(arm) @ world[3:])
+            gaps.append([0, 0, (centre + arm)[2]])
+        J, gap = np.vstack(rows), np.concatenate(gaps)
+        M = pin.crba(model, data, q)
+        M = np.triu(M) + np.triu(M, 1).T
+        force = loads[body["name"]]
+        tau = world[:3].T @ force[0] + world[3:].T @ force[1] - pin.rnea(model, data, q, v, 0 * v)
+        free = v + h * np.linalg.solve(M, tau)
+        G = J @ np.linalg.solve(M, J.T)
+        g = J @ free + gap / h
+        solver.solve(pin.DelassusOperatorDense(G), g, models, datas, settings, result)
+        lam = np.array(result.retrieveConstraintImpulses()).ravel() * setting.get("scale", 1.0)
+        state["v"] = free + np.linalg.solve(M, J.T @ lam)
+        state["q"] = pin.integrate(model, q, h * state["v"])
+
+    return run(scene, h, step, lambda _: state["q"])
