@@ -72,9 +72,8 @@ QUOTED = {
         ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
         ("each finger presses with {:.1f} N, the gripper rises at {:.0f} mm/s",
          lambda: [of.pressed(), 40 / 2.2]),
-        ("The middle of the fingertips is {:.0f} mm behind the bunny's centre of mass (towards its "
-         "tail, along the world's +x; it looks to -x); each finger "
-         "comes to hold the bunny by one point; these points are {:.0f} and {:.0f} mm "
+        ("the middle of the fingertips is {:.0f} mm behind the centre of mass, and the two points "
+         "of the bunny that the fingers come to press on, one each, are {:.0f} and {:.0f} mm "
          "behind it",
          lambda: of.levers()[:3]),
         ("```text with torsion without torsion {} ...", lambda: [of.demo_lines()]),
@@ -286,7 +285,7 @@ MEANT = {
         "0.5 times the weight",
         "0.5 times the normal force",
         "r = 12 mm",
-        "the gripper rises by 40 mm",
+        "The gripper rises by 40 mm",
         "and a step is h = 10 ms",
         "the one with 3 mm",
     ],
