@@ -218,3 +218,18 @@ def rows():
 def held():
     """What docs/reality.md has to say: phrases, and rows as phrases without braces."""
     return [*PHRASES.values(), *((row, list) for row in rows())]
+
+
+MEANT = [
+    "a round finger of 9.5 mm",
+    "about 44 mm",
+    "a 95 % interval",
+    "| 95 % |",
+    "(95 %)",
+    "with 95 % intervals",
+    "in steps of 1 mm",
+    "1 mm / ($\\mu_v g h^2$) = 0.0014",
+    "the same to 1 mm",
+    "it is not 4.75 mm",
+]
+"""What of the page is no result."""
