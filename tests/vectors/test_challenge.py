@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import sys
 
 import numpy as np
@@ -16,9 +17,12 @@ from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.vectors.material import NUMPY, ROOT, RUNNERS, runner
 from tests.vectors.programs import command
-from validation import planted_bugs
+from validation import challenges, planted_bugs
 
 TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
+CHALLENGES = TABLE.with_name("challenges.md")
+ANSWERED = {"numpy": NUMPY, "javascript": [name for name in NUMPY if name != "distance"]}
+"""Layers that each runner answers; whole steps of simple shapes in JavaScript."""
 
 
 def numpy_runner(name, case):
@@ -216,3 +220,15 @@ def test_the_committed_table_of_planted_bugs_is_of_these_bugs_and_keeps_its_prom
     assert max(int(row[5]) for row in rows) <= 2
     assert max(int(row[6]) for row in rows) <= 2
     assert np.median([float(row[7]) for row in rows]) <= 3
+
+
+def test_the_committed_challenges_are_of_20_000_cases_each_and_found_nothing():
+    page = CHALLENGES.read_text()
+    rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.count(" | ") == 7]
+    for name in planted_bugs.COMMANDS:
+        counts = [[int(n.replace(",", "")) for n in row[2:]] for row in rows if row[0] == name]
+        asked, passed, acceptable, failed, unsupported, other = map(sum, zip(*counts, strict=True))
+        assert (failed, other) == (0, 0)
+        assert passed + acceptable == asked - unsupported >= challenges.ANSWERS
+        assert {row[1] for row in rows if row[0] == name} == set(ANSWERED[name])
+        assert re.search(rf"{name}: seeds 1 to \d+, [\d,]+ answers judged, no findings.", page)

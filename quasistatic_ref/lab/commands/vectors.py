@@ -150,9 +150,9 @@ def _harvest(options: argparse.Namespace) -> int:
 def _own(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.files import check_layer
     from quasistatic_ref.lab.vectors.generate import own_written
-    from quasistatic_ref.lab.vectors.layers import OWN
+    from quasistatic_ref.lab.vectors.layers import LAYERS
 
-    names = [check_layer(name) for name in options.layers or OWN]
+    names = [check_layer(name) for name in options.layers or LAYERS]
     for path in own_written(vectors_given(options), options.out, names, not options.quiet):
         print(path)
     return 0

@@ -6,7 +6,7 @@ from typing import IO
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers import LAYERS, OWN, layer
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 
 KINDS = ("exact", "own")
 """The expected answers, or those of the package in float64, as anybody else's."""
@@ -24,7 +24,7 @@ def served(lines: IO[str], out: IO[str], kind: str = "exact") -> None:
     name = f"quasistatic_ref {__version__} ({kind})"
     _say(
         out,
-        {"protocol": 1, "implementation": name, "layers": list(OWN if kind == "own" else LAYERS)},
+        {"protocol": 1, "implementation": name, "layers": list(LAYERS)},
     )
     for line in lines:
         try:

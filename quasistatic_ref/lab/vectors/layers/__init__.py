@@ -18,9 +18,6 @@ LAYERS: Final = (
 )
 """In the order in which a step goes through them; `step` is all of them at once."""
 
-OWN: Final = tuple(name for name in LAYERS if name != "derivative")
-"""Those that the package answers in float64 too: it does not differentiate whole steps yet."""
-
 
 class Layer(Protocol):
     """What each module of this package offers."""

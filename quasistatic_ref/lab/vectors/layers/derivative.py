@@ -1,7 +1,7 @@
 """Layer `derivative`: of q+ by q, q_bar_a, forces and parameters, or why there is none.
 
-Nothing is rounded from the mechanism to q+: see :mod:`quasistatic_ref.lab.vectors.whole`. The
-numbers are differences of such steps, each proved to 15 digits by a second difference.
+Nothing is rounded from the mechanism to q+, as ``lab/vectors/whole`` has it. The numbers are
+differences of such steps, each proved to 15 digits by a second difference.
 """
 
 from typing import Final
@@ -9,9 +9,9 @@ from typing import Final
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.own.derivative import own_derivative
 from quasistatic_ref.lab.vectors.whole.along import with_held_wrenches
 from quasistatic_ref.lab.vectors.whole.derivatives import Derivatives, derivatives
 from quasistatic_ref.lab.vectors.whole.differences import Base, base
@@ -55,14 +55,8 @@ def expected(case_input: Json) -> Expected:
 
 
 def own(case_input: Json) -> Json:
-    """The package's answer.
-
-    Raises
-    ------
-    InputError
-        It does not differentiate whole steps yet.
-    """
-    raise InputError("steps are not differentiated by the package", field="layer")
+    """The package's answer."""
+    return own_derivative(case_input)
 
 
 def _verdict(reasons: Json) -> Expected:

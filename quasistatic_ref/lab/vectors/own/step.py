@@ -24,6 +24,9 @@ class PosedCase(NamedTuple):
     mine : OwnSystem
     simulator : Simulator
     q : ndarray, shape (n_q,)
+    q_bar_a : ndarray, shape (n_q_a,)
+    force : ndarray, shape (n_v,)
+        Generalised force of the wrenches [N, N m].
     points : ClosestPoints
     step : StepData
     """
@@ -31,6 +34,8 @@ class PosedCase(NamedTuple):
     mine: OwnSystem
     simulator: Simulator
     q: Array
+    q_bar_a: Array
+    force: Array
     points: ClosestPoints
     step: StepData
 
@@ -59,13 +64,14 @@ def posed_case(case_input: Json) -> PosedCase:
     order = np.lexsort((points.point, np.repeat(np.arange(len(pairs)), [p.n_c for p in pairs])))
     points = points.chosen(order)
     force = _force(case_input, mine, q)
-    step = simulator.step_data(q, target[: system.n_q_a], force, points, kinematics)
-    return PosedCase(mine, simulator, q, points, step)
+    q_bar_a = target[: system.n_q_a]
+    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
+    return PosedCase(mine, simulator, q, q_bar_a, force, points, step)
 
 
 def own_step(case_input: Json) -> Json:
     """The answer of the layer `step`."""
-    mine, simulator, q, points, step = posed_case(case_input)
+    mine, simulator, q, _, _, points, step = posed_case(case_input)
     at = step.contacts
     output = _program(step, mine)
     output["contacts"] = [

@@ -1,0 +1,36 @@
+"""Derivatives of a step by the package itself: closed forms in float64, from the working set."""
+
+import numpy as np
+
+from quasistatic_ref.certify.reason import ZERO_FRICTION
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.own.step import posed_case
+from quasistatic_ref.simulate.derivatives import derivatives
+
+
+def own_derivative(case_input: Json) -> Json:
+    """The answer of the layer `derivative`; reasons, which have other names here, are left out."""
+    posed = posed_case(case_input)
+    mine, n_a = posed.mine, posed.step.n_a
+    found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
+    # With mu = 0 the layer leaves that derivative out: mu cannot be smaller.
+    if any(reason.kind != ZERO_FRICTION for reason in found.reasons):
+        return {"differentiable": False}
+    v, a = mine.v, mine.v[:n_a]
+    bodies = case_input["mechanism"]["bodies"]
+    massive = [mine.links[body["name"]] for body in bodies if "mass" in body]
+    rubs, turns = (
+        [k for k, pair in enumerate(case_input["pairs"]) if pair[mu] > 0]
+        for mu in ("mu_v", "mu_omega")
+    )
+    answer = {
+        "dq_dq": found.dq_dq[np.ix_(v, v)],
+        "dq_dq_bar_a": found.dq_dq_bar_a[np.ix_(v, a)],
+        "dq_dtau": found.dq_dtau[np.ix_(v, v)],
+        "dq_dmu_v": found.dq_dmu_v[np.ix_(v, rubs)],
+        "dq_dmu_omega": found.dq_dmu_omega[np.ix_(v, turns)],
+        "dq_dK_q": found.dq_dK_q[np.ix_(v, a)],
+        "dq_dh": found.dq_dh[v],
+        "dq_dm": found.dq_dmasses[np.ix_(v, massive)],
+    }
+    return {"differentiable": True, **{name: value.tolist() for name, value in answer.items()}}
