@@ -27,8 +27,8 @@ from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.study import test_known_issues as known_issues
 from tests.study import test_solver_study_page as solver_study
-from tests.unit import test_digits_figure as digits
-from tests.unit import test_options_of_backends as options
+from tests.unit.figures import test_digits_figure as digits
+from tests.unit.solve import test_options_of_backends as options
 from validation.bench_exact import PROMISED
 
 GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]

@@ -4,7 +4,7 @@ Run ``python -m validation.memory_of_steps`` (a quarter to half an hour; ``--ste
 it shorter). ``sphere_spin`` under a torque about the normal that is drawn at random at every step,
 so that no step is like another: 50,000 steps with ``certify = full``, nothing of them kept. What
 Python has allocated is traced, after a collection of garbage; what C libraries hold is seen in the
-resident size. What a run keeps of its steps is a test's: ``tests/unit/test_memory.py``.
+resident size. What a run keeps of its steps is a test's: ``tests/unit/simulate/test_memory.py``.
 
 Prints the page that is kept in ``validation/results/memory_of_steps.md``. Exit status 1 if in the
 second half of the steps more was added than ``ENDS`` allows.

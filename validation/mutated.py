@@ -19,61 +19,89 @@ JUDGE = (
     "equations/test_eq12_complementarity.py",
 )
 EXACT = (
-    "unit/test_exact.py",
-    "unit/test_active_set.py",
-    "unit/test_rational.py",
-    "unit/test_rounding.py",
-    "unit/test_certificate.py",
-    "unit/test_farkas.py",
+    "unit/certify/test_exact.py",
+    "unit/certify/test_active_set.py",
+    "unit/certify/test_rational.py",
+    "unit/certify/test_rounding.py",
+    "unit/certify/test_certificate.py",
+    "unit/certify/test_farkas.py",
     "properties/test_exact_against_enumeration.py",
 )
 
-SYSTEM = ("unit/test_system.py", "unit/test_system_forces.py", "unit/test_system_refusals.py")
+SYSTEM = (
+    "unit/model/test_system.py",
+    "unit/model/test_system_forces.py",
+    "unit/model/test_system_refusals.py",
+)
 CONTACT = (
     "equations/test_eq02_relative_velocity.py",
     "equations/test_eq03_contact_jacobian.py",
 )
-FOLLOWED = ("unit/test_shortlist.py", "properties/test_tracker.py")
-FORGED = ("unit/test_single_faults.py", "unit/test_enclosure.py", "properties/test_forgeries.py")
-ENCLOSED = ("unit/test_newton.py", "unit/test_enclosure.py", "unit/test_native.py")
-PAIRS = ("unit/test_distance.py", "unit/test_pairs.py", "unit/test_jacobian.py")
-SOLIDS = ("unit/test_solid_pairs.py", "unit/test_distance.py", "unit/test_curved_pairs.py")
-SPARSE = ("unit/test_sparse.py", "unit/test_solver.py")
-CLOUDS = ("unit/test_clouds.py", "unit/test_meshes.py")
-SCENES = ("unit/test_scenario.py", "unit/test_simulator.py", "unit/test_words.py")
+FOLLOWED = ("unit/contact/test_shortlist.py", "properties/test_tracker.py")
+FORGED = (
+    "unit/certify/test_single_faults.py",
+    "unit/certify/test_enclosure.py",
+    "properties/test_forgeries.py",
+)
+ENCLOSED = (
+    "unit/certify/test_newton.py",
+    "unit/certify/test_enclosure.py",
+    "unit/solve/test_native.py",
+)
+PAIRS = (
+    "unit/contact/test_distance.py",
+    "unit/contact/test_pairs.py",
+    "unit/contact/test_jacobian.py",
+)
+SOLIDS = (
+    "unit/contact/test_solid_pairs.py",
+    "unit/contact/test_distance.py",
+    "unit/contact/test_curved_pairs.py",
+)
+SPARSE = ("unit/step/test_sparse.py", "unit/solve/test_solver.py")
+CLOUDS = ("unit/model/test_clouds.py", "unit/model/test_meshes.py")
+SCENES = (
+    "unit/simulate/test_scenario.py",
+    "unit/simulate/test_simulator.py",
+    "unit/step/test_words.py",
+)
 URDF = (
-    "unit/test_urdf.py",
-    "unit/test_urdf_refusals.py",
-    "unit/test_meshes.py",
+    "unit/model/test_urdf.py",
+    "unit/model/test_urdf_refusals.py",
+    "unit/model/test_meshes.py",
     "errors/test_bad_urdfs.py",
 )
-DATA = ("unit/test_data.py", "unit/test_plain_data.py", "unit/test_step_files.py")
+DATA = ("unit/step/test_data.py", "unit/step/test_plain_data.py", "unit/step/test_step_files.py")
 SOLVERS = (
-    "unit/test_native.py",
-    "unit/test_backends.py",
-    "unit/test_solver.py",
-    "unit/test_units.py",
+    "unit/solve/test_native.py",
+    "unit/solve/test_backends.py",
+    "unit/solve/test_solver.py",
+    "unit/solve/test_units.py",
 )
 SOLVED = (
-    "unit/test_solver.py",
-    "unit/test_backends.py",
-    "unit/test_problem.py",
-    "unit/test_cones.py",
+    "unit/solve/test_solver.py",
+    "unit/solve/test_backends.py",
+    "unit/step/test_problem.py",
+    "unit/step/test_cones.py",
 )
-CURVED = ("unit/test_curved_pairs.py", "unit/test_distance.py")
+CURVED = ("unit/contact/test_curved_pairs.py", "unit/contact/test_distance.py")
 
 
 def ordered(own: str) -> tuple[str, ...]:
     """The tests of the exact method, those of one unit first."""
-    first = f"unit/test_{own}.py"
+    first = f"unit/certify/test_{own}.py"
     return (first, *(test for test in EXACT if test != first))
 
 
 TESTS: dict[str, tuple[str, ...]] = {
-    "step/problem.py": ("unit/test_standard_form.py", *PAGE, "unit/test_problem.py"),
-    "step/friction.py": ("unit/test_friction.py", *PAGE, "unit/test_cones.py"),
-    "step/standard_form.py": ("unit/test_standard_form.py", *PAGE),
-    "certify/optimality.py": ("unit/test_optimality.py", *JUDGE, "unit/test_enclosure.py"),
+    "step/problem.py": ("unit/step/test_standard_form.py", *PAGE, "unit/step/test_problem.py"),
+    "step/friction.py": ("unit/step/test_friction.py", *PAGE, "unit/step/test_cones.py"),
+    "step/standard_form.py": ("unit/step/test_standard_form.py", *PAGE),
+    "certify/optimality.py": (
+        "unit/certify/test_optimality.py",
+        *JUDGE,
+        "unit/certify/test_enclosure.py",
+    ),
     "certify/dyadic.py": ordered("rational"),
     "certify/rational.py": ordered("rational"),
     "certify/kkt.py": ordered("exact"),
@@ -85,36 +113,36 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/rounding.py": ordered("rounding"),
     "certify/exact.py": ordered("exact"),
     "certify/exact_step.py": ordered("farkas"),
-    "certify/confirm.py": ("unit/test_confirm.py",),
-    "certify/bound.py": ("unit/test_bound.py", *FORGED),
-    "certify/rounded_bound.py": ("unit/test_rounded_bound.py",),
-    "certify/exchange.py": ("unit/test_exchange.py",),
-    "certify/least_eigenvalues.py": ("unit/test_sparse_bound.py",),
-    "certify/opening.py": ("unit/test_sparse_bound.py",),
-    "certify/outward.py": ("unit/test_sparse_bound.py", "unit/test_sizes.py"),
-    "certify/sizes.py": ("unit/test_sizes.py", "unit/test_sparse_bound.py"),
-    "certify/sparse_bound.py": ("unit/test_sparse_bound.py",),
-    "certify/gap.py": ("unit/test_gap.py", *FORGED),
-    "certify/impulses.py": ("unit/test_impulses.py", *FORGED),
-    "certify/judged.py": ("unit/test_judged.py", *FORGED),
+    "certify/confirm.py": ("unit/certify/test_confirm.py",),
+    "certify/bound.py": ("unit/certify/test_bound.py", *FORGED),
+    "certify/rounded_bound.py": ("unit/certify/test_rounded_bound.py",),
+    "certify/exchange.py": ("unit/certify/test_exchange.py",),
+    "certify/least_eigenvalues.py": ("unit/certify/test_sparse_bound.py",),
+    "certify/opening.py": ("unit/certify/test_sparse_bound.py",),
+    "certify/outward.py": ("unit/certify/test_sparse_bound.py", "unit/certify/test_sizes.py"),
+    "certify/sizes.py": ("unit/certify/test_sizes.py", "unit/certify/test_sparse_bound.py"),
+    "certify/sparse_bound.py": ("unit/certify/test_sparse_bound.py",),
+    "certify/gap.py": ("unit/certify/test_gap.py", *FORGED),
+    "certify/impulses.py": ("unit/certify/test_impulses.py", *FORGED),
+    "certify/judged.py": ("unit/certify/test_judged.py", *FORGED),
     "certify/ellipsoid.py": FORGED,
     "certify/apex.py": FORGED,
     "certify/conic.py": FORGED,
-    "certify/verdict.py": ("unit/test_certificate.py", *FORGED),
-    "certify/warm.py": ("unit/test_warm.py", *EXACT),
-    "certify/sensitivity.py": ("unit/test_sensitivity.py",),
-    "certify/parameters.py": ("unit/test_sensitivity.py",),
-    "certify/rows.py": ("unit/test_certificate.py", "unit/test_farkas.py"),
-    "certify/farkas.py": ("unit/test_farkas.py",),
+    "certify/verdict.py": ("unit/certify/test_certificate.py", *FORGED),
+    "certify/warm.py": ("unit/certify/test_warm.py", *EXACT),
+    "certify/sensitivity.py": ("unit/certify/test_sensitivity.py",),
+    "certify/parameters.py": ("unit/certify/test_sensitivity.py",),
+    "certify/rows.py": ("unit/certify/test_certificate.py", "unit/certify/test_farkas.py"),
+    "certify/farkas.py": ("unit/certify/test_farkas.py",),
     "certify/certificate.py": ordered("certificate"),
-    "certify/norm.py": ("unit/test_digits.py", "unit/test_farkas.py"),
-    "certify/digits.py": ("unit/test_digits.py",),
-    "model/coordinates.py": ("unit/test_system.py",),
-    "model/rotation.py": ("unit/test_rotation.py",),
+    "certify/norm.py": ("unit/certify/test_digits.py", "unit/certify/test_farkas.py"),
+    "certify/digits.py": ("unit/certify/test_digits.py",),
+    "model/coordinates.py": ("unit/model/test_system.py",),
+    "model/rotation.py": ("unit/model/test_rotation.py",),
     "model/system.py": SYSTEM,
-    "contact/jacobian.py": ("unit/test_jacobian.py", *CONTACT),
-    "contact/cloud.py": ("unit/test_cloud.py",),
-    "contact/pairs.py": ("unit/test_pairs.py", "unit/test_jacobian.py"),
+    "contact/jacobian.py": ("unit/contact/test_jacobian.py", *CONTACT),
+    "contact/cloud.py": ("unit/contact/test_cloud.py",),
+    "contact/pairs.py": ("unit/contact/test_pairs.py", "unit/contact/test_jacobian.py"),
     "contact/tracker.py": FOLLOWED,
     "contact/cloud_tracker.py": FOLLOWED,
     "contact/batch.py": FOLLOWED,
@@ -137,25 +165,33 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/polytope_pair.py": SOLIDS,
     "contact/poses.py": FOLLOWED,
     "contact/solid_pair.py": CURVED,
-    "contact/solid_rows.py": ("unit/test_step_time.py", *FOLLOWED, *PAIRS),
+    "contact/solid_rows.py": ("unit/lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "contact/sparse_jacobian.py": SPARSE,
     "contact/support.py": SOLIDS,
     "contact/ways_out.py": SOLIDS,
-    "model/body.py": ("unit/test_solid.py", *SCENES),
+    "model/body.py": ("unit/model/test_solid.py", *SCENES),
     "model/clouds.py": CLOUDS,
     "model/configuration.py": SCENES,
-    "model/convex_mesh.py": ("unit/test_meshes.py", "unit/test_solid_pairs.py"),
-    "model/dae.py": ("unit/test_meshes.py",),
-    "model/frozen.py": ("unit/test_plain_data.py", *SYSTEM),
-    "model/kinematics.py": ("unit/test_system.py", *CONTACT),
-    "model/mesh_files.py": ("unit/test_meshes.py",),
-    "model/motion.py": ("unit/test_system.py", "unit/test_simulator.py", *CONTACT),
+    "model/convex_mesh.py": ("unit/model/test_meshes.py", "unit/contact/test_solid_pairs.py"),
+    "model/dae.py": ("unit/model/test_meshes.py",),
+    "model/frozen.py": ("unit/step/test_plain_data.py", *SYSTEM),
+    "model/kinematics.py": ("unit/model/test_system.py", *CONTACT),
+    "model/mesh_files.py": ("unit/model/test_meshes.py",),
+    "model/motion.py": ("unit/model/test_system.py", "unit/simulate/test_simulator.py", *CONTACT),
     "model/pcd.py": CLOUDS,
     "model/ply.py": CLOUDS,
     "model/point_table.py": CLOUDS,
-    "model/screw.py": ("unit/test_screw.py", "unit/test_rotation.py", "unit/test_system.py"),
-    "model/shapes.py": ("unit/test_shapes.py", "unit/test_solid.py", "unit/test_words.py"),
-    "model/solid.py": ("unit/test_solid.py", "unit/test_plain_data.py"),
+    "model/screw.py": (
+        "unit/model/test_screw.py",
+        "unit/model/test_rotation.py",
+        "unit/model/test_system.py",
+    ),
+    "model/shapes.py": (
+        "unit/model/test_shapes.py",
+        "unit/model/test_solid.py",
+        "unit/step/test_words.py",
+    ),
+    "model/solid.py": ("unit/model/test_solid.py", "unit/step/test_plain_data.py"),
     "model/text.py": URDF,
     "model/urdf.py": URDF,
     "model/urdf_file.py": URDF,
@@ -163,9 +199,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/urdf_shapes.py": URDF,
     "model/urdf_tree.py": URDF,
     "model/urdf_xml.py": URDF,
-    "model/words.py": ("unit/test_words.py", "unit/test_plain_data.py"),
-    "model/workspace.py": ("unit/test_system.py", "unit/test_memory.py"),
-    "model/world.py": ("unit/test_system.py", "unit/test_sparse.py", *SYSTEM[1:]),
+    "model/words.py": ("unit/step/test_words.py", "unit/step/test_plain_data.py"),
+    "model/workspace.py": ("unit/model/test_system.py", "unit/simulate/test_memory.py"),
+    "model/world.py": ("unit/model/test_system.py", "unit/step/test_sparse.py", *SYSTEM[1:]),
     "solve/adapters/clarabel.py": SOLVERS,
     "solve/adapters/daqp.py": SOLVERS,
     "solve/adapters/osqp.py": SOLVERS,
@@ -173,39 +209,39 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/adapters/program.py": SOLVERS,
     "solve/adapters/quadprog.py": SOLVERS,
     "solve/backends.py": SOLVERS,
-    "solve/cone_problem.py": ("unit/test_standard_form.py", *SOLVERS),
-    "solve/engines.py": ("unit/test_defaults.py", *SOLVERS),
+    "solve/cone_problem.py": ("unit/step/test_standard_form.py", *SOLVERS),
+    "solve/engines.py": ("unit/solve/test_defaults.py", *SOLVERS),
     "solve/extended.py": SOLVERS,
-    "solve/native.py": ("unit/test_native.py", "unit/test_units.py"),
+    "solve/native.py": ("unit/solve/test_native.py", "unit/solve/test_units.py"),
     "solve/scaled.py": SOLVERS,
-    "solve/second_order.py": ("unit/test_native.py", "unit/test_cones.py"),
+    "solve/second_order.py": ("unit/solve/test_native.py", "unit/step/test_cones.py"),
     "solve/solve.py": SOLVED,
     "solve/solver.py": SOLVED,
-    "solve/sparse.py": (*SPARSE, "unit/test_sparse_bound.py"),
+    "solve/sparse.py": (*SPARSE, "unit/certify/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
     "solve/through_qpsolvers.py": SOLVED,
-    "solve/units.py": ("unit/test_units.py", *SOLVERS),
+    "solve/units.py": ("unit/solve/test_units.py", *SOLVERS),
     "step/arrays.py": DATA,
     "step/blocks.py": SPARSE,
-    "step/cones.py": ("unit/test_cones.py", "unit/test_completion.py"),
-    "step/contacts.py": ("unit/test_artifacts.py", *DATA),
+    "step/cones.py": ("unit/step/test_cones.py", "unit/cli/test_completion.py"),
+    "step/contacts.py": ("unit/step/test_artifacts.py", *DATA),
     "step/data.py": DATA,
-    "step/extension.py": ("unit/test_native.py", "examples/test_extensions.py"),
+    "step/extension.py": ("unit/solve/test_native.py", "examples/test_extensions.py"),
     "step/files.py": (
-        "unit/test_solution_files.py",
-        "unit/test_solution_files.py",
+        "unit/step/test_solution_files.py",
+        "unit/step/test_solution_files.py",
         "errors/test_bad_steps.py",
     ),
     "step/posed.py": DATA,
-    "step/rounded_wrench.py": ("unit/test_wrenches.py", "unit/test_enclosure.py"),
-    "step/show.py": ("unit/test_words.py", *DATA),
-    "step/solution.py": ("unit/test_certificate.py", "unit/test_newton.py"),
+    "step/rounded_wrench.py": ("unit/simulate/test_wrenches.py", "unit/certify/test_enclosure.py"),
+    "step/show.py": ("unit/step/test_words.py", *DATA),
+    "step/solution.py": ("unit/certify/test_certificate.py", "unit/certify/test_newton.py"),
     "step/solution_files.py": (
-        "unit/test_solution_files.py",
-        "unit/test_solutions_of_version_1.py",
+        "unit/step/test_solution_files.py",
+        "unit/step/test_solutions_of_version_1.py",
         *FORGED,
     ),
     "step/sparse_form.py": SPARSE,
-    "step/words.py": ("unit/test_words.py", *DATA),
+    "step/words.py": ("unit/step/test_words.py", *DATA),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""

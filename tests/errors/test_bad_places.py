@@ -15,7 +15,7 @@ from quasistatic_ref.quoting import clipped
 from quasistatic_ref.step.files import step_written
 from tests.errors.scene import BALL, SCENE, changed, scene_written
 from tests.helpers import planted_step
-from tests.unit.urdf_texts import written
+from tests.unit.model.urdf_texts import written
 
 LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
 

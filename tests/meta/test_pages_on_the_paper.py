@@ -86,7 +86,7 @@ EQ11 = "`equations/test_eq11_dual_feasibility.py`"
         (f"{EQ11}: `test_positive_multipliers_leave_no_residual`", []),
         (f"{EQ11}: `test_no_residual`", ["test_no_residual"]),
         (
-            f"`unit/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
+            f"`unit/certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
             ["test_half_way_values_round_to_even"],
         ),
         ("`unit/test_inexact.py`", ["unit/test_inexact.py"]),

@@ -34,9 +34,9 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.study import made_store
-from tests.unit.test_meshes import COLLADA
-from tests.unit.urdf_texts import collision, link, written
-from tests.unit.urdf_texts import robot as urdf_of
+from tests.unit.model.test_meshes import COLLADA
+from tests.unit.model.urdf_texts import collision, link, written
+from tests.unit.model.urdf_texts import robot as urdf_of
 from validation.fuzzing import texts
 from validation.fuzzing.files import (
     Form,

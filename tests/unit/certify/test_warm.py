@@ -1,0 +1,53 @@
+"""The guess of the active rows: independent rows that carry the same net impulse."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.step.standard_form import standard_form
+from tests.unit.certify.test_exact import resting_point
+
+
+def test_open_rows_are_left_out_and_the_most_pressed_comes_first():
+    lam, slack = np.array([1e-9, 2.0, 1.0, 1e-12]), np.array([1.0, 1e-9, 1e-12, 3.0])
+    assert warm_rows(np.eye(4), lam, slack) == [1, 2]
+    assert warm_rows(np.zeros((0, 4)), np.zeros(0), np.zeros(0)) == []
+
+
+def test_sticking_contact_keeps_independent_rows_of_the_same_impulse():
+    """Six multipliers of one contact: at most four rows carry the same wrench."""
+    A = standard_form(resting_point()).A
+    pressed = np.arange(1.0, 7.0)
+    rows = warm_rows(A, pressed, np.zeros(6))
+    assert np.linalg.matrix_rank(A[rows]) == len(rows) <= 4
+    lam = np.linalg.lstsq(A[rows].T, A.T @ pressed)[0]
+    assert (lam > 0).all()
+    assert np.abs(A[rows].T @ lam - A.T @ pressed).max() < 1e-12
+
+
+@pytest.mark.parametrize("copies", [2, 3, 4])
+def test_coincident_contacts_that_press_alike_keep_independent_rows(copies):
+    """Several multipliers reach zero at once; what rounding leaves of a dependence is no pivot."""
+    A = np.vstack([standard_form(resting_point()).A] * copies)
+    pressed = np.ones(len(A))
+    rows = warm_rows(A, pressed, np.zeros(len(A)))
+    assert np.linalg.matrix_rank(A[rows]) == len(rows) <= 4
+    lam = np.linalg.lstsq(A[rows].T, A.T @ pressed)[0]
+    np.testing.assert_allclose(A[rows].T @ lam, A.T @ pressed, rtol=0, atol=1e-12)
+
+
+def test_optimal_multipliers_that_are_not_basic_need_no_walk():
+    """The mean of several optimal multipliers is one, and presses on more rows than it needs."""
+    rng = np.random.default_rng(5)
+    surplus = 0
+    for _ in range(10):
+        step = grasp_step(rng)
+        starts = [rng.permutation(80)[:40].tolist() for _ in range(5)]
+        optima = [exact_step(step, rows) for rows in starts]
+        lam = np.mean([o.lam for o in optima], axis=0)
+        surplus += np.count_nonzero(lam) > len(optima[0].working_set)
+        warm = warm_rows(standard_form(step).A, lam, optima[0].slack)
+        assert exact_step(step, warm).walks == 0
+    assert surplus >= 5
