@@ -215,7 +215,7 @@ RESULTS = (
     ),
     Result(
         "reality",
-        (CLI, "validate", "reality", "--fraction", "0.2", "--out", "{temporary}"),
+        (CLI, "validate", "reality", "--out", "{temporary}"),
         ("validation/results/reality.json", "validation/results/reality.csv"),
         copied=(("reality.json", "validation/results"), ("reality.csv", "validation/results")),
     ),
