@@ -18,9 +18,9 @@ def own_derivative(case_input: Json) -> Json:
         return {"differentiable": False}
     v, a = mine.v, mine.v[:n_a]
     bodies = case_input["mechanism"]["bodies"]
-    massive = [mine.links[body["name"]] for body in bodies if "mass" in body]
+    massive = np.array([mine.links[body["name"]] for body in bodies if "mass" in body], dtype=int)
     rubs, turns = (
-        [k for k, pair in enumerate(case_input["pairs"]) if pair[mu] > 0]
+        np.flatnonzero([pair[mu] > 0 for pair in case_input["pairs"]])
         for mu in ("mu_v", "mu_omega")
     )
     answer = {
