@@ -113,7 +113,7 @@ def page_faults(browser: Browser, page: Path, pictures: Path | None = None) -> I
     browser.until(TYPESET)
     browser.until("document.fonts.status === 'loaded'")
     browser.value("for (const folded of document.querySelectorAll('details')) folded.open = true")
-    # Formulas for screen readers: not seen, and in some versions of Chromium taller than the others.
+    # Formulas for screen readers: not seen, and taller than the others in Chromium 156.
     browser.value("for (const one of document.querySelectorAll('mjx-assistive-mml')) one.remove()")
     for width in WIDTHS:
         resized(browser, width)
