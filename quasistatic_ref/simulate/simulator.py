@@ -204,12 +204,16 @@ class Simulator:
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + force
-        if tau.shape != self.weighs.shape:
-            problem = f"must have shape {self.weighs.shape}"
-            raise StepDataError(problem, field="force", value=np.shape(force))
+        tau = self.weighs * system.gravity_force(q, self.gravity) + self.checked_force(force)
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+
+    def checked_force(self, force: Array | float) -> Array | float:
+        """A force [N, N m], of shape (n_v,) or one number; StepDataError if it is neither."""
+        shape, mine = np.shape(force), self.weighs.shape
+        if shape and shape != mine:
+            raise StepDataError(f"must have shape {mine}", field="force", value=shape)
+        return force
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
