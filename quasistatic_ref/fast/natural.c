@@ -14,8 +14,9 @@ typedef struct {
     const double *g, *A, *b;
     /* The units S of coordinates, their squares, and H^-1. */
     const double *coordinate, *squared, *inverse;
-    /* Written: squared lengths of rows that are not zero; {length, size}; -g, A and b in them. */
-    double *squares, *units, *f, *natural_A, *natural_b;
+    /* Written: squared lengths of rows that are not zero; what A's columns are multiplied by;
+       {length, size}; -g, A and b in them. */
+    double *squares, *scale, *units, *f, *natural_A, *natural_b;
 } Natural;
 
 int64_t natural_size(void) { return sizeof(Natural); }
@@ -73,9 +74,10 @@ static double length_unit(const Natural *s)
 {
     int64_t count = 0;
     for (int64_t r = 0; r < s->m; r++) {
+        const double *A = s->A + r * s->n;
         double sum = 0.0;
         for (int64_t v = 0; v < s->n; v++)
-            sum += s->A[r * s->n + v] * s->A[r * s->n + v] * s->squared[v];
+            sum += A[v] * A[v] * s->squared[v];
         if (sum == 0.0)
             continue;
         if (!(sum > 1 / LARGEST && sum < LARGEST))
@@ -131,13 +133,16 @@ int natural_program(Natural *s)
     s->units[0] = length;
     s->units[1] = size;
     for (int64_t v = 0; v < s->n; v++) {
-        double unit = s->coordinate[v] / length;
         s->f[v] = s->g[v] * (s->coordinate[v] / -size);
-        for (int64_t r = 0; r < s->m; r++)
-            s->natural_A[r * s->row + v * s->column] = s->A[r * s->n + v] * unit;
+        s->scale[v] = s->coordinate[v] / length;
     }
     double unit = 1 / (size * length);
-    for (int64_t r = 0; r < s->m; r++)
+    for (int64_t r = 0; r < s->m; r++) {
+        const double *A = s->A + r * s->n;
+        double *to = s->natural_A + r * s->row;
         s->natural_b[r] = s->b[r] * unit;
+        for (int64_t v = 0; v < s->n; v++)
+            to[v * s->column] = A[v] * s->scale[v];
+    }
     return 1;
 }

@@ -13,7 +13,7 @@ from quasistatic_ref.solve.units import Metric, Units
 NUMBERS = ("n", "m", "row", "column")
 ARRAYS = (
     "g", "A", "b", "coordinate", "squared", "inverse",
-    "squares", "units", "f", "natural_A", "natural_b",
+    "squares", "scale", "units", "f", "natural_A", "natural_b",
 )  # fmt: skip
 """The fields of ``Natural`` in natural.c."""
 
@@ -45,7 +45,8 @@ class NaturalProgram:
                 "n": n, "m": m, "row": row, "column": column,
                 **{name: scene[name] for name in ("g", "A", "b")},
                 "coordinate": metric.coordinate, "squared": metric.squared,
-                "inverse": metric.inverse, "squares": np.zeros(m), "units": np.zeros(2),
+                "inverse": metric.inverse,
+                "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
                 "f": program.f, "natural_b": program.b,
                 # In either order of memory, of which C is told:
                 "natural_A": program.A.ravel(order="K"),

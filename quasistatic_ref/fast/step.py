@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.natural import MOST, NaturalProgram
 from quasistatic_ref.fast.poses import Poses
@@ -120,7 +121,10 @@ class CompiledStep:
                 return None
         lap("rows")
         solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)
-        solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
+        try:
+            solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
+        except StepNotSolved as failure:
+            solution = simulator.instead(step, failure)
         simulator.limits.check_penetration(step)
         lap("solve")
         q_next = self.screws.integrate(q, solution.delta_q)

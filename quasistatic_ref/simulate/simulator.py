@@ -11,7 +11,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
@@ -59,7 +59,8 @@ class Simulator:
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     solver : str, optional
         Name of a backend, by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`; it, accuracy and certify are as in
+        :func:`~quasistatic_ref.solve.engines.default_backend`; Clarabel takes steps on which that
+        one fails. It, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
@@ -80,6 +81,8 @@ class Simulator:
         What takes its steps in compiled code, to the same bits; None where nothing does.
     solver : Solver or None
         What solved the last step; it takes the next one if that fits.
+    spare : Solver or None
+        What solved the last step on which the default backend failed.
 
     Raises
     ------
@@ -119,11 +122,12 @@ class Simulator:
         self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
         blocks = extension is None and system.rigid
         entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
-        default = default_backend(engine, cone, certify, entries)
-        self.backend = default if solver is None else solver
+        self.default = default_backend(engine, cone, certify, entries)
+        self.backend = self.default if solver is None else solver
         self.engine = default_engine(self.backend, cone) if engine is None else engine
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
+        self.spare: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
         self.geometry = contact_geometry(self.layout, system.motion, least)
@@ -210,7 +214,7 @@ class Simulator:
 
     def checked_force(self, force: Array | float) -> Array | float:
         """A force [N, N m], of shape (n_v,) or one number; StepDataError if it is neither."""
-        shape, mine = np.shape(force), self.weighs.shape
+        shape, mine = () if isinstance(force, float) else np.shape(force), self.weighs.shape
         if shape and shape != mine:
             raise StepDataError(f"must have shape {mine}", field="force", value=shape)
         return force
@@ -236,6 +240,25 @@ class Simulator:
         own = self.fitting(step)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else own
-        return solve_step(
-            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
-        )
+        asked = partial(solve_step, step, accuracy=self.accuracy, certify=self.certify)
+        try:
+            return asked(solver, extension=extension)
+        except StepNotSolved as failure:
+            return self.instead(step, failure)
+
+    def instead(self, step: StepData, failure: StepNotSolved) -> StepSolution:
+        """Clarabel's answer to a step on which the default of such runs failed; else the failure.
+
+        Raises
+        ------
+        StepNotSolved
+        """
+        itself = type(failure) is StepNotSolved and failure.backend == self.default
+        if not itself or self.default == DEFAULT:
+            raise failure
+        if self.spare is None or not self.spare.fits(step):
+            self.spare = solver_for(step, DEFAULT, self.engine)
+        try:
+            return solve_step(step, self.spare, accuracy=self.accuracy, certify=self.certify)
+        except StepNotSolved:
+            raise failure from None
