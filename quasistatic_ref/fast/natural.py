@@ -7,7 +7,6 @@ from quasistatic_ref.fast.scene import Scene
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Metric, Units
 
 NUMBERS = ("n", "m", "row", "column")
