@@ -65,7 +65,7 @@ class Scene(Structure):
     ) -> None:
         motion, layout = geometry.motion, constant.layout
         n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
-        n_x, n_v = motion.coordinates.shape
+        n_x, n_v = len(motion.owner), motion.n_v
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
         self.given = given = np.dtype(
             [
@@ -84,7 +84,7 @@ class Scene(Structure):
                 "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
                 "links": len(poses.R), "mimics": int(motion.mimics),
                 "R": poses.R, "t": poses.t, "column": poses.columns,
-                "owner": motion.coordinates.argmax(axis=1),
+                "owner": motion.owner,
                 "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},

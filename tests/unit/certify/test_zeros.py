@@ -1,4 +1,4 @@
-"""Zeros that no ball shows: those that follow from a working set, and those that its loads leave."""
+"""Zeros that no ball shows: those that a working set implies, and those that its loads leave."""
 
 import numpy as np
 import pytest
