@@ -97,7 +97,7 @@ class Scene(Structure):
             self._put_pairs(clouds)
 
     def taken(self) -> NDArray[np.void]:
-        """What C has written of a step, its arrays by their names; C writes others next."""
+        """What C has written of a step, of shape (): its arrays by their names."""
         taken = self._bytes.copy()  # a copy of fields takes ten times as long
         taken.setflags(write=False)
         return np.ndarray((), self.given, taken)

@@ -104,9 +104,11 @@ class CompiledStep:
         Returns
         -------
         StepResult or None
-            None where NumPy turns out to multiply otherwise here, or has an extension to take.
+            None where NumPy turns out to multiply otherwise here, or has an extension to take or a
+            force to refuse.
         """
-        if simulator.extension is not None:  # given since
+        shapes = () if isinstance(force, float) else np.shape(force), self.scene["force"].shape
+        if simulator.extension is not None or shapes[0] not in ((), shapes[1]):
             return None
         lap, system = Stopwatch(), simulator.system
         q = np.asarray(q, dtype=np.float64)
@@ -124,7 +126,7 @@ class CompiledStep:
         try:
             solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
         except StepNotSolved as failure:
-            solution = simulator.instead(step, failure)
+            solution = simulator.spare.answer(step, failure)
         simulator.limits.check_penetration(step)
         lap("solve")
         q_next = self.screws.integrate(q, solution.delta_q)
@@ -154,7 +156,7 @@ class CompiledStep:
         delta_q_bar_a = self.screws.actuated_difference(q, q_bar_a)
         np.matmul(constant.K_q, delta_q_bar_a, out=scene["tau_k"])  # in BLAS's order
         self.poses.weigh(q, simulator.gravity)
-        scene["force"][:] = simulator.checked_force(force)
+        scene["force"][:] = force
         self.form(scene.address)
         of, layout, mu = scene.taken(), self.geometry.layout, self.geometry.mu
         points = ClosestPoints(*(of[name] for name in ClosestPoints._fields))

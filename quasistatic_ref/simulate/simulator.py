@@ -11,10 +11,11 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import contact_geometry
 from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.errors import StepDataError, StepNotSolved
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
+from quasistatic_ref.simulate.spare import Spare
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
@@ -58,9 +59,8 @@ class Simulator:
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     solver : str, optional
-        Name of a backend, by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`; Clarabel takes steps on which that
-        one fails. It, accuracy and certify are as in
+        Name of a backend, by default :func:`~quasistatic_ref.solve.engines.default_backend`'s, and
+        Clarabel's where that fails; it, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
@@ -81,8 +81,6 @@ class Simulator:
         What takes its steps in compiled code, to the same bits; None where nothing does.
     solver : Solver or None
         What solved the last step; it takes the next one if that fits.
-    spare : Solver or None
-        What solved the last step on which the default backend failed.
 
     Raises
     ------
@@ -122,12 +120,12 @@ class Simulator:
         self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
         blocks = extension is None and system.rigid
         entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
-        self.default = default_backend(engine, cone, certify, entries)
-        self.backend = self.default if solver is None else solver
+        default = default_backend(engine, cone, certify, entries)
+        self.backend = default if solver is None else solver
         self.engine = default_engine(self.backend, cone) if engine is None else engine
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
-        self.spare: Solver | None = None
+        self.spare = Spare(default, self.engine, accuracy, certify)
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
         self.geometry = contact_geometry(self.layout, system.motion, least)
@@ -208,16 +206,12 @@ class Simulator:
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + self.checked_force(force)
+        tau = self.weighs * system.gravity_force(q, self.gravity) + force
+        if tau.shape != self.weighs.shape:
+            problem = f"must have shape {self.weighs.shape}"
+            raise StepDataError(problem, field="force", value=np.shape(force))
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
-
-    def checked_force(self, force: Array | float) -> Array | float:
-        """A force [N, N m], of shape (n_v,) or one number; StepDataError if it is neither."""
-        shape, mine = () if isinstance(force, float) else np.shape(force), self.weighs.shape
-        if shape and shape != mine:
-            raise StepDataError(f"must have shape {mine}", field="force", value=shape)
-        return force
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
@@ -240,25 +234,5 @@ class Simulator:
         own = self.fitting(step)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else own
-        asked = partial(solve_step, step, accuracy=self.accuracy, certify=self.certify)
-        try:
-            return asked(solver, extension=extension)
-        except StepNotSolved as failure:
-            return self.instead(step, failure)
-
-    def instead(self, step: StepData, failure: StepNotSolved) -> StepSolution:
-        """Clarabel's answer to a step on which the default of such runs failed; else the failure.
-
-        Raises
-        ------
-        StepNotSolved
-        """
-        itself = type(failure) is StepNotSolved and failure.backend == self.default
-        if not itself or self.default == DEFAULT:
-            raise failure
-        if self.spare is None or not self.spare.fits(step):
-            self.spare = solver_for(step, DEFAULT, self.engine)
-        try:
-            return solve_step(step, self.spare, accuracy=self.accuracy, certify=self.certify)
-        except StepNotSolved:
-            raise failure from None
+        asked = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
+        return self.spare.after(step, partial(asked, extension=extension))
