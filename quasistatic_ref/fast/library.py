@@ -28,7 +28,7 @@ SOURCES = (
     "span.c",
 )  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
-FLAGS = ("-std=c11", "-O2", "-ftree-vectorize", "-ffp-contract=off", "-shared", "-fPIC")
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
 """The last but two: no compiler may join a product and a sum that the source keeps apart."""
 
 
