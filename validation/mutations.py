@@ -104,6 +104,8 @@ class Workbench:
             for part in ("quasistatic_ref", "tests", "validation"):
                 # Compiled files come along: those of unchanged sources hold.
                 shutil.copytree(ROOT / part, folder / part)
+            for part in ("models", "docs"):  # read by tests, and not changed
+                (folder / part).symlink_to(ROOT / part)
             shutil.copy(ROOT / "pyproject.toml", folder)
             environment = os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
             environment |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "CI": "1"}
@@ -221,9 +223,9 @@ def main() -> int:
     with Workbench() as bench:
         by_tests = {TESTS[mutant.file]: mutant.file for mutant in left}
         as_it_is = [Mutant(f, f, 1, (PACKAGE / f).read_text()) for f in by_tests.values()]
-        for mutant, said in bench.outcomes(as_it_is):
-            if said != "survived":
-                sys.exit(f"the tests of {mutant.file} fail without a mutant")
+        failing = [mutant.file for mutant, said in bench.outcomes(as_it_is) if said != "survived"]
+        if failing:
+            sys.exit(f"the tests of {', '.join(failing)} fail without a mutant")
         for mutant, said in tqdm(bench.outcomes(left), total=len(left)):
             found[mutant.key] = said
             if log is not None:
