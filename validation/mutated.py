@@ -25,6 +25,7 @@ EXACT = (
     "unit/certify/test_rounding.py",
     "unit/certify/test_certificate.py",
     "unit/certify/test_farkas.py",
+    "unit/certify/test_confirm.py",
     "properties/test_exact_against_enumeration.py",
 )
 
