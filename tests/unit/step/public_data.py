@@ -15,8 +15,10 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.model.shapes import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.smoothed import smoothed
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from tests.helpers import always_in_blocks, contacts_of, random_step
@@ -70,6 +72,10 @@ def public_data(folder):
         "StepSolution": solution,
         "Certificate": solution.certificate,
         "StepResult": result,
+        "Derivatives": derivatives(simulator, system.q_start, scenario.targets(scenario.h)),
+        "smoothed Derivatives": smoothed(
+            simulator, system.q_start, scenario.targets(scenario.h), 1e-6
+        ),
         "Trajectory": run,
         "System": system,
         "System of the grasp": grasp.system,
