@@ -5,9 +5,11 @@ import copy
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
+    NotDifferentiable,
     RunFailed,
     StepDataError,
     StepInfeasible,
@@ -97,5 +99,6 @@ def public_data(folder):
         "StepNotSolved": StepNotSolved("osqp", "user_limit", step, 1e-9),
         "StepInfeasible": infeasible,
         "LimitExceeded": LimitExceeded("is too deep", step),
+        "NotDifferentiable": NotDifferentiable((Reason("a tie", ("c/0",), ("dq_dq",), "ties"),)),
         "RunFailed": RunFailed("step 3: is too deep", run, step),
     }

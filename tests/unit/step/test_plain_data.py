@@ -39,7 +39,8 @@ NAMES = (
     "StepResult", "Derivatives", "smoothed Derivatives", "Trajectory", "System",
     "System of the grasp", "Body", "ContactPair", "Scenario", "Scenario of the grasp", "Targets",
     "Limits", "Wrenches", "Sphere", "Box", "HalfSpace", "PointCloud", "FarkasVector", "InputError",
-    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded", "RunFailed",
+    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded",
+    "NotDifferentiable", "RunFailed",
 )  # fmt: skip
 
 
