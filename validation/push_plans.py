@@ -21,8 +21,8 @@ MOST = (5.0, 5.0)
 PAGE = """# A block pushed to a pose by one finger
 
 Written by `python -m validation.push_plans --out validation/results/push_plans.md`: {descent} steps
-of gradient descent through {steps} smoothed steps, then the plan executed in exact steps. The goal is
-at x = 150 mm, y = 0, angle 0.
+of gradient descent through {steps} smoothed steps, then the plan executed in exact steps. The goal
+is at x = 150 mm, y = 0, angle 0.
 
 | support | x [mm] | y [mm] | angle [deg] | off by [mm] | turned by [deg] | exact optima |
 |---|---|---|---|---|---|---|

@@ -2,7 +2,7 @@
 
 The step itself runs outside of JAX, in float64 on the CPU. JAX is given the derivatives by the
 entries of q: with E as in :func:`~quasistatic_ref.model.tangent.entry_rates`, those of q+ by q are
-E(q+) dq_dq E(q)^+, which takes no account of the length of a quaternion.
+E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradient.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,6 +15,7 @@ import numpy as np
 
 from quasistatic_ref.certify.reason import KINDS, Reason
 from quasistatic_ref.errors import InputError, NotDifferentiable
+from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.tangent import entry_rates
 from quasistatic_ref.simulate.derivatives import check_derivable, derivatives
@@ -154,9 +155,7 @@ def _differentiable(
         what = ends + (matrices if names else ())
         return jax.pure_callback(partial(asked, names), what, *given, vmap_method="sequential")
 
-    @jax.custom_jvp
-    def step(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
-        return called((), q, q_bar_a, force, kappa)
+    step = jax.custom_jvp(partial(called, ()))
 
     def rule(primals: tuple[Any, ...], tangents: tuple[Any, ...]) -> Any:
         *moves, by_kappa = [not isinstance(tangent, symbolic) for tangent in tangents]
@@ -186,8 +185,9 @@ def _rates(
     q: Array, q_bar_a: Array, force: Array, kappa: float,
 ) -> tuple[Array, ...]:  # fmt: skip
     """Where the step ends, its verdict, and, if any is asked for, the derivatives by entries."""
-    at, whole = system.checked(q), system.with_actuated(system.q_start, q_bar_a)
-    goal = system.checked(whole)[: system.n_q_a]
+    at = system.checked(normalised(system.joints, q))
+    whole = system.with_actuated(at, q_bar_a)
+    goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
     of = found(at, goal, force, kappa)
     kinds = {why.kind for why in _lacking(of, BY)}
     end, verdict = of.result.q, np.array([kind in kinds for kind in KINDS])

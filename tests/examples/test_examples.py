@@ -48,7 +48,7 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
-    monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 16))
+    monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
     monkeypatch.setattr(step_time, "STEPS", 20)
 
 

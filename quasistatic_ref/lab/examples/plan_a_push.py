@@ -94,7 +94,7 @@ def main(start: tuple[float, float, float] = STARTS[0]) -> Numbers:
 
 def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> Figure:
     """Both pushes from above, and how far the descent was from the goal."""
-    page, grid = panels(6.3, 2.7, columns=3, within=ax)
+    page, grid = panels(6.3, 3.0, columns=3, within=ax)
     for axes, (name, mu_omega), style in zip(grid, SUPPORTS.items(), ("-", "--"), strict=False):
         push = planned(start, mu_omega)
         _block(axes, push.q[0], "--", "black", "start")
