@@ -109,7 +109,7 @@ def bearing(rows: Array, lam: Array, size: float) -> Mask:
     lam : ndarray, shape (k,)
         One optimal lam.
     size : float
-        Beside what it is nothing, in its unit.
+        Beside what a multiplier is nothing [of lam].
     """
     bears: Mask = lam > BEARING * size
     if bears.all():

@@ -44,8 +44,9 @@ def derivatives(
     force : ndarray, shape (n_v,), optional
         External generalised force besides gravity, which does not depend on q [N, N m].
     towards : mapping, optional
-        A direction of the parameters, as those of :meth:`Derivatives.along`. Where rows touch
-        without load, the derivatives are then those just beside, on the side to which it points.
+        A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
+        [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
+        derivatives are then those just beside, on the side to which it points.
 
     Returns
     -------

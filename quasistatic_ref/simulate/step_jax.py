@@ -51,7 +51,8 @@ def step_jax(
         ``"one-sided"``, the derivatives on the side to which `towards` points; ``"smoothed"``,
         those of the smoothed step. An error where there are none of these either.
     towards : mapping, optional
-        For ``"one-sided"``, as in :func:`~quasistatic_ref.simulate.derivatives.derivatives`.
+        For ``"one-sided"``, with names, shapes (n_v,), (n_a,), ... and units [of the parameter] as
+        in :func:`~quasistatic_ref.simulate.derivatives.derivatives`.
     kappa : float, optional
         For ``"smoothed"``, > 0, as in :func:`~quasistatic_ref.simulate.smoothed.smoothed` [N m s].
 

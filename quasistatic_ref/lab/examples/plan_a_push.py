@@ -35,7 +35,7 @@ KAPPAS = np.geomspace(1e-5, 1e-8, 40)
 
 
 class Push(NamedTuple):
-    """A plan executed: configurations (41, 7), certified steps, and misses [m], also after it."""
+    """A plan executed: q (41, 7), certified steps, misses of the descent [m], what is left (3,)."""
 
     q: Array
     certified: int
@@ -57,7 +57,7 @@ def miss(q: Any) -> Any:
 
 @cache
 def planned(start: tuple[float, float, float], mu_omega: float) -> Push:
-    """A push from a pose of the block, on a support of some mu_omega [m]."""
+    """A push from `start`, a pose of the block [m, rad], on a support of some mu_omega [m]."""
     scene = pushed_block(h=H, cone="pyramid", mu_omega=mu_omega)
     run, step, certified = [scene.placed(*start, GAP)], smoothed_jax(scene.simulator), 0
 
@@ -82,7 +82,7 @@ def planned(start: tuple[float, float, float], mu_omega: float) -> Push:
 
 
 def main(start: tuple[float, float, float] = STARTS[0]) -> Numbers:
-    """How far from its goal each plan leaves the block, and how many steps are certified."""
+    """How far from its goal a push from `start` [m, rad] ends, and its certified steps."""
     found: Numbers = {}
     for name, mu_omega in SUPPORTS.items():
         push = planned(start, mu_omega)
@@ -93,14 +93,14 @@ def main(start: tuple[float, float, float] = STARTS[0]) -> Numbers:
 
 
 def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> Figure:
-    """Both pushes from above, and how far the descent was from the goal."""
+    """Both pushes from `start` [m, rad], from above, and how far the descent was from the goal."""
     page, grid = panels(6.3, 3.0, columns=3, within=ax)
     for axes, (name, mu_omega), style in zip(grid, SUPPORTS.items(), ("-", "--"), strict=False):
         push = planned(start, mu_omega)
         _block(axes, push.q[0], "--", "black", "start")
         for k in range(10, STEPS + 1, 10):
             _block(axes, push.q[k], "-", "C0", "every 10 steps" if k == 10 else None)
-        _block(axes, np.array([0, 0, *GOAL, 0, 1, 0]), ":", "C1", "goal")
+        _block(axes, np.array([0, 0, *GOAL, 0, 1, 0]), ":", "black", "goal")
         axes.plot(*(1e3 * (push.q[:, :2] + OFFSET)).T, "k.", markersize=scaled(2), label="finger")
         axes.set(aspect="equal", xlim=(-80, 220), ylim=(-120, 120))
         labelled(axes, "x [mm]", "y [mm]", name, key=mu_omega > 0)

@@ -67,7 +67,7 @@ class PushedBlock:
     q: Array
 
     def placed(self, x: float, y: float, turn: float, gap: float) -> Array:
-        """The block at a place [m] and angle [rad], the finger behind it at a gap [m], (n_q,)."""
+        """The block at x, y [m] and a turn [rad], the finger behind it at a gap [m], (n_q,)."""
         axes = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
         finger = np.array([x, y]) - axes @ [SIDE / 2 + RADIUS + gap, 0.0] - OFFSET
         return np.array([*finger, x, y, 0.0, np.cos(turn), np.sin(turn)])
