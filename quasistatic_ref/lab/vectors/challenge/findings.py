@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,7 +64,7 @@ class Finding:
     def title(self) -> str:
         """One line: the layer, the mistake, what was seen."""
         looks = f"looks like {' or '.join(self.mistakes)}: " if self.mistakes else ""
-        times = "" if self.kind == "stray" else f", {self.cases} cases"
+        times = f", {self.cases} case{'s' * (self.cases > 1)}" if self.kind == "wrong" else ""
         return f"{self.layer}: {looks}{self.reason} (first in {self.first}{times})"
 
     @property
@@ -81,7 +82,8 @@ class Finding:
         """Write its folder: the record, and a page with the line that runs it again."""
         place = folder / self.name
         text_written(place / RECORD, json.dumps(self.record, indent=1, allow_nan=True) + "\n")
-        again = f"quasistatic-ref vectors challenge --command {command!r} --again {place / RECORD}"
+        program = ("quasistatic-ref", "vectors", "challenge", "--command", command)
+        again = shlex.join([*program, "--again", str(place / RECORD)])
         lines = [f"# {self.layer}: {', '.join(self.mistakes) or self.field or self.kind}", ""]
         lines += [*self.sentences, "", f"Seen: {self.reason}. Again:", "", f"    {again}", ""]
         lines += ["The input", "", f"    {json.dumps(self.case)}", ""]

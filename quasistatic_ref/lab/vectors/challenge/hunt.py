@@ -97,7 +97,7 @@ class Hunt:
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
-                    f"{layer} was asked no longer: it did not come back in time"
+                    f"{layer} was asked no longer: {GIVEN_UP} cases came to no answer in time"
                 )
             elif layer in self._wanted and not self.goes_on(layer):
                 self.outcome.remarks.append(f"{layer} is not supported")
