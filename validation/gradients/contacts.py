@@ -17,13 +17,14 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled, squared
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, scaled, squared
 from quasistatic_ref.lab.vectors.exact.precision import numbers
 from quasistatic_ref.lab.vectors.whole.grid import on_grid, vector_on_grid, working
 from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates
 from quasistatic_ref.lab.vectors.whole.world import World
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.tolerances import UPRIGHT
 from validation.gradients.closest import closest_pair
 
 CURVED: Final = {"cylinder", "cone", "ellipsoid"}
@@ -122,8 +123,10 @@ def _corners(solid: Placed, towards: Vector) -> list[tuple[Vector, fmpq]]:
 
 
 def _rim(radius: fmpq, height: fmpq, towards: Vector) -> list[Vector]:
-    """Four points of a rim, the first the one nearest to the other body."""
+    """Four points of a rim, the first nearest to the other body; on the x axis if it is level."""
     length = arb(squared(towards[:2])).sqrt()
+    if length < UPRIGHT:
+        towards, length = IDENTITY[0], arb(1)
     x, y = (radius * value / length for value in towards[:2])
     return [[x, y, height], [-y, x, height], [-x, -y, height], [y, -x, height]]
 

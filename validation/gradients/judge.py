@@ -9,7 +9,7 @@ from quasistatic_ref.lab.vectors.layers.derivative import free_sizes
 from quasistatic_ref.simulate.derivatives import Derivatives, derivatives
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import frame_jacobian
-from validation.gradients.reference import FIELDS, reference, slope, tied_pairs
+from validation.gradients.reference import FIELDS, Reference, reference, slope, tied_pairs
 from validation.gradients.states import State
 
 DIRECTIONS: Final = 2
@@ -38,7 +38,8 @@ def judged(state: State, rng: np.random.Generator, every_column: bool = False) -
         ``fields``: of each derivative the largest error, the largest entry, that of the step
         without contacts, and how many directions there were. ``kinks``: derivatives for which the
         reference bends where the package has numbers. ``refused``: of those that the package
-        refuses, whether the reference bends or has a tie. Besides ``reasons`` and ``modes``.
+        refuses, whether the reference bends or has a tie. Besides ``reasons``, ``modes``
+        and ``same_contacts``.
     """
     found = derivatives(state.simulator, state.q, state.q_bar_a, state.force)
     one = reference(state)
@@ -48,6 +49,7 @@ def judged(state: State, rng: np.random.Generator, every_column: bool = False) -
         "name": state.name,
         "contacts": found.result.step.contacts.n_c,
         "modes": modes(found),
+        "same_contacts": same_contacts(state, found, one),
         "reasons": sorted({why.kind for why in found.reasons} - {ZERO_FRICTION}),
         "fields": {},
         "kinks": [],
@@ -72,6 +74,17 @@ def judged(state: State, rng: np.random.Generator, every_column: bool = False) -
             e = np.where(can, _unit(rng, len(can)), 0.0)
             record["refused"][field] = not slope(one, field, e)[1] or tied_pairs(one)
     return record
+
+
+def same_contacts(state: State, found: Derivatives, one: Reference) -> bool:
+    """Whether float64 and the reference keep the same candidates."""
+    points, at = found.result.points.point.tolist(), 0
+    for p, pair in enumerate(state.simulator.pairs):
+        theirs = sorted(c.near.index for c in one.contacts if c.near.pair == p)
+        if sorted(points[at : at + pair.n_c]) != theirs:
+            return False
+        at += pair.n_c
+    return True
 
 
 def _can_move(state: State, field: str) -> np.ndarray:
