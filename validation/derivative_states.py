@@ -172,8 +172,8 @@ def page(found: list[Record], missing: dict[str, int]) -> str:
         "relative to the largest entry of the same derivative, or to a thousandth of what the step "
         "without contacts shows, where that is more.",
         "",
-        f"{len(found)} states, in the pushes {couples} couples of shapes; {len(wrong)} with an error above {WITHIN:g}; {len(silent)} in "
-        "which a number stands where the reference has a kink. Left out of the numbers drawn: "
+        f"{len(found)} states, in the pushes {couples} couples of shapes; {len(wrong)} with an "
+        f"error above {WITHIN:g}; {len(silent)} in which a number stands where the reference has a kink. Left out of the numbers drawn: "
         f"{left}.",
         "",
         "| states | tried | with a verdict | median | worst |",

@@ -30,7 +30,7 @@ CURVED = {"cylinder", "cone", "ellipsoid"}
 SOLIDS = closest.solids()
 STEP = 1e-3
 NORMAL_BESIDE = 1e-10
-"""Error of the normal of points 1e-5 m apart [-]: places of some decimetres are right to 1e-16 m."""
+"""Error of the normal of points 1e-5 m apart [-]: places of decimetres are right to 1e-16 m."""
 
 
 def by_coal(names: tuple[str, str]) -> bool:
