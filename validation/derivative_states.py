@@ -173,8 +173,8 @@ def page(found: list[Record], missing: dict[str, int]) -> str:
         "without contacts shows, where that is more.",
         "",
         f"{len(found)} states, in the pushes {couples} couples of shapes; {len(wrong)} with an "
-        f"error above {WITHIN:g}; {len(silent)} in which a number stands where the reference has a kink. Left out of the numbers drawn: "
-        f"{left}.",
+        f"error above {WITHIN:g}; {len(silent)} in which a number stands where "
+        f"the reference has a kink. Left out of the numbers drawn: {left}.",
         "",
         "| states | tried | with a verdict | median | worst |",
         "|---|---|---|---|---|",
