@@ -13,7 +13,7 @@ from quasistatic_ref.contact.placed import Witness
 from quasistatic_ref.contact.polytope import Polytope
 from quasistatic_ref.model.shapes import Capsule
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import BESIDE, ON_SURFACE
+from quasistatic_ref.tolerances import ON_SURFACE
 
 
 def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
@@ -32,11 +32,9 @@ def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
     size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
     if gap > 0:
         on_a, on_b = _nearest(a, b, R, t)
-        between = on_b - on_a
-        distance = float(np.sqrt(np.sum(between**2)))
-        beside = float(np.sqrt(np.sum((between - gap * n) ** 2)))
-        if beside > BESIDE * size and distance > ON_SURFACE * size:
-            gap, n = distance, between / distance
+        distance = float(np.sqrt(np.sum((on_b - on_a) ** 2)))
+        if distance - gap > ON_SURFACE * size:
+            gap, n = distance, (on_b - on_a) / distance
     else:
         # Parted along n, they touch: where they do is where they are deepest now.
         on_a, _ = _nearest(a, b, R, t - gap * n)

@@ -183,14 +183,3 @@ def test_just_beside_a_face_the_normal_leans_away_from_its_edge(beside: float) -
         phi, n = signed_distance(shape, point[None])
         np.testing.assert_allclose(n[0], lean, rtol=0, atol=NORMAL_BESIDE)
         np.testing.assert_allclose(phi[0], np.hypot(beside, up), rtol=0, atol=CLOSED_FORM)
-        # A corner of another box, which stands on its tip, at the same point.
-        tip = Rotation.from_euler("yx", [0.7, 0.6]).as_matrix()
-        half = np.array([0.02, 0.03, 0.04])
-        lowest = min(([*s] for s in np.ndindex(2, 2, 2)), key=lambda s: (tip @ _signed(s, half))[2])
-        R, t = tip, point - tip @ _signed(lowest, half)
-        found = solid_pair("p", Placed(shape, np.eye(3), np.zeros(3)), Placed(Box(half), R, t))
-        np.testing.assert_allclose(found.n, lean, rtol=0, atol=NORMAL_BESIDE)
-
-
-def _signed(bits: object, half: np.ndarray) -> np.ndarray:
-    return (2.0 * np.array(bits) - 1.0) * half
