@@ -106,7 +106,7 @@ RESULTS = (
         "figures",
         (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
          "gradient_of_a_push", "where_no_gradient_is",
-         "what_smoothing_does",
+         "what_smoothing_does", "plan_a_push",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),
@@ -195,6 +195,11 @@ RESULTS = (
         "derivative_kinks",
         ("validation.derivative_kinks", "--out", "validation/results/derivative_kinks.md"),
         ("validation/results/derivative_kinks.md",),
+    ),
+    Result(
+        "push_plans",
+        ("validation.push_plans", "--out", "validation/results/push_plans.md"),
+        ("validation/results/push_plans.md",),
     ),
     Result(
         "bench_exact",
