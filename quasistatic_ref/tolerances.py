@@ -113,6 +113,11 @@ ON_SURFACE: Final = 1e-12
 
 A direction computed from two points that near has fewer than four correct digits."""
 
+BESIDE: Final = 1e-14
+"""How far beside the nearest face of a polytope a point is, relative to the sizes, from which an
+edge or a corner is the nearest [-]: some ten roundings of coordinates. Where it is less, the face's
+normal is as right as the direction of a difference of coordinates."""
+
 UPRIGHT: Final = 1e-9
 """Tilt of a cylinder or a cone [rad] below which its rim counts as level.
 

@@ -187,6 +187,16 @@ RESULTS = (
         ("validation/results/derivatives.md",),
     ),
     Result(
+        "derivative_states",
+        ("validation.derivative_states", "--out", "validation/results/derivative_states.md"),
+        ("validation/results/derivative_states.md",),
+    ),
+    Result(
+        "derivative_kinks",
+        ("validation.derivative_kinks", "--out", "validation/results/derivative_kinks.md"),
+        ("validation/results/derivative_kinks.md",),
+    ),
+    Result(
         "push_plans",
         ("validation.push_plans", "--out", "validation/results/push_plans.md"),
         ("validation/results/push_plans.md",),

@@ -81,7 +81,8 @@ def derivatives(
     ]
     columns = rates.onward @ found.x
     columns[:, : len(columns)] += rates.carried
-    columns[:, forbidden(found, reasons, rates.places)] = np.nan
+    pairs = [pair.name for pair in simulator.pairs]
+    columns[:, forbidden(found, reasons, rates.places, pairs)] = np.nan
     parts = OneSided(equations.along, rates.data, rates.carried, rates.onward)
     return Derivatives(
         **rates.shaped(columns),

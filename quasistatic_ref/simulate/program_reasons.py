@@ -83,7 +83,9 @@ def row_reasons(
     return reasons
 
 
-def forbidden(found: OptimumRates, reasons: Sequence[Reason], places: Places) -> Mask:
+def forbidden(
+    found: OptimumRates, reasons: Sequence[Reason], places: Places, pairs: Sequence[str]
+) -> Mask:
     """Which columns have no derivative.
 
     Parameters
@@ -92,6 +94,8 @@ def forbidden(found: OptimumRates, reasons: Sequence[Reason], places: Places) ->
     reasons : sequence of Reason
     places : Mapping
         As `Places`.
+    pairs : sequence of str
+        Their names, in the order of the columns by their friction.
 
     Returns
     -------
@@ -103,7 +107,11 @@ def forbidden(found: OptimumRates, reasons: Sequence[Reason], places: Places) ->
     by_field = (reason.WEAK, reason.CONTRADICTION)
     for why in reasons:
         for name in why.fields if why.kind not in by_field else ():
-            bad[slice(*places[name])] = True
+            first, last = places[name]
+            if why.kind == reason.ZERO_FRICTION:  # that of the pair alone
+                first += list(pairs).index(why.where[0])
+                last = first + 1
+            bad[first:last] = True
     return np.asarray(bad)
 
 

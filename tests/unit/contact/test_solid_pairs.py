@@ -29,6 +29,8 @@ from tests.tolerances import CLOSED_FORM, CONE_PROGRAM, CURVED_PAIR, EXACT, WAY_
 CURVED = {"cylinder", "cone", "ellipsoid"}
 SOLIDS = closest.solids()
 STEP = 1e-3
+NORMAL_BESIDE = 1e-10
+"""Error of the normal of points 1e-5 m apart [-]: places of decimetres are right to 1e-16 m."""
 
 
 def by_coal(names: tuple[str, str]) -> bool:
@@ -168,3 +170,16 @@ def test_a_pose_that_is_not_finite_is_refused() -> None:
     still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
     with pytest.raises(ContactError, match="poses: must be finite"):
         closest_points([], still)
+
+
+@pytest.mark.parametrize("beside", [1e-6, 1e-8, 1e-10])
+def test_just_beside_a_face_the_normal_leans_away_from_its_edge(beside: float) -> None:
+    # The edge is at x = 0.1, z = 0.2: a point 1e-5 above the face and a little beyond the edge.
+    up = 1e-5
+    lean = np.array([beside, 0.0, up]) / np.hypot(beside, up)
+    corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.3, 0.3) for z in (-0.2, 0.2)])
+    point = np.array([0.1 + beside, 0.05, 0.2 + up])
+    for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
+        phi, n = signed_distance(shape, point[None])
+        np.testing.assert_allclose(n[0], lean, rtol=0, atol=NORMAL_BESIDE)
+        np.testing.assert_allclose(phi[0], np.hypot(beside, up), rtol=0, atol=CLOSED_FORM)

@@ -239,3 +239,19 @@ def test_a_target_half_a_turn_away_is_named(tmp_path):
     assert [why.kind for why in found.reasons] == [reason.HALF_TURN]
     assert np.isnan(found.dq_dq_bar_a).all()
     assert derivatives(simulator, np.array([1.0, 0.0]), np.array([0.0, 1.0])).differentiable
+
+
+def test_a_pair_without_friction_leaves_the_columns_of_the_others():
+    wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
+    system = System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=(0.0499, 0, 0.0499))])
+    own = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), Sphere(0.05))
+    pairs = [
+        ContactPair(name, PlacedShape(name, 0, np.eye(3), np.zeros(3), shape), own, mu, 0.01, 6, 1)
+        for name, shape, mu in (("wall", wall, 0.0), ("floor", FLOOR, 0.3))
+    ]
+    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)))
+    found, kinds = verdict(simulator, system.q_start, np.array([-3.0, 2.0, -1.0, 0, 0, 0]))
+    assert kinds == {reason.ZERO_FRICTION}
+    assert np.isnan(found.dq_dmu_v[:, 0]).all()
+    assert np.isfinite(found.dq_dmu_v[:, 1]).all()
+    assert found.dq_dmu_v[1, 1] < 0  # more friction, less sliding

@@ -68,7 +68,7 @@ def _verdict(reasons: Json) -> Expected:
 def _numbers(one: Base, found: Derivatives) -> Expected:
     output: dict[str, Json] = {"differentiable": True, "reasons": []}
     tolerance = {}
-    free = _free(one)
+    free = free_sizes(one)
     for name, columns in found.columns.items():
         if not columns:
             continue
@@ -91,8 +91,8 @@ def _why(largest: float, free: float) -> str:
     return f"{SHARE:g} of a thousandth of what the step without contacts shows"
 
 
-def _free(one: Base) -> dict[str, float]:
-    """The largest entry, roughly, of each derivative of the step without contacts."""
+def free_sizes(one: Base) -> dict[str, float]:
+    """The largest entry, roughly, of each derivative of the step without contacts, as FIELDS."""
     form, case = one.step.form, one.at.case
     inverse = fmpq_mat(form.H).inv()
     step = inverse * fmpq_mat(form.g)

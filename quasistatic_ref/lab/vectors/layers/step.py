@@ -14,6 +14,7 @@ from flint import fmpq
 
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
 from quasistatic_ref.lab.vectors.exact.algebra import (
+    Matrix,
     Vector,
     cross,
     dot,
@@ -165,7 +166,14 @@ def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
     return out["H"], out["g"], max(out["sizes"], default=0.0)
 
 
-def objective_of(tree: Mechanism, at: Poses, case: Json) -> dict[str, Any]:
+def loads_of(tree: Mechanism, at: Poses, case: Json) -> tuple[Matrix, Vector]:
+    """M_u, and the generalised forces besides the stiffness, without rounding."""
+    return mass_matrix_u(tree, at), _forces(tree, at, case)
+
+
+def objective_of(
+    tree: Mechanism, at: Poses, case: Json, loads: tuple[Matrix, Vector] | None = None
+) -> dict[str, Any]:
     """The same without rounding: ``H``, ``g``, and the ``sizes`` of the terms of g.
 
     Parameters
@@ -175,10 +183,12 @@ def objective_of(tree: Mechanism, at: Poses, case: Json) -> dict[str, Any]:
         At the q of the case.
     case : dict
         Its numbers are float64 or exact.
+    loads : (matrix, vector), optional
+        As `loads_of`, where they are known.
     """
     h, n_a = number(case["h"]), tree.n_a
     K = [numbers(row) for row in case["K_q"]]
-    M, tau = mass_matrix_u(tree, at), _forces(tree, at, case)
+    M, tau = loads or loads_of(tree, at, case)
     change = difference(tree, case["q"], case["q_bar_a"], actuated=True)
     H = [[fmpq(0)] * tree.n_v for _ in range(tree.n_v)]
     for i in range(tree.n_v):

@@ -12,7 +12,6 @@ from flint import fmpq
 
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
 from quasistatic_ref.lab.vectors.exact.integration import difference
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.whole.grid import STEP, vector_on_grid, working
 from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates, kept, pool
@@ -67,9 +66,10 @@ class Base:
         moved : bool
             Whether q is another; the contacts stay where they are if not.
         """
-        at = world(case) if moved else World(case, mechanism(case["mechanism"]), self.at.at)
+        at = world(case) if moved else self.at.beside(case)
         contacts = self.contacts_at(at) if moved else self.contacts
-        found = solved(at, contacts, self.warm)
+        same = not moved and case["pairs"] is self.at.case["pairs"]
+        found = solved(at, contacts, self.warm, self.step.rows if same else None)
         return found, contacts, away(at, self.q_next, after(at, found.delta_q))
 
 

@@ -1,6 +1,7 @@
 """Bodies and shapes of a case where they are, in rational numbers: exact, or of the grid."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, moved, product
@@ -8,6 +9,7 @@ from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechan
 from quasistatic_ref.lab.vectors.exact.precision import numbers
 from quasistatic_ref.lab.vectors.exact.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.step import loads_of
 from quasistatic_ref.lab.vectors.whole.grid import exact_or_on_grid, working
 
 
@@ -22,11 +24,28 @@ class World:
     tree : Mechanism
     at : Poses
         Of every body, in rational numbers.
+    known : (matrix, vector), optional
+        Its loads, where they are those of another case.
     """
 
     case: Json
     tree: Mechanism
     at: Poses
+    known: tuple[Matrix, Vector] | None = None
+
+    @cached_property
+    def loads(self) -> tuple[Matrix, Vector]:
+        """M_u, and the generalised forces besides the stiffness."""
+        if self.known:
+            return self.known
+        with working():
+            return loads_of(self.tree, self.at, self.case)
+
+    def beside(self, case: Json) -> "World":
+        """Another case at the same configuration, with what it has in common with this one."""
+        if case["mechanism"] is self.case["mechanism"]:
+            return World(case, self.tree, self.at, self.loads)
+        return World(case, mechanism(case["mechanism"]), self.at)
 
     def shape(self, name: str) -> Placed:
         """A shape of the case where it is."""
