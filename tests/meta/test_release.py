@@ -11,7 +11,7 @@ from validation import release
 
 ROOT = Path(__file__).parents[2]
 # Written by a person who judged what was found, not by a command.
-BY_HAND = {"validation/mutation_survivors.md"}
+BY_HAND = {"validation/mutation_survivors.md", "validation/results/ports.md"}
 
 
 def committed():
