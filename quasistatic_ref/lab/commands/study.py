@@ -113,8 +113,8 @@ def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
     table: list[tuple[str, ...]] = [
         ("solver", "calls", *(c.replace("_", " ") for c in columns), "said optimal, was wrong")
     ]
-    for label in sorted({f"{row['road']}:{row['solver']}" for row in rows}):
-        own = [row for row in rows if f"{row['road']}:{row['solver']}" == label]
+    for label in sorted({f"{row['interface']}:{row['solver']}" for row in rows}):
+        own = [row for row in rows if f"{row['interface']}:{row['solver']}" == label]
         counts = Counter(row["outcome"] for row in own)
         wrong = sum(row["wrong"] for row in own)
         table.append((label, str(len(own)), *(str(counts[c]) for c in columns), str(wrong)))

@@ -9,7 +9,7 @@ from typing import Any
 
 from quasistatic_ref.declared import Field, Tables
 from quasistatic_ref.lab.study.qp import UNITS
-from quasistatic_ref.lab.study.solvers import ROADS, SETTINGS
+from quasistatic_ref.lab.study.solvers import INTERFACES, SETTINGS
 from quasistatic_ref.schema import json_schema
 from quasistatic_ref.tolerances import LARGE
 
@@ -141,7 +141,7 @@ def study_schema() -> dict[str, Any]:
     rules = {
         STUDY: {"oneOf": [_only(SOLVERS, sweeps), {"required": ["kind", "sweeps"],
                                                    **_only(SWEEPS, solvers)}]},
-        SOLVER: {"oneOf": [{"required": [road]} for road in ROADS]},
+        SOLVER: {"oneOf": [{"required": [interface]} for interface in INTERFACES]},
     }  # fmt: skip
     return json_schema("A study", Tables({STUDY: both, **inner}), rules, STUDY)
 
