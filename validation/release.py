@@ -129,6 +129,15 @@ RESULTS = (
         output="validation/results/large_steps.md",
     ),
     Result(
+        "contact_qp",
+        ("validation.contact_qp",),
+        (
+            "validation/results/contact_qp.csv",
+            "validation/results/contact_qp.md",
+            "docs/figures/contact_qp.png",
+        ),
+    ),
+    Result(
         "curved_pairs",
         ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
         ("validation/results/curved_pairs.md",),

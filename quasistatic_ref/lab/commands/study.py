@@ -9,6 +9,7 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.commands import study_problems
 from quasistatic_ref.lab.commands.study_report import run_pack, run_report
 from quasistatic_ref.lab.study.store import ROWS, Row
 
@@ -16,6 +17,7 @@ ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
+    "problems": "sets of problems with exact answers: list, export, check, make",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
 
@@ -28,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         for name, words in ACTIONS.items()
     }
     run_, export = parsers["run"], parsers["export"]
+    study_problems.add_options(parsers["problems"])
     study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
@@ -60,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
         "export": _export,
+        "problems": study_problems.run_problems,
         "report": run_report,
         "pack": run_pack,
     }
