@@ -1,6 +1,7 @@
 """The set that ships: its files, its answers by other arithmetic, and what is refused."""
 
 import json
+import re
 import shutil
 from collections import Counter
 from dataclasses import replace
@@ -141,6 +142,33 @@ def test_natural_units_make_the_diagonal_of_H_about_one(members):
     for one in members[::100]:
         diagonal = one.natural.H.diagonal()
         assert 0.5 <= diagonal.min() <= diagonal.max() <= 2.0
+
+
+def test_the_code_of_the_readme_reads_what_the_package_reads(members):
+    page = (problem_set_folder() / "README.md").read_text("utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    names = {}
+    exec(code, names)
+    for family in ("wedge", "infeasible", "ellipsoid"):
+        own = [one for one in members if one.facts["family"] == family]
+        found = list(names["problems"](problem_set_folder(), family))
+        assert len(found) == len(own)
+        for (facts, numbers), one in zip(found, own, strict=True):
+            assert facts["id"] == one.id
+            np.testing.assert_array_equal(numbers["A"].toarray(), one.A.toarray())
+            np.testing.assert_array_equal(numbers["b"], one.b)
+            np.testing.assert_array_equal(2.0 ** numbers["coordinate"], one.units.coordinate)
+            if not facts["farkas"]:
+                np.testing.assert_array_equal(numbers["net"], one.answer.net)
+
+
+def test_the_table_of_the_readme_is_that_of_the_manifest():
+    page = (problem_set_folder() / "README.md").read_text("utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| (\d+) \|", page, re.MULTILINE)
+    families = manifest(problem_set_folder())["families"]
+    assert {name: int(count) for name, count in rows} == {
+        name: own["count"] for name, own in families.items()
+    }
 
 
 def test_sequences_are_steps_in_order_of_every_scenario(members):

@@ -28,7 +28,7 @@ from quasistatic_ref.step.data import StepData
 
 Turned = Callable[[Rng, float], StepData]
 FIGURES = 6
-"""Significant figures of a dial's value: what its problem's name says is what it is."""
+"""Significant figures of a dial's value, which the problem's name has."""
 
 
 @dataclass(frozen=True)
