@@ -52,7 +52,7 @@ class TestSet:
     source : str
         The set of problems that they are taken from: a name, or a folder; else they are made.
     most : mapping of str to float
-        Where the dials of families end, in the unit of each; else at their hard ends.
+        Where the dials of families end [the unit of each]; else at their hard ends.
     """
 
     __test__ = False  # no test of pytest's

@@ -14,7 +14,7 @@ BITS = 32
 
 
 def round_grasp(rng: Rng, contacts: float) -> StepData:
-    """A grasp of so many contacts, a third of them with the floor, as :func:`cone_step` has it."""
+    """A grasp of so many `contacts` [-], a third of them with the floor, friction being 1."""
     n_c = round(contacts)
     step = with_axes(rng, short_step(grasp_step(rng, grip=n_c - n_c // 3, floor=n_c // 3)))
     c = step.contacts

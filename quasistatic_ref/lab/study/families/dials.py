@@ -41,7 +41,7 @@ class Dial:
         Of the number.
     unit : str
     first, most : float
-        Its easy and its hard end, in the unit.
+        Its easy and its hard end [the unit].
     scenes : tuple of (str, callable)
         A tag ("" for none) and the scene, in turn; ``(generator, value) -> step``.
     whole : bool
@@ -65,7 +65,7 @@ class Dial:
         ----------
         count : int
         most : float, optional
-            The other end, in the unit.
+            The other end [the unit].
         """
         end = self.most if most is None else most
         scale = np.geomspace(self.first, end, count) if count > 1 else np.array([end])
@@ -140,7 +140,7 @@ def turned(family: str, count: int, seed: int, most: float | None = None) -> Ite
     count : int
     seed : int
     most : float, optional
-        Another hard end, in the dial's unit.
+        Another hard end [the dial's unit].
     """
     dial = DIALS[family]
     for i, value in enumerate(dial.values(count, most)):
@@ -148,7 +148,7 @@ def turned(family: str, count: int, seed: int, most: float | None = None) -> Ite
 
 
 def one_turned(family: str, value: float, i: int, seed: int, again: int = 0) -> Made:
-    """Problem i of a family at a value of its dial; `again` draws another one in its place."""
+    """Problem i of a family at a `value` [the dial's unit]; `again` draws another in its place."""
     dial = DIALS[family]
     tag, scene = dial.scenes[i % len(dial.scenes)]
     rng = np.random.default_rng([seed, i, zlib.crc32(family.encode()), again])

@@ -28,7 +28,7 @@ def heap_step(rng: Rng, bodies: float) -> StepData:
     ----------
     rng : Generator
     bodies : float
-        Rounded; 6 coordinates each.
+        Rounded; 6 coordinates each [-].
     """
     count = round(bodies)
     upper, lower, at = _pairs(count)

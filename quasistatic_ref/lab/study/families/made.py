@@ -22,7 +22,7 @@ class Made:
     k : int
         Closest points per pair; 0 where nothing was selected.
     dial : float or None
-        The number that the family scales, in the unit of its dial.
+        The number that the family scales [the unit of its dial].
     tags : tuple of str
         What else tells it from others of its family.
     sequence : (str, int) or None

@@ -23,7 +23,7 @@ def base(rng: Rng) -> StepData:
 
 
 def conditioned(rng: Rng, condition: float) -> StepData:
-    """A gripper whose K_q is dense and whose stiffnesses span a ratio [-]; same diagonal scale.
+    """A gripper whose dense K_q has a `condition` number [-], its diagonal about the same.
 
     Scaling the coordinates, which all natural units do, leaves the most of it.
     """
@@ -52,7 +52,7 @@ def spaced(rng: Rng, gap: float) -> StepData:
 
 
 def copied(rng: Rng, copies: float) -> StepData:
-    """Every contact so many times: the rank stays, and the active rows multiply."""
+    """Every contact so many times (`copies` [-]): the rank stays, and active rows multiply."""
     step = base(rng)
     n_c = step.contacts.n_c
     return step.replace(contacts=repeated(step.contacts, np.tile(np.arange(n_c), round(copies))))

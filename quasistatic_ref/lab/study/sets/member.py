@@ -32,9 +32,9 @@ class Answer:
     error : float
         ||x - x*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where only rounding is between.
     x, net : ndarray, shape (n,)
-        The optimum, and A'lam.
+        The optimum [m, rad], and A'lam [N s, N m s].
     slack, lam : ndarray, shape (m,)
-        A x - b, and multipliers, which are one choice of many.
+        A x - b [m], and multipliers [N s], which are one choice of many.
     farkas : mapping of int to str
         Of an infeasible problem, in place of the rest: y_i > 0 by row as ``"p/q"``, with A'y = 0
         and b'y > 0 without rounding.

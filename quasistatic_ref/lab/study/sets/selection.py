@@ -88,7 +88,7 @@ def chosen(
     count : int
         At most so many.
     most : float, optional
-        Where the dial ends, in its unit.
+        Where the dial ends [its unit].
     """
     dial = ends(family)
     if most is not None and dial is not None:
