@@ -141,21 +141,22 @@ def cases_of(layer):
     return len(json.loads((ROOT / f"validation/vectors/inputs/{layer}.json").read_text())["cases"])
 
 
-def largest_error(wanted):
-    """Of phi, over the pairs of the table of distances that are wanted [m]."""
-    rows = cells("validation/pair_distances.md")
-    return max(float(r["phi"]) for r in rows if wanted(set(r["pair"].split(" - "))))
+def largest_error(wanted, *of):
+    """Over the pairs of the table of distances that are wanted, of some columns [m]."""
+    rows = [r for r in cells("validation/pair_distances.md") if wanted(set(r["pair"].split(" - ")))]
+    return max(float(row[column]) for row in rows for column in of)
 
 
 def two_capsules():
-    return largest_error(lambda pair: pair == {"capsule"})
+    return largest_error(lambda pair: pair == {"capsule"}, "phi", "normal")
 
 
 def closed_forms():
     """Without two capsules: a sphere or a half-space and anything, and boxes, capsules, meshes."""
     flat = {"box", "capsule", "mesh"}
     return largest_error(
-        lambda pair: pair != {"capsule"} and (pair & {"sphere", "half-space"} or pair <= flat)
+        lambda pair: pair != {"capsule"} and (pair & {"sphere", "half-space"} or pair <= flat),
+        "phi",
     )
 
 

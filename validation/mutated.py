@@ -25,6 +25,7 @@ EXACT = (
     "unit/certify/test_rounding.py",
     "unit/certify/test_certificate.py",
     "unit/certify/test_farkas.py",
+    "unit/certify/test_confirm.py",
     "properties/test_exact_against_enumeration.py",
 )
 
@@ -106,7 +107,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/rational.py": ordered("rational"),
     "certify/kkt.py": ordered("exact"),
     "certify/dependence.py": ordered("dependence"),
-    "certify/balls.py": ordered("exact"),
+    "certify/balls.py": ordered("balls"),
     "certify/point.py": ordered("exact"),
     "certify/active_set.py": ordered("active_set"),
     "certify/degeneracy.py": ordered("exact"),

@@ -49,9 +49,7 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> Rational:
         for j in range(n):
             K[row, j] = form.A[i, j]
             K[j, row] = -form.A[i, j]
-    numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()
-    if denominator < 0:
-        numerators, denominator = numerators * -1, -denominator
+    numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()  # positive
     entries = numerators.entries()
     x, lam = fmpz_mat(n, 1, entries[:n]), entries[n:]
     net, slack = form.H * x - form.g * denominator, form.A * x - form.b * denominator
