@@ -138,6 +138,13 @@ RESULTS = (
         ),
     ),
     Result(
+        "sequences",
+        (CLI, "study", "sequences", "daqp", "osqp", "clarabel", "piqp", "quadprog",
+         "qpsolvers:daqp", "--repetitions", "1", "--quiet"),
+        ("validation/results/sequences.txt",),
+        output="validation/results/sequences.txt",
+    ),
+    Result(
         "curved_pairs",
         ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
         ("validation/results/curved_pairs.md",),

@@ -9,7 +9,7 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.commands import study_problems
+from quasistatic_ref.lab.commands import study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_pack, run_report
 from quasistatic_ref.lab.study.store import ROWS, Row
 
@@ -18,6 +18,7 @@ ACTIONS = {
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
     "problems": "sets of problems with exact answers: list, export, check, make",
+    "sequences": "ask steps in order, from cold and from what the step before left",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
 
@@ -31,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     }
     run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
+    study_sequences.add_options(parsers["sequences"])
     study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
@@ -64,6 +66,7 @@ def run(options: argparse.Namespace) -> int:
         "run": _run,
         "export": _export,
         "problems": study_problems.run_problems,
+        "sequences": study_sequences.run_sequences,
         "report": run_report,
         "pack": run_pack,
     }
