@@ -18,12 +18,16 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.ticker import NullFormatter
 from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.lab.study.calls import tried
+from quasistatic_ref.lab.study.sequences import Native
 from quasistatic_ref.lab.study.sets.folder import manifest, set_read
 from quasistatic_ref.lab.study.sets.member import SOCP, SPARSE, Member
-from quasistatic_ref.lab.study.truth import tried
 from quasistatic_ref.resources import problem_set_folder
+from quasistatic_ref.solve.adapters.clarabel import Clarabel
+from quasistatic_ref.solve.adapters.program import Program, Reply
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.step.standard_form import StandardForm
@@ -34,6 +38,7 @@ TABLE = ROOT / "validation" / "results" / "contact_qp.md"
 FIGURE = ROOT / "docs" / "figures" / "contact_qp.png"
 SOLVERS = ("daqp", "piqp", "clarabel", "osqp")
 OF_SPARSE = ("piqp", "clarabel", "osqp")
+OF_CONES = ("clarabel",)
 ACCURACY = 1e-9
 NARROW = 1e3
 """Ratio of a dial's ends below which its values are written out."""
@@ -44,17 +49,24 @@ PARTS = 5
 def asked(one: Member, solver: str) -> dict[str, Any]:
     """What a solver says to a problem, and how many digits of it are right."""
     natural = one.natural
-    sparse = SPARSE in one.facts["tags"]
-    form = natural.form if not sparse else StandardForm(
-        csc_matrix(natural.H), natural.g, csc_matrix(natural.A), natural.b
-    )  # fmt: skip
-    reply = tried(lambda: qpsolvers_reply(form, solver, BACKENDS[solver].plain(ACCURACY)))
-    row = {"id": one.id, "family": one.facts["family"], "dial": one.facts["dial"],
-           "solver": solver, "said": reply.status, "solved": reply.solved,
-           "iterations": reply.iterations, "digits": ""}  # fmt: skip
+    reply = tried(lambda: replied(natural, solver))
+    row = {"family": one.facts["family"], "dial": one.facts["dial"], "solver": solver,
+           "solved": reply.solved, "iterations": reply.iterations, "digits": 0.0}  # fmt: skip
     if reply.solved and reply.x is not None and not one.answer.farkas:
-        row["digits"] = round(digits(natural, np.asarray(reply.x)), 2)
+        row["digits"] = digits(natural, np.asarray(reply.x))
     return row
+
+
+def replied(natural: Member, solver: str) -> Reply:
+    """Natively; of sparse matrices through qpsolvers."""
+    options = BACKENDS[solver].plain(ACCURACY)
+    if SPARSE in natural.facts["tags"]:
+        H, A = csc_matrix(natural.H), csc_matrix(natural.A)
+        return qpsolvers_reply(StandardForm(H, natural.g, A, natural.b), solver, options)
+    if natural.facts["kind"] == SOCP:
+        H, g, A, b = natural.form
+        return Clarabel(Program(H, -g, A, b, cones=len(b) // 4), options).reply(True, False)
+    return Native(solver, "cold", ACCURACY)(natural.form, None)
 
 
 def digits(natural: Member, x: np.ndarray) -> float:
@@ -62,7 +74,7 @@ def digits(natural: Member, x: np.ndarray) -> float:
     if not np.isfinite(x).all():
         return 0.0
     H, off = csc_matrix(natural.H), x - natural.answer.x
-    free = float(natural.g @ np.linalg.solve(H.toarray(), natural.g))
+    free = float(natural.g @ spsolve(H, natural.g))
     if free == 0:
         return 16.0 if not off.any() else 0.0
     error = float(np.sqrt(max(off @ (H @ off), 0.0) / free))
@@ -70,13 +82,12 @@ def digits(natural: Member, x: np.ndarray) -> float:
 
 
 def rows_of(members: Iterable[Member]) -> list[dict[str, Any]]:
-    """Every solver on every problem with rows."""
+    """Every solver on every problem that it has a place for."""
     rows = []
     for one in members:
-        if one.facts["kind"] == SOCP:
-            continue
-        for solver in OF_SPARSE if SPARSE in one.facts["tags"] else SOLVERS:
-            rows.append(asked(one, solver))
+        of_kind = {SOCP: OF_CONES}.get(one.facts["kind"], SOLVERS)
+        rows += [asked(one, name) for name in
+                 (OF_SPARSE if SPARSE in one.facts["tags"] else of_kind)]  # fmt: skip
     return rows
 
 
@@ -94,7 +105,7 @@ def summary(rows: Sequence[dict[str, Any]], families: dict[str, Any]) -> list[di
         dial = families[family]["dial"]
         own = [row for row in rows if row["family"] == family and row["solver"] == solver]
         for part, some in enumerate(parts(own, dial["first"] > dial["most"]) if own else ()):
-            digits_ = [float(row["digits"] or 0.0) for row in some]
+            digits_ = [row["digits"] for row in some]
             told = [row["iterations"] for row in some if row["iterations"] is not None]
             found.append({
                 "family": family, "solver": solver, "part": part, "problems": len(some),
@@ -137,6 +148,8 @@ def figure(lines: Sequence[dict[str, Any]], families: dict[str, Any], path: Path
         dial = families[family]["dial"]
         for colour, solver in enumerate(SOLVERS):
             own = [one for one in lines if (one["family"], one["solver"]) == (family, solver)]
+            if not own:
+                continue
             said = family == "infeasible"
             heights = [16 * (1 - float(one["solved"]) / 100) if said
                        else float(one["digits_of_nine_in_ten"]) for one in own]  # fmt: skip
