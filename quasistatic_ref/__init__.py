@@ -26,6 +26,7 @@ _HOMES = {
     "simulate.simulator": "Simulator",
     "simulate.derivatives": "derivatives",
     "simulate.smoothed": "smoothed",
+    "simulate.step_jax": "step_jax smoothed_jax",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",
@@ -42,7 +43,8 @@ _HOMES = {
     "certify.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded RunFailed",
+    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NotDifferentiable "
+    "RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

@@ -18,6 +18,7 @@ from quasistatic_ref.quoting import clipped, one_line, short_words, shown_value
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
+    from quasistatic_ref.certify.reason import Reason
     from quasistatic_ref.step.data import Array, StepData
 
 
@@ -190,6 +191,21 @@ class LimitExceeded(StepNotSolved):
     def __init__(self, problem: str, step: StepData) -> None:
         super().__init__("none", "limit exceeded", step, 0.0)
         self.args = (problem,)
+
+
+class NotDifferentiable(QuasistaticError):
+    """A derivative was asked for where a step has none.
+
+    Parameters
+    ----------
+    reasons : tuple of Reason
+        Why: at least one.
+    """
+
+    def __init__(self, reasons: tuple[Reason, ...]) -> None:
+        self.reasons = reasons
+        more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
+        super().__init__(f"the step has no derivative here: {reasons[0]}{more}")
 
 
 class RunFailed(QuasistaticError):

@@ -107,6 +107,13 @@ FOUR_ULP: Final = 4 * 2.220446049250313e-16
 INTEGRAL: Final = 1e-11
 """Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""
 
+JAX_STEP: Final = 1e-6
+"""By what JAX moves its arguments to check a gradient [of their units]: rounding of a step, 1e-16,
+is then 1e-10 of the difference, and its error of the second order is as little."""
+
+JAX_GRADIENT: Final = 1e-7
+"""Gradients against JAX's differences with that, absolute plus relative."""
+
 DIFFERENCE_OF_STEPS: Final = 1e-7
 """Derivatives of a step against Richardson's differences in float64, relative to the largest
 entry: steps are right to 1e-16 of a metre, 1e-11 after division by the difference's 1e-5, times the

@@ -54,6 +54,7 @@ PANDAS: Final = (
     'python -c "from quasistatic_ref import load_scenario as load; '
     "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
 )
+JAX: Final = ("python -m quasistatic_ref.lab.examples.plan_a_push",)
 STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
@@ -96,6 +97,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
     "pandas": PANDAS,
     "parquet": PARQUET,
     "diff": ("python diff.py",),
+    "jax": JAX,
     "study": STUDY,
     "notebooks": (
         "checkout:python -m validation.notebooks --only door robot_push --out {out}/notebooks",
@@ -107,7 +109,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:ruff check .",
         "checkout:mypy",
     ),
-    "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS),
+    "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS, *JAX),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
@@ -125,6 +127,7 @@ REFUSED: Final = {
         "quasistatic-ref study run default --quick": "quasistatic-ref[robots]",
         "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
         "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
+        "quasistatic-ref figures plan_a_push": "quasistatic-ref[jax]",
         "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",
         "quasistatic-ref validate drake": "quasistatic-ref[drake]",
         "checkout:python -m validation.notebooks": "quasistatic-ref[notebooks]",

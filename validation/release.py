@@ -106,7 +106,7 @@ RESULTS = (
         "figures",
         (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
          "gradient_of_a_push", "where_no_gradient_is",
-         "what_smoothing_does",
+         "what_smoothing_does", "plan_a_push",
          "--out", "{temporary}"),
         ("docs/figures",),
         copied=(("*.png", "docs/figures"),),
@@ -201,6 +201,11 @@ RESULTS = (
         "derivatives",
         ("validation.derivatives", "--out", "validation/results/derivatives.md"),
         ("validation/results/derivatives.md",),
+    ),
+    Result(
+        "push_plans",
+        ("validation.push_plans", "--out", "validation/results/push_plans.md"),
+        ("validation/results/push_plans.md",),
     ),
     Result(
         "bench_exact",

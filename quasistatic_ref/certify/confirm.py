@@ -16,16 +16,16 @@ What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides 
 from collections.abc import Sequence
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpz
+from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.balls import PRECISION, inverse
-from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exchange import Proof, Violated
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.certify.rational import exact_rows, h_times_hessian, matrix
+from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.certify.rows import places
+from quasistatic_ref.certify.zeros import zeros_hold
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
 
@@ -129,7 +129,7 @@ def confirmed(step: StepData, guess: Sequence[int] | Indices, hessian: BallHessi
     if (slack < 0).any():
         row = int((slack < 0).argmax())
         return Violated(row, np.array(working, dtype=np.int64), lam_w, delta_q)
-    if not implied_zeros(step, working, idle, still):
+    if not zeros_hold(step, working, idle, still):
         return None
     if open_impulse.any():
         at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
@@ -192,26 +192,6 @@ def _slacks(step: StepData, x: arb_mat) -> list[arb]:
         A = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
         found += (A * x - _column(step.extra.b)).entries()
     return found
-
-
-def implied_zeros(
-    step: StepData, working: list[int], rows: list[int], coordinates: list[int]
-) -> bool:
-    """Whether the working set implies that slacks of some rows and some x are zero, all of them.
-
-    Parameters
-    ----------
-    step : StepData
-    working : list of int
-        Independent rows.
-    rows, coordinates : list of int
-    """
-    if coordinates or not spanned_in_contacts(step, working, rows):
-        exact = exact_rows(step, [*working, *rows])
-        n, k = step.n_v, len(working)
-        zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in coordinates]
-        return all(follow(exact[:k], [*exact[k:], *zeros]))
-    return True
 
 
 def _column(values: Array) -> arb_mat:

@@ -91,16 +91,36 @@ def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
     AssertionError
         Never: some prime decides.
     """
+    for guess in _guesses(held, rows):
+        guessed = [row for row, seen in zip(rows, guess, strict=True) if seen]
+        if not guessed or fmpz_mat([*held, *guessed]).rank() == len(held):
+            return guess
+    raise AssertionError("there are infinitely many primes")
+
+
+def all_follow(held: Sequence[Row], rows: Sequence[Row]) -> bool:
+    """Whether all of the `rows` :func:`follow` from `held`: a single one that does not ends it.
+
+    Raises
+    ------
+    AssertionError
+        Never: some prime decides.
+    """
+    for guess in _guesses(held, rows):
+        if not all(guess):  # independent modulo a prime is independent
+            return False
+        if fmpz_mat([*held, *rows]).rank() == len(held):
+            return True
+    raise AssertionError("there are infinitely many primes")
+
+
+def _guesses(held: Sequence[Row], rows: Sequence[Row]) -> Iterator[list[bool]]:
+    """Which of the rows follow modulo a prime, one prime after another."""
     k = len(held)
     for prime in _primes():
         pivots, echelon = _echelon([*held, *rows], prime)
-        if pivots[:k] != list(range(k)):
-            continue
-        guess = [not any(column[k : len(pivots)]) for column in echelon[k:]]
-        guessed = [row for row, seen in zip(rows, guess, strict=True) if seen]
-        if not guessed or fmpz_mat([*held, *guessed]).rank() == k:
-            return guess
-    raise AssertionError("there are infinitely many primes")
+        if pivots[:k] == list(range(k)):
+            yield [not any(column[k : len(pivots)]) for column in echelon[k:]]
 
 
 def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:

@@ -98,5 +98,6 @@ def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | Non
         if not full > limits.min(initial=np.inf):  # NaN too
             return np.sort(np.append(working, p)) if full < np.inf else None
         first = int(limits.argmin())
-        lam = np.delete(lam - limits[first] * falls, first)
-        short, working = short - limits[first] * rate, np.delete(working, first)
+        rest = np.arange(len(working)) != first
+        lam, working = (lam - limits[first] * falls)[rest], working[rest]
+        short -= limits[first] * rate

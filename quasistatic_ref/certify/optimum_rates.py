@@ -13,12 +13,13 @@ derivative, but one on each side.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.optimize import nnls
 
-from quasistatic_ref.certify.touching import Touching
+from quasistatic_ref.certify.touching import Touching, bearing
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT
 
@@ -134,6 +135,10 @@ class Equations:
                 found.append((set(owner[np.abs(nu) > DEPENDENT].tolist()), bad))
         return found
 
+    def along(self, data: DataRates) -> Array:
+        """The derivative along a single parameter as it grows, shape (n_v,) [m, rad per unit]."""
+        return self.one_sided(self.rates(data), 0)
+
     def one_sided(self, rates: OptimumRates, column: int) -> Array:
         """The derivative along one parameter as it grows, shape (n_v,) [m, rad per unit].
 
@@ -149,9 +154,41 @@ class Equations:
         t, x = self.of, rates.x[:, column]
         if not len(t.idle):
             return x
-        rows = np.linalg.solve(t.L, t.rows(t.idle).T).T @ self.free.T
-        pushes = _complementary(rows, rates.closing[:, column])
+        rows, pushes = self._pushes(rates, column)
         return np.asarray(x + np.linalg.solve(t.L.T, self.free.T @ (rows.T @ pushes)))
+
+    def _pushes(self, rates: OptimumRates, column: int) -> tuple[Array, Array]:
+        """Rows without load that the other equations leave, and what keeps each from closing."""
+        t = self.of
+        rows = np.linalg.solve(t.L, t.rows(t.idle).T).T @ self.free.T
+        return rows, _complementary(rows, rates.closing[:, column])
+
+    def beyond(self, data: DataRates) -> Touching:
+        """What touches, and bears load, as soon as a single parameter has grown.
+
+        Of the rows that touch without load, those that the growth presses then bear it, and those
+        that it opens touch no more. Rows that it leaves as they are go on without load.
+
+        Parameters
+        ----------
+        data : DataRates
+            Of one parameter.
+        """
+        t, rates = self.of, self.rates(data)
+        if not len(t.idle):
+            return t
+        rows, pushes = self._pushes(rates, 0)
+        slack = rates.closing[:, 0] + rows @ (rows.T @ pushes)
+        opened = slack > CONSISTENT * np.abs(rates.closing[:, 0]).max()
+        length = np.linalg.norm(rows, axis=1)
+        length[length == 0] = 1.0
+        size = float(np.linalg.norm(rows.T @ pushes))
+        pressed = np.zeros(len(rows), dtype=bool)
+        if size:
+            unit = rows[~opened] / length[~opened, None]
+            pressed[~opened] = bearing(unit, (pushes * length)[~opened], size)
+        strict = np.concatenate([t.strict, t.idle[pressed]])
+        return replace(t, strict=strict, idle=t.idle[~pressed & ~opened])
 
 
 def _complementary(rows: Array, slack: Array) -> Array:
@@ -182,11 +219,11 @@ def parameters(*parts: DataRates) -> DataRates:
     ----------
     parts : DataRates
     """
+    load = np.concatenate([part.load for part in parts], axis=1)
+    motion = np.concatenate([part.motion for part in parts], axis=2)
+    pull = partial(_pulled, [part.pull for part in parts])
+    return DataRates(load, motion, np.concatenate([part.terms for part in parts]), pull)
 
-    def pull(y: Array) -> Array:
-        return np.concatenate([part.pull(y) for part in parts], axis=1)
 
-    every: Sequence[DataRates] = parts
-    load = np.concatenate([part.load for part in every], axis=1)
-    motion = np.concatenate([part.motion for part in every], axis=2)
-    return DataRates(load, motion, np.concatenate([part.terms for part in every]), pull)
+def _pulled(pulls: Sequence[Callable[[Array], Array]], y: Array) -> Array:
+    return np.concatenate([pull(y) for pull in pulls], axis=1)

@@ -80,12 +80,14 @@ class ExactForm:
         return [*self.row(i), self.b[i, 0]]
 
 
-def exact_form(step: StepData) -> ExactForm:
+def exact_form(step: StepData, rows: Sequence[int] | None = None) -> ExactForm:
     """H, g, A, b of a step, without rounding.
 
     Parameters
     ----------
     step : StepData
+    rows : sequence of int, optional
+        Those of A that are wanted, in a polyhedral cone; all by default.
 
     Returns
     -------
@@ -96,10 +98,13 @@ def exact_form(step: StepData) -> ExactForm:
     # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
     H = h_times_hessian(step)
     g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
-    rows = _friction_rows(step.contacts, step.cone)[step.mask]
-    gaps = row_gaps(step.contacts, step.cone)[step.mask]
-    A = joined([rows, dyadic(step.extra.A)])  # Eq. (8)
-    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
+    if rows is None:
+        of_contacts = _friction_rows(step.contacts, step.cone)[step.mask]
+        gaps = row_gaps(step.contacts, step.cone)[step.mask]
+        A = joined([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
+        b = joined([dyadic(-gaps), dyadic(step.extra.b)])
+    else:
+        A, b = _some_rows(step, rows)
     return _in_integers(H, g, A, b, fraction(step.h))
 
 
@@ -119,6 +124,12 @@ def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
     rows : sequence of int
         Rows of A; only these are formed.
     """
+    A, b = _some_rows(step, rows)
+    return [[*A.m[i], b.m[i]] for i in range(len(rows))]
+
+
+def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
+    """Some rows of A, and their entries of b."""
     contact, row = places(step, rows)
     own = contact == step.contacts.n_c
     used, at = np.unique(contact[~own], return_inverse=True)
@@ -127,7 +138,7 @@ def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
     A = joined([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
     b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
     order = np.argsort(own, kind="stable").argsort()
-    return [[*A.m[i], b.m[i]] for i in order]
+    return A[order], b[order]
 
 
 def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:

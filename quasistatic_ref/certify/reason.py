@@ -1,6 +1,6 @@
 """Why a step has no derivative, by name."""
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 WEAK = "weakly active row"
 CONTRADICTION = "rows that would contradict each other"
@@ -13,6 +13,12 @@ NO_NORMAL = "no normal at zero distance"
 TANGENTS = "tangents switch axis"
 RIM = "level rim"
 HALF_TURN = "half a turn"
+
+KINDS: Final = (
+    WEAK, CONTRADICTION, ZERO_FRICTION, POINTS, SURFACES, FEATURE, MANY, NO_NORMAL, TANGENTS, RIM,
+    HALF_TURN,
+)  # fmt: skip
+"""All of them, in one order."""
 
 
 class Reason(NamedTuple):

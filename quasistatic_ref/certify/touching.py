@@ -93,14 +93,24 @@ def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touc
     touches |= solution.lam > 0
     Z, lam = every[touches], solution.lam[touches]
     scaled = rows[touches] / length[touches, None]
-    bears = _bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
+    bears = bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
     multipliers = np.zeros((n_c, 4))
     np.add.at(multipliers, Z[:, 0], lam[:, None] * table[Z[:, 1]])
     return Touching(L, generators, table, Z[bears], Z[~bears], multipliers)
 
 
-def _bearing(rows: Array, lam: Array, size: float) -> Mask:
-    """Which of some unit rows, shape (k, n_v), bear load in some optimal lam."""
+def bearing(rows: Array, lam: Array, size: float) -> Mask:
+    """Which of some unit rows bear load in some optimal lam, shape (k,).
+
+    Parameters
+    ----------
+    rows : ndarray, shape (k, n)
+        Of length one [-].
+    lam : ndarray, shape (k,)
+        One optimal lam.
+    size : float
+        Beside what a multiplier is nothing [of lam].
+    """
     bears: Mask = lam > BEARING * size
     if bears.all():
         return bears

@@ -23,7 +23,7 @@ class BlockGeometry:
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout = layout
         # Joints' columns in the order of their coordinates; a mimic's is that of another.
-        owner = motion.coordinates.argmax(axis=1)
+        owner = motion.owner
         by_coordinate = np.argsort(owner, kind="stable")
         owner, moves = owner[by_coordinate], motion.moves[:, 0, by_coordinate] > 0
         a, b = moves[layout.link_alpha], moves[layout.link_beta]
@@ -33,7 +33,7 @@ class BlockGeometry:
         self.joint_column[contact, rank] = by_coordinate[joint_column]
         self.alpha[contact, rank] = a[contact, joint_column]
         self.beta[contact, rank] = b[contact, joint_column]
-        self.n_v = motion.coordinates.shape[1]
+        self.n_v = motion.n_v
         coordinate = np.zeros((len(a), self.n_v), dtype=bool)
         coordinate[contact, owner[joint_column]] = True
         at, place, column = _ragged(coordinate)
@@ -79,7 +79,7 @@ def contact_geometry(
     sparse_from : int
         Entries of J from which the steps' solver takes blocks; 0 if it takes none.
     """
-    entries = 4 * len(layout.rows) * motion.coordinates.shape[1]
+    entries = 4 * len(layout.rows) * motion.n_v
     form = BlockGeometry if 0 < sparse_from <= entries else ContactGeometry
     return form(layout, motion)
 

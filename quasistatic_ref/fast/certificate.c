@@ -197,11 +197,28 @@ static int rounded(Proof *s, Room *m, int *lost)
     return DECIDED;
 }
 
+/* Correct z until no residual is above 2^-bits. */
+static void refined(const Proof *s, Room *m, int bits, int *lost)
+{
+    int64_t N = s->n_v + s->working;
+    for (int round = 0; round < ROUNDS; round++) {
+        double most = 0.0;
+        for (int64_t i = 0; i < N; i++) {
+            m->rest[i] = value(m->r + i);
+            most = fabs(m->rest[i]) > most ? fabs(m->rest[i]) : most;
+        }
+        if (most < ldexp(1.0, -bits))
+            break;
+        corrected(s, m, lost);
+    }
+    for (int64_t i = 0; i < N; i++)
+        m->rest[i] = value(m->r + i) * UP;
+}
+
 static int proved(Proof *s, Room *m)
 {
-    int lost = 0;
+    int lost = 0, code = OPEN_NUMBER;
     int64_t n = s->n_v, N = n + s->working;
-    s->counts[0] = s->counts[1] = 0;
     load(s, m->g, &lost);
     for (int64_t i = 0; i < n; i++)
         m->r[i] = m->g[i];
@@ -211,26 +228,18 @@ static int proved(Proof *s, Room *m)
         return LOST;
     if (!inverse(m->copy, m->R, N))
         return SINGULAR;
-    for (int round = 0; round < ROUNDS; round++) {
-        double most = 0.0;
-        for (int64_t i = 0; i < N; i++) {
-            m->rest[i] = value(m->r + i);
-            most = fabs(m->rest[i]) > most ? fabs(m->rest[i]) : most;
-        }
-        if (most < ldexp(1.0, -REFINED))
-            break;
-        corrected(s, m, &lost);
-    }
-    for (int64_t i = 0; i < N; i++)
-        m->rest[i] = value(m->r + i) * UP;
     defect(m->R, m->K, N, m->G);
-    if (lost)
-        return LOST;
-    if (!error_bounds(m->R, m->G, m->rest, N, m->e))
-        return OPEN_BOUND;
-    int code = rounded(s, m, &lost);
-    if (code == DECIDED)
-        code = slacks(s, m, &lost);
+    for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
+        s->counts[0] = s->counts[1] = 0;
+        refined(s, m, bits, &lost);
+        if (lost)
+            return LOST;
+        if (!error_bounds(m->R, m->G, m->rest, N, m->e))
+            return OPEN_BOUND;
+        code = rounded(s, m, &lost);
+        if (code == DECIDED)
+            code = slacks(s, m, &lost);
+    }
     if (code == DECIDED && (s->counts[1] || !spanned(s, m->table, m->pivot)))
         code = TO_BE_IMPLIED;
     return lost ? LOST : code;

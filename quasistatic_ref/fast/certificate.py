@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.confirm import implied_zeros
 from quasistatic_ref.certify.dependence import combined
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exchange import Proof, Violated
+from quasistatic_ref.certify.zeros import zeros_hold
 from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.solve.units import Units
@@ -102,7 +102,7 @@ class Prover:
         if code == NEGATIVE:
             return Violated(rows, guess, s["lam"][guess], s["delta_q"].copy())
         zeros = s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
-        if code != DECIDED and not (code == TO_BE_IMPLIED and implied_zeros(step, working, *zeros)):
+        if code != DECIDED and not (code == TO_BE_IMPLIED and zeros_hold(step, working, *zeros)):
             return None
         lam, slack = s["lam"].copy(), s["slack"].copy()
         return ExactOptimum(

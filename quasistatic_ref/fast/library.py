@@ -23,18 +23,22 @@ from quasistatic_ref.fast.products import FUSED, products
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
-SOURCES = ("closest.c", "rows.c", "screws.c", "certificate.c", "kkt.c", "contraction.c", "span.c")
+SOURCES = (
+    "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
+    "span.c",
+)  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
-FLAGS = ("-std=c11", "-O2", "-ftree-vectorize", "-ffp-contract=off", "-shared", "-fPIC")
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
 """The last but two: no compiler may join a product and a sum that the source keeps apart."""
 
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
-    "contact_rows": None,
+    "step_data": None,
     "reach": ctypes.c_double,
     "positions": None,
     "changes": None,
+    "natural_program": ctypes.c_int,
     "hessian": ctypes.c_int,
     "proof": ctypes.c_int,
 }

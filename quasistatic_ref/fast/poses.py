@@ -19,6 +19,8 @@ class Poses:
         Addresses of each link's rotation, by columns, and of its origin; the world's first.
     columns : ndarray of int, shape (n_x,)
         Addresses of the Jacobian's columns, velocity before angular velocity.
+    gravity : ndarray of int, shape (n_v,)
+        Addresses of what stands for gravity on the left of M dv + g = tau, in the paper's order.
     """
 
     def __init__(self, system: System) -> None:
@@ -26,16 +28,19 @@ class Poses:
         self._world = np.eye(3), np.zeros(3)
         R, t = [self._world[0]], [self._world[1]]
         columns: list[int] = []
+        gravity: list[int] = []
         for part in self.workspace.parts:
             R += part.R
             t += part.t
             J = part.data.J.reshape(6, -1, order="F")
             assert J.strides[0] == 8
             columns += [J.ctypes.data + J.strides[1] * i for i in range(J.shape[1])]
+            gravity += [part.data.g.ctypes.data + 8 * i for i in range(part.model.nv)]
         assert all(one.strides == (8, 24) for one in R[1:])
         self.R = np.array([one.ctypes.data for one in R])
         self.t = np.array([one.ctypes.data for one in t])
         self.columns = np.array(columns)
+        self.gravity = np.array(gravity)[self.order.v]
         self._at: bytes | None = None
 
     def move(self, q: Array) -> None:
@@ -46,3 +51,7 @@ class Poses:
         self._at = None  # of a failure
         self.workspace.move(self.order.model_q(q))
         self._at = at
+
+    def weigh(self, q: Array, gravity: tuple[float, ...]) -> None:
+        """Have gravity [m/s^2] at a configuration, shape (n_q,), written."""
+        self.workspace.gravity_torque(self.order.model_q(q), gravity)

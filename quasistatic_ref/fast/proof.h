@@ -12,8 +12,9 @@ enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, NOT_PRESSED,
 /* Why a coordinate does not move: nothing acts on it, or the working set may hold it. */
 enum { AT_REST = 1, STILL };
 
-/* Bits to which the solution is refined, and of the grid of its corrections. */
-enum { REFINED = 160, GRID = 280, ROUNDS = 12 };
+/* Bits to which the solution is refined, and again where a small number is open; of the grid of its
+   corrections. */
+enum { REFINED = 160, FINEST = 240, GRID = 280, ROUNDS = 12 };
 
 #define UP (1 + 0x1p-40)   /* for the rounding of sums of non-negative float64 numbers */
 #define DOWN (1 - 0x1p-40)

@@ -1,4 +1,4 @@
-/* Tangents, J, A and b of contacts from their closest points: Eqs. (2)-(8). */
+/* Tangents, J, A and b of contacts from their closest points, Eqs. (2)-(8); the load of Eq. (13). */
 
 #include "scene.h"
 
@@ -55,8 +55,17 @@ static void motion_along(const double *axis, const double *J, int64_t n_v, doubl
         out[v] = mu * ((axis[0] * J[v] + axis[1] * J[n_v + v]) + axis[2] * J[2 * n_v + v]);
 }
 
-/* The tangents, J, A and b of all contacts from their closest points. */
-void contact_rows(Scene *s)
+/* simulate/simulator: posed; step/standard_form: load. */
+static void load(Scene *s)
+{
+    for (int64_t v = 0; v < s->n_v; v++) {
+        s->tau[v] = s->weighs[v] * (0.0 - *s->gravity[v]) + s->force[v];
+        s->g[v] = *s->h * (v < s->n_a ? s->tau_k[v] + s->tau[v] : s->tau[v]);
+    }
+}
+
+/* The tangents, J, A and b of all contacts from their closest points, and the load. */
+void step_data(Scene *s)
 {
     int64_t n_v = s->n_v, n_x = s->n_x, row = 0;
     double *col = s->work, *own = col + 6 * n_x, *motion = own + 8 * n_x;
@@ -82,4 +91,5 @@ void contact_rows(Scene *s)
             s->b[row] = -s->phi[c];
         }
     }
+    load(s);
 }

@@ -26,7 +26,7 @@ enum { ROUNDED_BOX, HALF_SPACE, CYLINDER };
 
 /* One for one the fields of Scene in scene.py. */
 typedef struct {
-    int64_t pairs, n_c, n_v, n_x, links, mimics;
+    int64_t pairs, n_c, n_v, n_a, n_x, links, mimics;
     /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */
     const double *const *R, *const *t, *const *column;
     /* Of each pair: the two shapes' links and places on them (3 x 4), solid first. */
@@ -56,6 +56,10 @@ typedef struct {
     int64_t *rank, *point;
     double *phi, *n, *alpha, *beta, *d1, *d2, *J, *A, *b;
     double *work; /* 14 n_x + 4 n_v */
+    /* The load: h; which coordinates weigh; gravity on the left of M dv + g = tau, as pinocchio
+       keeps it; other forces; K_q delta_q_bar_a. Then tau and g, which are written. */
+    const double *h, *weighs, *const *gravity, *force, *tau_k;
+    double *tau, *g;
 } Scene;
 
 #endif

@@ -1,6 +1,7 @@
 """A simulator's contacts as the structures of scene.h."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.contact.batch import bounds
 from quasistatic_ref.contact.cloud import Rounded, rounded_box
@@ -10,13 +11,14 @@ from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.model import shapes
-from quasistatic_ref.step.data import Array, Indices, RowLayout
+from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.friction import cone_function, cone_matrix
+from quasistatic_ref.step.posed import Constants
 
 ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
 """Kinds of solids, as scene.h counts them."""
 
-NUMBERS = ("pairs", "n_c", "n_v", "n_x", "links", "mimics")
+NUMBERS = ("pairs", "n_c", "n_v", "n_a", "n_x", "links", "mimics")
 ARRAYS = (
     "R", "t", "column",
     "link_solid", "link_cloud", "on_solid", "on_cloud",
@@ -27,6 +29,7 @@ ARRAYS = (
     "coefficient", "has",
     "world", "nearest", "rank", "point",
     "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
+    "h", "weighs", "gravity", "force", "tau_k", "tau", "g",
 )  # fmt: skip
 """The fields of ``Scene`` in scene.h, one for one."""
 
@@ -44,10 +47,10 @@ class Scene(Structure):
     poses : Poses
         Where pinocchio writes the poses of the links.
     geometry : ContactGeometry
-    layout : RowLayout
-        Of the rows of all contacts.
-    cone : str
-        Polyhedral.
+    constant : Constants
+        In a polyhedral cone.
+    weighs : ndarray, shape (n_v,)
+        1.0 for each coordinate that feels gravity, else 0.0 [-].
     clouds : CloudTracker or None
         Of all pairs, where each has a cloud and a solid that is :func:`known`.
     """
@@ -56,32 +59,48 @@ class Scene(Structure):
         self,
         poses: Poses,
         geometry: ContactGeometry,
-        layout: RowLayout,
-        cone: str,
+        constant: Constants,
+        weighs: Array,
         clouds: CloudTracker | None,
     ) -> None:
-        motion, n_c, m = geometry.motion, len(layout.counts), int(layout.offsets[-1])
-        n_x, n_v = motion.coordinates.shape
+        motion, layout = geometry.motion, constant.layout
+        n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
+        n_x, n_v = len(motion.owner), motion.n_v
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
+        self.given = given = np.dtype(
+            [
+                ("point", np.int64, (n_c,)), ("phi", np.float64, (n_c,)),
+                *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
+                ("J", np.float64, (n_c, 4, n_v)), ("tau", np.float64, (n_v,)),
+                ("g", np.float64, (n_v,)),
+            ]
+        )  # fmt: skip
+        self._bytes = np.zeros(given.itemsize, np.uint8)
+        written = np.ndarray((), given, self._bytes)
         self.clouds, self.lists_made = clouds, 0
         alpha, beta = geometry.moves[:, :, 0]
         self.put(
             {
-                "pairs": 0, "n_c": n_c, "n_v": n_v, "n_x": n_x,
+                "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
                 "links": len(poses.R), "mimics": int(motion.mimics),
                 "R": poses.R, "t": poses.t, "column": poses.columns,
-                "owner": motion.coordinates.argmax(axis=1),
+                "owner": motion.owner,
                 "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
-                **cone_terms(cone),
-                "point": np.zeros(n_c, np.int64), "phi": np.zeros(n_c),
-                "J": np.zeros((n_c, 4, n_v)),
-                **{name: np.zeros((n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")},
+                **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
                 "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),
+                "h": np.array([constant.h]), "weighs": weighs, "gravity": poses.gravity,
+                "force": np.zeros(n_v), "tau_k": np.zeros(n_a),
             },
         )  # fmt: skip
         if clouds is not None:
             self._put_pairs(clouds)
+
+    def taken(self) -> NDArray[np.void]:
+        """What C has written of a step, of shape (): its arrays by their names."""
+        taken = self._bytes.copy()  # a copy of fields takes ten times as long
+        taken.setflags(write=False)
+        return np.ndarray((), self.given, taken)
 
     @property
     def listed(self) -> bool:

@@ -34,27 +34,30 @@ class Screws:
         self._sums = _structure(found, system, joints, system.n_v)
         actuated = [joint for joint in joints if joint.actuated]
         self._differences = _structure(found, system, actuated, system.n_a)
-        self._vectors = [_rotation(joint) for joint in joints]
-        self._actuated = [_rotation(joint) for joint in actuated]
+        self._of_sums, self._of_differences = (
+            tuple(s[name] for name in ("q", "q_next", "delta_q", "angle"))
+            for s in (self._sums, self._differences)
+        )
+        self._vectors, self._actuated = _rotations(joints), _rotations(actuated)
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        s, change = self._sums, delta_q.tolist()
-        s["q"][:], s["delta_q"][:] = q, delta_q
-        s["q_next"][:] = self.system.pinocchio_sum(q, delta_q)
-        s["angle"][:] = [math.hypot(*change[where]) for where in self._vectors]
-        self._positions(s.address)
-        return s["q_next"].copy()
+        at, there, change, angle = self._of_sums
+        at[:], there[:], change[:] = q, self.system.pinocchio_sum(q, delta_q), delta_q
+        for i, where in self._vectors:
+            angle[i] = math.hypot(*change[where].tolist())
+        self._positions(self._sums.address)
+        return there.copy()
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
-        s, q_next = self._differences, self.system.with_actuated(q, q_a)
-        change = self.system.pinocchio_difference(q, q_next)[: self.system.n_a]
-        entries = change.tolist()
-        s["q"][:], s["q_next"][:], s["delta_q"][:] = q, q_next, change
-        s["angle"][:] = [math.hypot(*entries[where]) for where in self._actuated]
-        self._changes(s.address)
-        return s["delta_q"].copy()
+        at, there, change, angle = self._of_differences
+        at[:], there[:] = q, self.system.with_actuated(q, q_a)
+        change[:] = self.system.pinocchio_difference(at, there)[: len(change)]
+        for i, where in self._actuated:
+            angle[i] = math.hypot(*change[where].tolist())
+        self._changes(self._differences.address)
+        return change.copy()
 
 
 def _structure(found: Any, system: System, joints: Sequence[Joint], n_v: int) -> Structure:
@@ -73,7 +76,11 @@ def _structure(found: Any, system: System, joints: Sequence[Joint], n_v: int) ->
     return made
 
 
-def _rotation(joint: Joint) -> slice:
-    """Where a joint's rotation vector is in delta_q: of a continuous joint, nowhere."""
-    first = {"floating": 3, "planar": 2, "continuous": 1}[joint.kind]
-    return slice(joint.v.start + first, joint.v.stop)
+def _rotations(joints: Sequence[Joint]) -> list[tuple[int, slice]]:
+    """Which of the joints are bases, and where the rotation vectors of these are in delta_q."""
+    first = {"floating": 3, "planar": 2}
+    return [
+        (i, slice(joint.v.start + first[joint.kind], joint.v.stop))
+        for i, joint in enumerate(joints)
+        if joint.kind in first
+    ]

@@ -8,7 +8,9 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.fast.library import library
+from quasistatic_ref.fast.natural import MOST, NaturalProgram
 from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.products import products
 from quasistatic_ref.fast.scene import Scene, known
@@ -16,11 +18,15 @@ from quasistatic_ref.fast.screws import Screws
 from quasistatic_ref.plain import bits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.solve.adapters.program import Program
+from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.posed import PosedContacts
-from quasistatic_ref.step.standard_form import StandardForm, load, standard_form
+from quasistatic_ref.step.posed import PosedContacts, PosedStep
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -82,11 +88,12 @@ class CompiledStep:
         assert isinstance(simulator.geometry, ContactGeometry)
         self.poses, self.geometry = Poses(simulator.system), simulator.geometry
         clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
-        constant = simulator.constant
-        self.scene = Scene(self.poses, self.geometry, constant.layout, constant.cone, clouds)
+        constant, weighs = simulator.constant, simulator.weighs
+        self.scene = Scene(self.poses, self.geometry, constant, weighs, clouds)
         found = library()
-        self.find, self.form, self.reach = found.closest_points, found.contact_rows, found.reach
+        self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
         self.screws = Screws(simulator.system)
+        self.program: NaturalProgram | None = None
         self.equal: bool | None = None
 
     def __call__(
@@ -97,16 +104,18 @@ class CompiledStep:
         Returns
         -------
         StepResult or None
-            None where NumPy turns out to multiply otherwise here, or has an extension to take.
+            None where NumPy turns out to multiply otherwise here, or has an extension to take or a
+            force to refuse.
         """
-        if simulator.extension is not None:  # given since
+        shapes = () if isinstance(force, float) else np.shape(force), self.scene["force"].shape
+        if simulator.extension is not None or shapes[0] not in ((), shapes[1]):
             return None
         lap, system = Stopwatch(), simulator.system
         q = np.asarray(q, dtype=np.float64)
         self.poses.move(q)
-        points = self.points(simulator, q)
+        self.find_points(simulator, q)
         lap("distances")
-        step, form = self.step_data(simulator, points, q, q_bar_a, force)
+        points, step, form = self.step_data(simulator, q, q_bar_a, force)
         if self.equal is None:
             self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
             if not self.equal:
@@ -114,7 +123,10 @@ class CompiledStep:
                 return None
         lap("rows")
         solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)
-        solution = solved(step, solver, *asked, form)  # Eq. (13)
+        try:
+            solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
+        except StepNotSolved as failure:
+            solution = simulator.spare.answer(step, failure)
         simulator.limits.check_penetration(step)
         lap("solve")
         q_next = self.screws.integrate(q, solution.delta_q)
@@ -124,46 +136,48 @@ class CompiledStep:
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
-    def points(self, simulator: Simulator, q: Array) -> ClosestPoints:
-        """The closest points at q, by the short lists; by NumPy where these do not prove them."""
-        scene, names = self.scene, ("phi", "alpha", "beta", "n", "point")
+    def find_points(self, simulator: Simulator, q: Array) -> None:
+        """Write the closest points at q: from the short lists; NumPy's where these prove none."""
+        scene = self.scene
         scene.relist()
         if scene.clouds is not None and scene.listed and self.find(scene.address):
             scene.clouds.steps += 1
-            return ClosestPoints(*(scene[name].copy() for name in names))
+            return
         kinematics = simulator.system.kinematics(q)
         points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
-        for name, values in zip(names, points, strict=True):
+        for name, values in points._asdict().items():
             scene[name][:] = values
-        return points
 
     def step_data(
-        self,
-        simulator: Simulator,
-        points: ClosestPoints,
-        q: Array,
-        q_bar_a: Array,
-        force: Array | float,
-    ) -> tuple[StepData, StandardForm]:
-        """The problem of one step, and its matrices until the next."""
-        self.form(self.scene.address)
-        scene, layout = self.scene, self.geometry.layout
-        d1, d2, J = (scene[name].copy() for name in ("d1", "d2", "J"))
-        names, constant = self.geometry.names(points.point), self.geometry.mu
-        contacts = PosedContacts(
-            names,
-            points.phi,
-            points.n,
-            d1,
-            d2,
-            J,
-            layout.mu_v,
-            layout.mu_omega,
-            layout.rows,
-            constant,
-        )
-        step = simulator.posed(q, force, self.screws.actuated_difference(q, q_bar_a), contacts)
-        return step, StandardForm(step.H, load(step), scene["A"], scene["b"])
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> tuple[ClosestPoints, StepData, StandardForm]:
+        """The closest points and the problem of one step, and its matrices until the next."""
+        scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
+        delta_q_bar_a = self.screws.actuated_difference(q, q_bar_a)
+        np.matmul(constant.K_q, delta_q_bar_a, out=scene["tau_k"])  # in BLAS's order
+        self.poses.weigh(q, simulator.gravity)
+        scene["force"][:] = force
+        self.form(scene.address)
+        of, layout, mu = scene.taken(), self.geometry.layout, self.geometry.mu
+        points = ClosestPoints(*(of[name] for name in ClosestPoints._fields))
+        names = self.geometry.names(points.point)
+        frames = points.n, of["d1"], of["d2"], of["J"]
+        of_layout = layout.mu_v, layout.mu_omega, layout.rows, mu
+        contacts = PosedContacts(names, points.phi, *frames, *of_layout)
+        n_a, tau = len(delta_q_bar_a), of["tau"]
+        step = PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+        return points, step, StandardForm(step.H, of["g"], scene["A"], scene["b"])
+
+    def units(self, solver: Solver, step: StepData) -> Units | None:
+        """The natural units of the step, where its program is written for the solver in them."""
+        if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
+            return None
+        metric, program = solver.metric, self.program
+        if metric is None or metric.H is not step.H or step.n_v > MOST:
+            return None
+        if program is None or not program.fits(solver):
+            self.program = program = NaturalProgram(self.scene, solver.program, metric)
+        return program.written(solver)
 
     def by_numpy(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float

@@ -14,6 +14,26 @@ UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 
+def normalised(joints: Sequence[Joint], q: Array) -> Array:
+    """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
+
+    Those that are of length one but for rounding keep their bits, and those of length zero stay.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+    q : ndarray, shape (n_q,)
+    """
+    found = q + 0.0
+    for joint in joints:
+        if joint.kind in UNIT_PART:
+            unit = found[joint.q][UNIT_PART[joint.kind] :]
+            length = np.hypot.reduce(unit)
+            if length > 0 and abs(length - 1) > UNIT_ROUNDING:
+                unit /= length
+    return found
+
+
 def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     """Copy of q, finite, of shape (n_q,), its quaternions of length one.
 

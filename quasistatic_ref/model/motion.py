@@ -1,11 +1,12 @@
 """How links move with the coordinates: what of it is the same at every configuration."""
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.model.coordinates import Joint, Order, joint_key
+from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.step.arrays import Array
 
 CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1).reshape(3, 9)
@@ -40,6 +41,11 @@ class Motion:
     frames : sequence of int
         The frame of each link but the world.
     order : Order
+
+    Attributes
+    ----------
+    owner : ndarray of int, shape (n_x,)
+        The coordinate of each column, in the paper's order.
     """
 
     def __init__(self, model: Any, frames: Sequence[int], order: Order) -> None:
@@ -51,11 +57,16 @@ class Motion:
         for link, frame in enumerate(frames, start=1):
             for joint in model.supports[model.frames[frame].parentJoint]:
                 self.moves[link, 0, columns[joint]] = 1.0
-        coordinates = np.zeros((model.nvExtended, model.nv))
+        owner = np.zeros(model.nvExtended, dtype=np.int64)
         for at, v in zip(columns, model.idx_vs, strict=True):
-            coordinates[at, v : v + at.stop - at.start] = np.eye(at.stop - at.start)
-        self.order, self.coordinates = order, order.paper_v(coordinates)
+            owner[at] = v + np.arange(at.stop - at.start)
+        self.order, self.owner, self.n_v = order, order.v_back[owner], int(model.nv)
         self.mimics = model.nvExtended > model.nv
+
+    @cached_property
+    def coordinates(self) -> Array:
+        """1.0 where a column is of a coordinate, else 0.0, (n_x, n_v): not for large scenes."""
+        return np.eye(self.n_v)[self.owner]
 
     def of_coordinates(self, columns: Array) -> Array:
         """Per unit of delta_q, shape (..., n_v), from `columns` [m, rad]."""
@@ -64,15 +75,3 @@ class Motion:
             return self.order.paper_v(columns)
         flat: Array = columns.reshape(-1, columns.shape[-1]).dot(self.coordinates)
         return flat.reshape(*columns.shape[:-1], flat.shape[1])
-
-
-def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:
-    """Whether M_u is the same at every q: every un-actuated joint is a rigid body's, alone.
-
-    In its own frame a free body's mass matrix is constant, unless a joint hangs from it.
-    """
-    free = [joint for joint in joints if not joint.actuated]
-    if any(joint.kind != "floating" for joint in free):
-        return False
-    parents = list(model.parents)
-    return not any(model.getJointId(joint_key(joint.name)) in parents for joint in free)

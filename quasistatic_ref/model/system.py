@@ -18,7 +18,8 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion, constant_mass
+from quasistatic_ref.model.mass import check_mass, constant_mass
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
@@ -127,7 +128,8 @@ class System:
         self._un_actuated = np.ix_(u, u)
         self.motion = Motion(self._model, world.frames, self._order)
         self._M_u = self.M_u(self.q_start) if constant_mass(self._model, self.joints) else None
-        self._check_inertia()
+        free = [coordinate for coordinate in self.coordinates if not coordinate.actuated]
+        check_mass(self.M_u(self.q_start), free, self._roots)
 
     @property
     def rigid(self) -> bool:
@@ -290,19 +292,3 @@ class System:
             problem = f"is no body{suggestion(body, self._roots)}"
             raise ModelError(problem, field="body", value=body)
         return self._roots[body]
-
-    def _check_inertia(self) -> None:
-        """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite."""
-        M_u = self.M_u(self.q_start)
-        free = [coordinate for coordinate in self.coordinates if not coordinate.actuated]
-        for body in self._roots:
-            own = [k for k, c in enumerate(free) if c.name.startswith(f"{body}/")]
-            try:
-                np.linalg.cholesky(M_u[np.ix_(own, own)])
-            except np.linalg.LinAlgError:
-                problem = (
-                    "its mass matrix M_u is singular in float64 at the start: an un-actuated "
-                    "coordinate moves next to no mass"
-                )
-                names = [free[k].name for k in own]
-                raise ModelError(problem, field=body, value=names) from None

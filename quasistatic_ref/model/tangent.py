@@ -80,6 +80,37 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     return by_q, by_next
 
 
+def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
+    """Derivative of the entries of q (+) e by e at 0, shape (n_q, n_v) [per m or rad].
+
+    Its pseudo-inverse takes a change of the entries to tangent coordinates, the part along a
+    quaternion, or along (cos, sin), being lost; also where these are not of length one.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        All joints.
+    q : ndarray, shape (n_q,)
+    """
+    E = np.zeros((joints[-1].q.stop, joints[-1].v.stop)) if joints else np.zeros((0, 0))
+    for joint in joints:
+        own, e = q[joint.q], E[joint.q, joint.v]
+        if joint.kind == "floating":
+            x, w = own[3:6], own[6]
+            turned = cross_matrix(x)
+            e[:3, :3] = np.eye(3) + 2 * (w * turned + turned @ turned) / (x @ x + w * w)
+            e[3:6, 3:], e[6, 3:] = (w * np.eye(3) + turned) / 2, -x / 2
+        elif joint.kind == "planar":
+            c, s = own[2:]
+            e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
+            e[2:, 2] = -s, c
+        elif joint.kind == "continuous":
+            e[:, 0] = -own[1], own[0]
+        else:
+            e[0, 0] = 1.0
+    return E
+
+
 def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[str]:
     """Names of the joints whose change is half a turn, where (-) jumps.
 

@@ -4,6 +4,8 @@ r"""How all data of a step change with what the step is a function of.
 :eq:`eq-13` and the motion of the contacts, and with them the optimum as (R33) says.
 """
 
+from functools import partial
+
 import numpy as np
 
 from quasistatic_ref.certify.optimum_rates import DataRates
@@ -61,7 +63,12 @@ def data_rates(
 def _loads(load: Array, n_c: int) -> DataRates:
     """Parameters that change the load alone."""
     none = np.zeros_like(load)
-    return DataRates(load, np.zeros((n_c, 4, load.shape[1])), none[0], lambda y: none)
+    return DataRates(load, np.zeros((n_c, 4, load.shape[1])), none[0], partial(_same, none))
+
+
+def _same(value: Array, y: Array) -> Array:
+    """What no multipliers change."""
+    return value
 
 
 def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, DataRates]:
@@ -78,10 +85,11 @@ def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, D
     for name, J in (("dq_dmu_v", slides), ("dq_dmu_omega", spins)):
         motion = np.zeros((contacts.n_c, 4, len(pairs)))
         motion[:, 1:] = (J @ x)[:, :, None] * own[:, None]
-
-        def pull(y: Array, J: Array = J) -> Array:
-            return np.asarray(np.einsum("jiv,ji,jp->vp", J, y[:, 1:], own))
-
         terms = (np.abs(J) @ np.abs(x)).max(axis=(0, 1), initial=0.0) * np.ones(len(pairs))
-        found[name] = DataRates(none, motion, terms, pull)
+        found[name] = DataRates(none, motion, terms, partial(_exerted, J, own))
     return found
+
+
+def _exerted(J: Array, own: Array, y: Array) -> Array:
+    """What multipliers of slips and spin exert, pair by pair."""
+    return np.asarray(np.einsum("jiv,ji,jp->vp", J, y[:, 1:], own))

@@ -6,12 +6,14 @@ its working set. docs/derivatives.md says what the numbers mean, how right they 
 there are none.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from quasistatic_ref.certify.optimum_rates import DataRates, Equations
+from quasistatic_ref.certify.optimum_rates import Equations
 from quasistatic_ref.certify.touching import touching_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.simulate.gradient import Derivatives, OneSided
+from quasistatic_ref.simulate.gradient import Derivatives, OneSided, combined, directed
 from quasistatic_ref.simulate.kink_reasons import geometry_reasons, out_of_reach
 from quasistatic_ref.simulate.program_reasons import forbidden, row_reasons, target_reasons
 from quasistatic_ref.simulate.result import StepResult
@@ -25,7 +27,11 @@ __all__ = ["Derivatives", "derivatives"]
 
 
 def derivatives(
-    simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float = 0.0
+    simulator: Simulator,
+    q: Array,
+    q_bar_a: Array,
+    force: Array | float = 0.0,
+    towards: Mapping[str, Array | float] | None = None,
 ) -> Derivatives:
     """The derivatives of the step that a simulator would take.
 
@@ -37,6 +43,10 @@ def derivatives(
     q_bar_a : ndarray, shape (n_q_a,)
     force : ndarray, shape (n_v,), optional
         External generalised force besides gravity, which does not depend on q [N, N m].
+    towards : mapping, optional
+        A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
+        [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
+        derivatives are then those just beside, on the side to which it points.
 
     Returns
     -------
@@ -45,7 +55,8 @@ def derivatives(
     Raises
     ------
     InputError
-        If the cone is no polyhedron, or the simulator has an extension.
+        If the cone is no polyhedron, the simulator has an extension, or a name or a shape of the
+        direction is wrong.
     StepNotSolved
         As :meth:`~quasistatic_ref.simulate.simulator.Simulator.step` does.
     """
@@ -55,10 +66,12 @@ def derivatives(
     rates = StepRates(simulator, q, result)
     touching = touching_rows(result.step, result.solution, rates.far)
     equations = Equations(touching)
+    if towards is not None:
+        widths = {name: stop - start for name, (start, stop) in rates.places.items()}
+        one = combined(rates.data, directed(widths, towards, "towards"))
+        touching = equations.beyond(one)
+        equations = Equations(touching)
     found = equations.rates(rates.data)
-
-    def displacement(one: DataRates) -> Array:
-        return equations.one_sided(equations.rates(one), 0)
 
     safe = out_of_reach(result, rates.couples, rates.motion.J)
     reasons = [
@@ -69,7 +82,7 @@ def derivatives(
     columns = rates.onward @ found.x
     columns[:, : len(columns)] += rates.carried
     columns[:, forbidden(found, reasons, rates.places)] = np.nan
-    parts = OneSided(displacement, rates.data, rates.carried, rates.onward)
+    parts = OneSided(equations.along, rates.data, rates.carried, rates.onward)
     return Derivatives(
         **rates.shaped(columns),
         differentiable=not reasons,

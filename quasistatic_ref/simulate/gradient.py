@@ -1,6 +1,6 @@
 """Derivatives of the configuration after a step, as data, and along directions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +9,7 @@ from quasistatic_ref.certify import reason
 from quasistatic_ref.certify.optimum_rates import DataRates
 from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.plain import Plain
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 
@@ -45,7 +46,7 @@ class OneSided:
 
 
 @dataclass(frozen=True, eq=False)
-class Derivatives:
+class Derivatives(Plain):
     """Derivatives of the configuration after a step, in tangent coordinates on both sides.
 
     Columns without a derivative are NaN, and `reasons` says why.
@@ -106,7 +107,9 @@ class Derivatives:
         InputError
             If a name or a shape is wrong, or the reasons are others.
         """
-        direction = self._direction(directions)
+        fields = {name: getattr(self, name) for name in FIELDS}
+        widths = {name: value.size // len(self.dq_dq) for name, value in fields.items()}
+        direction = directed(widths, directions, "along")
         asked = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for found in self.reasons:
             if found.kind != reason.WEAK and asked & set(found.fields):
@@ -114,29 +117,46 @@ class Derivatives:
                     "has no one-sided derivative here: " + found.sentence, field="along"
                 )
         parts = self._parts
-        one = _combined(parts.data, direction)
-        x = parts.displacement(one)
+        x = parts.displacement(combined(parts.data, direction))
         return np.asarray(parts.onward @ x + parts.carried @ direction[: len(x)])
 
-    def _direction(self, directions: dict[str, Array | float]) -> Array:
-        names = [name.removeprefix("dq_d") for name in FIELDS]
-        parts = []
-        for name in directions:
-            if name not in names:
-                raise InputError(f"must be one of {', '.join(names)}", field="along", value=name)
-        for name in names:
-            columns = getattr(self, f"dq_d{name}").reshape(len(self.dq_dq), -1).shape[1]
-            value = np.ravel(np.asarray(directions.get(name, np.zeros(columns)), dtype=np.float64))
-            if value.shape != (columns,):
-                raise InputError(
-                    f"must have shape ({columns},)", field=f"along.{name}", value=value.shape
-                )
-            parts.append(value)
-        return np.concatenate(parts)
+
+def directed(
+    widths: Mapping[str, int], directions: Mapping[str, Array | float], where: str
+) -> Array:
+    """A direction of all parameters, by names, in the order of the fields, shape (P,).
+
+    Parameters
+    ----------
+    widths : Mapping
+        How many columns each field has.
+    directions : Mapping
+        As those of :meth:`Derivatives.along`.
+    where : str
+        What to call it in messages.
+
+    Raises
+    ------
+    InputError
+        If a name or a shape is wrong.
+    """
+    names = {name.removeprefix("dq_d"): width for name, width in widths.items()}
+    for name in directions:
+        if name not in names:
+            raise InputError(f"must be one of {', '.join(names)}", field=where, value=name)
+    parts = []
+    for name, width in names.items():
+        value = np.ravel(np.asarray(directions.get(name, np.zeros(width)), dtype=np.float64))
+        if value.shape != (width,):
+            raise InputError(
+                f"must have shape ({width},)", field=f"{where}.{name}", value=value.shape
+            )
+        parts.append(value)
+    return np.concatenate(parts)
 
 
-def _combined(data: DataRates, direction: Array) -> DataRates:
-    """The rates along one direction, as those of a single parameter."""
+def combined(data: DataRates, direction: Array) -> DataRates:
+    """The rates along one direction, shape (P,), as those of a single parameter."""
     load, motion = (data.load @ direction)[:, None], (data.motion @ direction)[:, :, None]
     terms = np.array([data.terms @ np.abs(direction)])
     return DataRates(load, motion, terms, lambda y: (data.pull(y) @ direction)[:, None])

@@ -15,6 +15,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
+from quasistatic_ref.simulate.spare import Spare
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.simulate.words import simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
@@ -58,8 +59,8 @@ class Simulator:
     feels_gravity : ndarray of bool, shape (n_a,), optional
         Actuated coordinates whose gravity is not compensated by the robot; none by default.
     solver : str, optional
-        Name of a backend, by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`; it, accuracy and certify are as in
+        Name of a backend, by default :func:`~quasistatic_ref.solve.engines.default_backend`'s, and
+        Clarabel's where that fails; it, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
@@ -124,6 +125,7 @@ class Simulator:
         self.engine = default_engine(self.backend, cone) if engine is None else engine
         check_solver(self.backend, self.engine, cone)
         self.solver: Solver | None = None
+        self.spare = Spare(default, self.engine, accuracy, certify)
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
         self.geometry = contact_geometry(self.layout, system.motion, least)
@@ -232,6 +234,5 @@ class Simulator:
         own = self.fitting(step)
         by_name = extension is not None and (self.asked or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else own
-        return solve_step(
-            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
-        )
+        asked = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
+        return self.spare.after(step, partial(asked, extension=extension))

@@ -1,5 +1,7 @@
 """The smoothed step as a differentiable map: contacts push from afar, and none lets go."""
 
+from functools import partial
+
 import numpy as np
 
 from quasistatic_ref.certify.optimum_rates import DataRates
@@ -11,8 +13,8 @@ from quasistatic_ref.simulate.program_reasons import target_reasons
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.step_rates import StepRates
-from quasistatic_ref.solve.barrier import barrier_rates, barrier_step
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.solve.barrier import Barrier, barrier_rates, barrier_step
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 
 
@@ -62,9 +64,6 @@ def smoothed(
     result = StepResult(q_next, step, solution, points, {})
     rates = StepRates(simulator, q, result)
 
-    def displacement(one: DataRates) -> Array:
-        return barrier_rates(step, found, one)[:, 0]
-
     every = range(step.contacts.n_c)
     reasons = [
         *geometry_reasons(simulator, result, rates, every, np.zeros(len(every), dtype=bool)),
@@ -80,5 +79,11 @@ def smoothed(
         differentiable=not reasons,
         reasons=tuple(reasons),
         result=result,
-        _parts=OneSided(displacement, rates.data, rates.carried, rates.onward),
+        _parts=OneSided(
+            partial(_displacement, step, found), rates.data, rates.carried, rates.onward
+        ),
     )
+
+
+def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:
+    return barrier_rates(step, found, one)[:, 0]

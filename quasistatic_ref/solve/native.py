@@ -18,7 +18,7 @@ from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, Spar
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, installed
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled
 from quasistatic_ref.solve.solver import Attempt, Solver
-from quasistatic_ref.solve.units import Metric, reach_of_rows
+from quasistatic_ref.solve.units import Metric, Units, reach_of_rows
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -68,6 +68,11 @@ class NativeSolver(Solver):
     warm : bool
         Whether to start from the answer before, where the backend can.
 
+    Attributes
+    ----------
+    written : Units or None
+        Of a step whose g, A and b compiled code has written into the arrays.
+
     Raises
     ------
     BackendError
@@ -86,6 +91,7 @@ class NativeSolver(Solver):
         self.sizes = sizes(like)
         self.warm = warm and self.adapter.WARM
         self.metric: Metric | None = None
+        self.written: Units | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -105,9 +111,11 @@ class NativeSolver(Solver):
         alike = step.layout is self.like.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
-    def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
+    def scaled(
+        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
+    ) -> NaturalStep:
         """The step in natural units; what H gives of them is kept while H is the same array."""
-        return Scaled(step, self.metric, form)
+        return Scaled(step, self.metric, form, units)
 
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
@@ -116,9 +124,11 @@ class NativeSolver(Solver):
         if self.metric is not scaled.metric:
             program.H[:] = scaled.metric.natural
             self.metric = scaled.metric
-        np.multiply(form.g, S / -rho, out=program.f)
-        np.multiply(form.A, S / ell, out=program.A)
-        np.multiply(form.b, 1 / (rho * ell), out=program.b)
+        if self.written is not units:
+            np.multiply(form.g, S / -rho, out=program.f)
+            np.multiply(form.A, S / ell, out=program.A)
+            np.multiply(form.b, 1 / (rho * ell), out=program.b)
+        self.written = None
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
             return None
         reach = -reach_of_rows(scaled.step, units)

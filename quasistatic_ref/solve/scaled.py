@@ -48,6 +48,8 @@ class Scaled:
         Of an earlier step: taken over if H is the same array.
     form : StandardForm, optional
         That of the step, where it is known.
+    units : Units, optional
+        Its natural units, where they are known.
 
     Raises
     ------
@@ -56,14 +58,17 @@ class Scaled:
     """
 
     def __init__(
-        self, step: StepData, like: Metric | None = None, form: StandardForm | None = None
+        self,
+        step: StepData,
+        like: Metric | None = None,
+        form: StandardForm | None = None,
+        units: Units | None = None,
     ) -> None:
         self.step, self.form = step, standard_form(step) if form is None else form
         try:
             kept = like if like is not None and like.H is self.form.H else None
             self.metric = metric(self.form.H) if kept is None else kept
-            self.squares = squared_lengths(self.form, self.metric)
-            self.units = units_of(self.form, self.metric, self.squares)
+            self.units = units_of(self.form, self.metric) if units is None else units
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
         check_units(self.units, step, self.metric.usable)
@@ -84,7 +89,7 @@ class Scaled:
     @property
     def unlike(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = self.squares
+        squares = squared_lengths(self.form, self.metric)
         first = int(squares.searchsorted(0.0, side="right"))
         return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
 

@@ -24,7 +24,7 @@ from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -122,6 +122,7 @@ def solved(
     accuracy: float,
     certify: str,
     form: StandardForm | None = None,
+    units: Units | None = None,
 ) -> StepSolution:
     """The optimum of a step that fits a solver; arguments and errors are :func:`solve_step`'s.
 
@@ -131,6 +132,8 @@ def solved(
         As there.
     form : StandardForm, optional
         That of the step, where the caller has it; not kept.
+    units : Units, optional
+        Its natural units, likewise.
 
     Raises
     ------
@@ -142,17 +145,22 @@ def solved(
         raise BackendError(problem, field="solver", value=solver.name)
     if certify != "full" and solver.name == NONE:
         raise BackendError("gives no answer of its own; use certify = 'full'", value=NONE)
-    solution = QUIET.copy().run(_solved, step, solver, accuracy, certify, form)
+    solution = QUIET.copy().run(_solved, step, solver, accuracy, certify, form, units)
     if solution is None:
         raise out_of_range(step)
     return solution
 
 
 def _solved(
-    step: StepData, solver: Solver, accuracy: float, certify: str, form: StandardForm | None
+    step: StepData,
+    solver: Solver,
+    accuracy: float,
+    certify: str,
+    form: StandardForm | None,
+    units: Units | None,
 ) -> StepSolution | None:
     """The solution, or None if it is not finite."""
-    scaled = solver.scaled(step, form)
+    scaled = solver.scaled(step, form, units)
     if certify != "full" or not isinstance(scaled, Scaled):
         solution = _as_said(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:

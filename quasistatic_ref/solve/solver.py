@@ -19,6 +19,7 @@ from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
 from quasistatic_ref.solve.scaled import NaturalStep, Scaled
+from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -159,8 +160,10 @@ class Solver(ABC):
         """Whether the numbers of a step can be written into the problem."""
         return not self.differences(step)
 
-    def scaled(self, step: StepData, form: StandardForm | None = None) -> NaturalStep:
-        """The step in natural units; with its matrices, where these are known."""
+    def scaled(
+        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
+    ) -> NaturalStep:
+        """The step in natural units; with its matrices and units, where these are known."""
         return Scaled(step, form=form)
 
     def kept_hessian(self, step: StepData) -> BallHessian:

@@ -19,7 +19,7 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
-from quasistatic_ref.solve.units import coordinate_units, from_natural, units_from
+from quasistatic_ref.solve.units import Units, coordinate_units, from_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import StandardForm
@@ -102,7 +102,9 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(self, step: StepData, form: StandardForm | None = None) -> "SparseStep":
+    def scaled(
+        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
+    ) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 

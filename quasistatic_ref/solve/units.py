@@ -110,17 +110,15 @@ def squared_lengths(form: StandardForm, of_H: Metric) -> Array:
     return squares
 
 
-def units_of(form: StandardForm, of_H: Metric, squares: Array | None = None) -> Units:
+def units_of(form: StandardForm, of_H: Metric) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not.
 
     Parameters
     ----------
     form : StandardForm
     of_H : Metric
-    squares : ndarray, shape (m,), optional
-        Its :func:`squared_lengths`, where they are known [m^2].
     """
-    squares = squared_lengths(form, of_H) if squares is None else squares
+    squares = squared_lengths(form, of_H)
     energy = math.sqrt(max(float(form.g.dot(of_H.inverse).dot(form.g)), 0.0))  # ||H^-1 g||_H
     return units_from(of_H.coordinate, squares, energy, form.b)
 

@@ -4,7 +4,6 @@ To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, 
 same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
 """
 
-from dataclasses import InitVar, dataclass
 from typing import NamedTuple
 
 from quasistatic_ref.step.arrays import Array, Indices, definite
@@ -70,23 +69,37 @@ def constants(
     return Constants(h, cone, K_q, M_u, no_rows(n_v), hessian(h, K_q, M_u), layout)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class PosedContacts(Contacts):
     """Contacts of a layout that was checked, at points and normals that were measured.
 
     Parameters
     ----------
-    known_mu : ndarray, shape (n_c, 3), optional
+    name, phi, n, d1, d2, J, mu_v, mu_omega, rows
+        As in :class:`~quasistatic_ref.step.contacts.Contacts`; taken as they are, and not written
+        any more.
+    mu : ndarray, shape (n_c, 3), optional
         Their ``mu`` [-, -, m], where it was formed before.
     """
 
-    known_mu: InitVar[Array | None] = None
-
-    def __post_init__(self, known_mu: Array | None) -> None:
-        for array in (self.phi, self.n, self.d1, self.d2, self.J):
+    def __init__(
+        self,
+        name: tuple[str, ...],
+        phi: Array,
+        n: Array,
+        d1: Array,
+        d2: Array,
+        J: Array,
+        mu_v: Array,
+        mu_omega: Array,
+        rows: Indices,
+        mu: Array | None = None,
+    ) -> None:
+        for array in (phi, n, d1, d2, J):
             array.setflags(write=False)
-        if known_mu is not None:
-            object.__setattr__(self, "mu", known_mu)
+        vars(self).update(name=name, phi=phi, n=n, d1=d1, d2=d2, J=J)
+        vars(self).update(mu_v=mu_v, mu_omega=mu_omega, rows=rows)
+        if mu is not None:
+            vars(self)["mu"] = mu
 
     @classmethod
     def compared_as(cls) -> type:

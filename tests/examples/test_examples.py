@@ -19,6 +19,7 @@ from quasistatic_ref.lab.examples import (
     grasp_against_mu_omega,
     grasp_rotation,
     hold_or_slip,
+    plan_a_push,
     section_of_a_cone,
     solver_digits,
 )
@@ -47,6 +48,7 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
+    monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
     monkeypatch.setattr(step_time, "STEPS", 20)
 
 
@@ -69,7 +71,7 @@ def pairs(name, atol, rtol=0.0):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 33
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 34
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -146,6 +148,12 @@ def test_a_smoothed_step_tends_to_the_exact_one_and_halves_its_derivative_at_a_k
     np.testing.assert_allclose([step, slope], 10, rtol=1e-2)
     # At the kink s^2 m / h = 6 kappa, and ds / dphi = s m / h / (2 s m / h): one half.
     np.testing.assert_allclose(middle, 0.5, rtol=1e-9)
+
+
+def test_a_planned_push_reaches_its_goal_in_certified_steps():
+    found = np.reshape(list(numbers("plan_a_push").values()), (2, 3))
+    assert (found < [5.0, 5.0, 41]).all()  # mm, degrees
+    assert (found[:, 2] == plan_a_push.STEPS).all()
 
 
 def test_a_slider_turns_as_lynch_says_when_it_is_slow():

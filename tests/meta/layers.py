@@ -57,6 +57,7 @@ WALLS = {
     "coal": ("model", "contact"),
     "matplotlib": ("figures", "lab/figures"),
     "meshcat": ("figures",),
+    "jax": ("simulate/step_jax.py",),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
     "flint": ("certify", "lab/vectors"),
 }

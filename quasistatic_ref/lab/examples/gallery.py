@@ -33,6 +33,7 @@ EXAMPLES: Final = (
     "gradient_of_a_push",
     "where_no_gradient_is",
     "what_smoothing_does",
+    "plan_a_push",
     "time_of_a_step",
     "solver_digits",
     "door",

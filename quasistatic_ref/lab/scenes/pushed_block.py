@@ -29,6 +29,9 @@ H, STIFFNESS, MU_V, MU_OMEGA, MU_FINGER = 0.01, 2000.0, 0.35, 0.012, 0.5
 ASIDE, SPEED = 0.02, 0.02
 """The finger's distance from the line through the centre of mass [m]; its speed [m/s]."""
 
+OFFSET = np.array([-(SIDE / 2 + RADIUS), ASIDE])
+"""Where the finger is at q = 0, from the block there, shape (2,) [m]."""
+
 SMALL = (1e-4, 1e-4, 1e-4)
 BLOCK = robot_text(
     link_text("ground", 1.0, SMALL), link_text("at_x", 1e-3, SMALL), link_text("at_y", 1e-3, SMALL),
@@ -63,6 +66,12 @@ class PushedBlock:
     simulator: Simulator
     q: Array
 
+    def placed(self, x: float, y: float, turn: float, gap: float) -> Array:
+        """The block at x, y [m] and a turn [rad], the finger behind it at a gap [m], (n_q,)."""
+        axes = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        finger = np.array([x, y]) - axes @ [SIDE / 2 + RADIUS + gap, 0.0] - OFFSET
+        return np.array([*finger, x, y, 0.0, np.cos(turn), np.sin(turn)])
+
     def goal(self, k: int) -> Array:
         """Target of the finger at the end of step k, from 0, shape (2,) [m]."""
         goal: Array = self.q[:2] + np.array([SPEED * H * (k + 1), 0.0])
@@ -78,7 +87,13 @@ class PushedBlock:
 
 
 def pushed_block(
-    certify: str = CERTIFY[0], engine: str | None = None, solver: str | None = None
+    certify: str = CERTIFY[0],
+    engine: str | None = None,
+    solver: str | None = None,
+    *,
+    h: float = H,
+    cone: str = ELLIPSOID,
+    mu_omega: float = MU_OMEGA,
 ) -> PushedBlock:
     """The scene at rest, the finger at the block's face.
 
@@ -86,22 +101,26 @@ def pushed_block(
     ----------
     certify, engine, solver : str
         As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    h : float
+        [s].
+    cone : str
+    mu_omega : float
+        Of the support [m].
     """
-    reach = -(SIDE / 2 + RADIUS)
     system = system_of(
         {"hand": FINGER, "block": BLOCK},
-        hand={"base": "fixed", "actuated": ["along", "across"], "xyz": (reach, ASIDE, HEIGHT / 2)},
+        hand={"base": "fixed", "actuated": ["along", "across"], "xyz": (*OFFSET, HEIGHT / 2)},
         block={"base": "fixed", "actuated": [], "xyz": (0.0, 0.0, HEIGHT / 2)},
     )
     shapes = {shape.link: shape for shape in system.shapes}
     finger, block = (shapes[system.link(name)] for name in ("hand/finger", "block/block"))
     foot = cloud_on(system, "block/block", [[0.0, 0.0, -HEIGHT / 2]])
     pairs = [
-        ContactPair("support", world_plane(), foot, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("support", world_plane(), foot, MU_V, mu_omega, 6, 1),
         ContactPair("push", finger, block, MU_FINGER, 0.0, 4, 1),
     ]
     simulator = Simulator(
-        system, pairs, h=H, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
-        cone=ELLIPSOID, certify=certify, engine=engine, solver=solver,
+        system, pairs, h=h, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
+        cone=cone, certify=certify, engine=engine, solver=solver,
     )  # fmt: skip
     return PushedBlock(simulator, system.q_start)

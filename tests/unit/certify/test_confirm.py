@@ -77,13 +77,20 @@ def test_the_sample_has_every_cone_in_both_units():
     [pinch(), sphere_on_floor(wrench=(0.5, 0.0, -3.0, 0.0, 0.0, 0.01))],
     ids=["pinch", "sphere"],
 )
-def test_zeros_that_the_rows_do_not_imply_are_left_to_the_exact_method(step):
+def test_zeros_that_the_rows_do_not_imply_are_confirmed_with_the_same_bits(step):
     """Here x is zero by symmetry, or because nothing pushes."""
     truth, answer = optimum_and_answer(step)
-    assert answer is None
+    assert answer is not None
+    assert differing(answer, truth) == []
     assert (truth.delta_q == 0).any()
-    found = exact_step(step, truth.working_set, BallHessian(step))
-    assert differing(found, truth) == []
+
+
+def test_a_row_that_touches_and_bears_nothing_is_left_to_the_exact_method():
+    step = resting_point(weight=0.0)
+    truth, answer = optimum_and_answer(step)
+    assert answer is None
+    assert not truth.differentiable
+    assert differing(exact_step(step, truth.working_set, BallHessian(step)), truth) == []
 
 
 def test_without_any_of_its_rows_a_unique_working_set_is_refused():

@@ -107,10 +107,9 @@ def compared(system, pairs, cone, rng):
         goal = system.integrate(q, move)[: system.n_q_a]
         expected = arrays(*of_numpy(other, q, goal, force))
         one.fast.poses.move(q)
-        points = one.fast.points(one, q)
-        wrong.update(
-            differing(arrays(points, *one.fast.step_data(one, points, q, goal, force)), expected)
-        )
+        one.fast.find_points(one, q)
+        found = arrays(*one.fast.step_data(one, q, goal, force))
+        wrong.update(differing(found, expected))
         after = one.fast.screws.integrate(q, move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)

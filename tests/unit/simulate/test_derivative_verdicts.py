@@ -1,11 +1,10 @@
-"""Where a step has no derivative it says so, by name; and gives the one-sided one where it can."""
+"""Where a step has no derivative it says so, by name."""
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.certify import reason
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.shapes import (
     Box,
@@ -60,35 +59,6 @@ def test_a_ball_that_just_reaches_the_floor_has_weak_rows():
     assert {why.where[0] for why in found.reasons} == {"c0/0"}
     assert np.isnan(found.dq_dq[:, 2]).all()
     assert np.isfinite(found.dq_dq[:, :2]).all()  # along the floor nothing happens
-
-
-@pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
-def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
-    found, _ = verdict(simulator, q)
-    e, move = np.array(way), simulator.system.integrate
-    there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
-    assert np.abs(found.along(q=e) - there).max() <= DIFFERENCE_OF_STEPS * np.abs(e).max()
-    push = sided(lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4)
-    assert np.abs(found.along(tau=e) - push).max() <= DIFFERENCE_OF_STEPS * H**2 / 0.3
-
-
-def test_along_a_direction_is_the_derivative_where_there_is_one():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
-    found, kinds = verdict(simulator, q)
-    assert kinds == set()
-    e = np.arange(6.0)
-    assert np.allclose(found.along(q=e), found.dq_dq @ e, rtol=0, atol=1e-12)
-    assert np.allclose(found.along(h=2.0), 2 * found.dq_dh, rtol=1e-12)
-
-
-def test_a_wrong_direction_is_refused():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
-    found, _ = verdict(simulator, q)
-    with pytest.raises(InputError, match="must be one of q,"):
-        found.along(p=np.zeros(6))
-    with pytest.raises(InputError, match="must have shape"):
-        found.along(q=np.zeros(5))
 
 
 def test_exactly_at_the_limit_of_friction_a_row_is_weak():

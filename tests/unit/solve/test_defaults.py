@@ -5,13 +5,24 @@ import sys
 
 import cvxpy as cp
 import numpy as np
+import pytest
 
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.adapters.clarabel import Clarabel
+from quasistatic_ref.solve.adapters.daqp import Daqp
+from quasistatic_ref.solve.adapters.piqp import Piqp
+from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.engines import default_backend, default_engine, sparse_from
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
+from tests.helpers import error
+from tests.tolerances import OPTIMUM
+
+FAILED = Reply(None, None, False, "at a loss")
 
 
 def test_the_default_is_native_where_it_reaches():
@@ -68,6 +79,33 @@ def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path)
     assert told.stdout == "clarabel exact exact 2\nclarabel clarabel\n"
     assert "pip install daqp" in told.stderr
     assert "Traceback" not in told.stderr
+
+
+@pytest.mark.parametrize("by_code", [True, False])
+def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by_code):
+    scenario = load_scenario("sphere_spin", ["solver.certify=off"])
+    simulator, honest, q = scenario.simulator(), Daqp.reply, scenario.system.q_start
+    simulator.fast = simulator.fast if by_code else None
+    backends = []
+    for k in range(4):
+        fails = k in (1, 2)
+        monkeypatch.setattr(Daqp, "reply", (lambda *_: FAILED) if fails else honest)
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        optimum = solve_step(result.step, "none").delta_q
+        assert error(result.step, result.solution.delta_q, optimum) <= OPTIMUM
+        backends.append(result.solution.backend)
+        q = result.q
+    assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
+
+
+def test_a_failure_of_both_backends_or_of_another_one_is_told_of_the_one_asked(monkeypatch):
+    monkeypatch.setattr(Daqp, "reply", lambda *_: FAILED)
+    monkeypatch.setattr(Clarabel, "reply", lambda *_: FAILED)
+    monkeypatch.setattr(Piqp, "reply", lambda *_: FAILED)
+    for backend in ("daqp", "piqp"):
+        scenario = load_scenario("sphere_spin", ["solver.certify=off", f"solver.backend={backend}"])
+        with pytest.raises(StepNotSolved, match=f"{backend} did not solve the step [(]at a loss"):
+            scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
 
 
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():

@@ -5,9 +5,11 @@ import copy
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.reason import Reason
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
+    NotDifferentiable,
     RunFailed,
     StepDataError,
     StepInfeasible,
@@ -15,8 +17,10 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.model.shapes import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.simulate.smoothed import smoothed
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from tests.helpers import always_in_blocks, contacts_of, random_step
@@ -70,6 +74,10 @@ def public_data(folder):
         "StepSolution": solution,
         "Certificate": solution.certificate,
         "StepResult": result,
+        "Derivatives": derivatives(simulator, system.q_start, scenario.targets(scenario.h)),
+        "smoothed Derivatives": smoothed(
+            simulator, system.q_start, scenario.targets(scenario.h), 1e-6
+        ),
         "Trajectory": run,
         "System": system,
         "System of the grasp": grasp.system,
@@ -91,5 +99,6 @@ def public_data(folder):
         "StepNotSolved": StepNotSolved("osqp", "user_limit", step, 1e-9),
         "StepInfeasible": infeasible,
         "LimitExceeded": LimitExceeded("is too deep", step),
+        "NotDifferentiable": NotDifferentiable((Reason("a tie", ("c/0",), ("dq_dq",), "ties"),)),
         "RunFailed": RunFailed("step 3: is too deep", run, step),
     }

@@ -36,10 +36,11 @@ def things(tmp_path_factory):
 NAMES = (
     "StepData", "StepData with rows of a user's", "PosedStep", "sparse PosedStep", "Contacts",
     "PosedContacts", "SparseContacts", "Blocks", "Extra", "StepSolution", "Certificate",
-    "StepResult", "Trajectory", "System", "System of the grasp", "Body", "ContactPair", "Scenario",
-    "Scenario of the grasp", "Targets", "Limits", "Wrenches", "Sphere", "Box", "HalfSpace",
-    "PointCloud", "FarkasVector", "InputError", "StepDataError", "StepNotSolved", "StepInfeasible",
-    "LimitExceeded", "RunFailed",
+    "StepResult", "Derivatives", "smoothed Derivatives", "Trajectory", "System",
+    "System of the grasp", "Body", "ContactPair", "Scenario", "Scenario of the grasp", "Targets",
+    "Limits", "Wrenches", "Sphere", "Box", "HalfSpace", "PointCloud", "FarkasVector", "InputError",
+    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded",
+    "NotDifferentiable", "RunFailed",
 )  # fmt: skip
 
 

@@ -1,0 +1,153 @@
+/* solve/units: the natural units of a step, and its program in these.
+
+   Units are powers of two, of lengths that are sums; BLAS takes those in an order of its own. A
+   unit is decided only if it is the same for all that the sums of any order may come to. */
+
+#include <math.h>
+#include <stdint.h>
+
+/* One for one the fields of Natural in natural.py. */
+typedef struct {
+    int64_t n, m;
+    /* From row to row, and from column to column, of A as it is written. */
+    int64_t row, column;
+    const double *g, *A, *b;
+    /* The units S of coordinates, their squares, and H^-1. */
+    const double *coordinate, *squared, *inverse;
+    /* Written: squared lengths of rows that are not zero; what A's columns are multiplied by;
+       {length, size}; -g, A and b in them. */
+    double *squares, *scale, *units, *f, *natural_A, *natural_b;
+} Natural;
+
+int64_t natural_size(void) { return sizeof(Natural); }
+
+#define LARGEST 0x1p400 /* squares, and products of two units, stay far inside of float64 */
+#define OFF 0x1p-40     /* sums of n terms and n such sums, n <= 1024, differ by less: 4 n 2^-53 */
+
+/* The k-th smallest of n numbers, which change places. */
+static double ranked(double *x, int64_t n, int64_t k)
+{
+    int64_t low = 0, high = n - 1;
+    while (low < high) {
+        double pivot = x[(low + high) / 2];
+        int64_t i = low, j = high;
+        while (i <= j) {
+            while (x[i] < pivot)
+                i++;
+            while (pivot < x[j])
+                j--;
+            if (i <= j) {
+                double swapped = x[i];
+                x[i++] = x[j];
+                x[j--] = swapped;
+            }
+        }
+        if (k > j && k < i)
+            break;
+        if (k <= j)
+            high = j;
+        else
+            low = i;
+    }
+    return x[k];
+}
+
+/* The exponent of the power of two that is nearest to a number, by their logarithms. */
+static int exponent(double x)
+{
+    int above;
+    return frexp(x, &above) < sqrt(0.5) ? above - 1 : above;
+}
+
+/* The power of two that is nearest to all numbers from low to high; 0 if there is none. */
+static double power_of_two(double low, double high)
+{
+    low *= 1 - OFF;
+    high *= 1 + OFF;
+    if (!(low > 1 / LARGEST && high < LARGEST && exponent(low) == exponent(high)))
+        return 0.0;
+    return ldexp(1.0, exponent(low));
+}
+
+/* Of the median length of the rows of A S that are not zero; 0 where that is open. */
+static double length_unit(const Natural *s)
+{
+    int64_t count = 0;
+    for (int64_t r = 0; r < s->m; r++) {
+        const double *A = s->A + r * s->n;
+        double sum = 0.0, other = 0.0; /* two sums wait less for each other */
+        for (int64_t v = 1; v < s->n; v += 2) {
+            sum += A[v - 1] * A[v - 1] * s->squared[v - 1];
+            other += A[v] * A[v] * s->squared[v];
+        }
+        if (s->n % 2)
+            sum += A[s->n - 1] * A[s->n - 1] * s->squared[s->n - 1];
+        sum += other;
+        if (sum == 0.0)
+            continue;
+        if (!(sum > 1 / LARGEST && sum < LARGEST))
+            return 0.0;
+        s->squares[count++] = sum;
+    }
+    if (!count)
+        return 1.0;
+    double upper = ranked(s->squares, count, count / 2);
+    double lower = count % 2 ? upper : ranked(s->squares, count, count / 2 - 1);
+    double median = (sqrt(lower) + sqrt(upper)) / 2;
+    return power_of_two(median, median);
+}
+
+/* Of the longer of the unconstrained step and the push out of penetration; 0 where that is open. */
+static double size_unit(const Natural *s, double length)
+{
+    double energy = 0.0, off = 0.0, least = 0.0, most = 0.0;
+    for (int64_t i = 0; i < s->n; i++) {
+        double sum = 0.0, size = 0.0;
+        for (int64_t j = 0; j < s->n; j++) {
+            double term = s->inverse[i * s->n + j] * s->g[j];
+            sum += term;
+            size += fabs(term);
+        }
+        energy += s->g[i] * sum;
+        off += fabs(s->g[i]) * size;
+    }
+    for (int64_t r = 0; r < s->m; r++) {
+        if (!(fabs(s->b[r]) < LARGEST))
+            return 0.0;
+        least = s->b[r] < least ? s->b[r] : least;
+        most = s->b[r] > most ? s->b[r] : most;
+    }
+    off *= OFF;
+    double push_out = most / length, low = energy > off ? sqrt(energy - off) : 0.0;
+    double high = energy + off > 0.0 ? sqrt(energy + off) : 0.0;
+    if (!(off < LARGEST))
+        return 0.0;
+    low = push_out > low ? push_out : low;
+    high = push_out > high ? push_out : high;
+    if (off == 0.0 && high == 0.0)
+        low = high = least < 0.0 ? -least / length : 0x1p-100; /* STANDSTILL */
+    return power_of_two(low, high);
+}
+
+/* The units, and the program in them; 0 where they are open, and nothing is written. */
+int natural_program(Natural *s)
+{
+    double length = length_unit(s), size = length > 0.0 ? size_unit(s, length) : 0.0;
+    if (!(size > 0.0))
+        return 0;
+    s->units[0] = length;
+    s->units[1] = size;
+    for (int64_t v = 0; v < s->n; v++) {
+        s->f[v] = s->g[v] * (s->coordinate[v] / -size);
+        s->scale[v] = s->coordinate[v] / length;
+    }
+    double unit = 1 / (size * length);
+    for (int64_t r = 0; r < s->m; r++) {
+        const double *A = s->A + r * s->n;
+        double *to = s->natural_A + r * s->row;
+        s->natural_b[r] = s->b[r] * unit;
+        for (int64_t v = 0; v < s->n; v++)
+            to[v * s->column] = A[v] * s->scale[v];
+    }
+    return 1;
+}

@@ -1,0 +1,71 @@
+"""A step's program in natural units, written where its solver keeps it."""
+
+import numpy as np
+
+from quasistatic_ref.fast.library import library
+from quasistatic_ref.fast.scene import Scene
+from quasistatic_ref.fast.structure import Structure
+from quasistatic_ref.solve.adapters.program import Program
+from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.units import Metric, Units
+
+NUMBERS = ("n", "m", "row", "column")
+ARRAYS = (
+    "g", "A", "b", "coordinate", "squared", "inverse",
+    "squares", "scale", "units", "f", "natural_A", "natural_b",
+)  # fmt: skip
+"""The fields of ``Natural`` in natural.c."""
+
+MOST = 1024
+"""Coordinates for which ``OFF`` in natural.c is enough."""
+
+
+class NaturalProgram:
+    """The arrays of one solver, for steps of one H.
+
+    Parameters
+    ----------
+    scene : Scene
+        Where the steps' g, A and b are.
+    program : Program
+        The solver's.
+    metric : Metric
+        Of H.
+    """
+
+    def __init__(self, scene: Scene, program: Program, metric: Metric) -> None:
+        found = library()
+        self._write, self._program, self._metric = found.natural_program, program, metric
+        self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
+        m, n = program.A.shape
+        row, column = (stride // program.A.itemsize for stride in program.A.strides)
+        s.put(
+            {
+                "n": n, "m": m, "row": row, "column": column,
+                **{name: scene[name] for name in ("g", "A", "b")},
+                "coordinate": metric.coordinate, "squared": metric.squared,
+                "inverse": metric.inverse,
+                "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
+                "f": program.f, "natural_b": program.b,
+                # In either order of memory, of which C is told:
+                "natural_A": program.A.ravel(order="K"),
+            }
+        )  # fmt: skip
+        assert all(np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b"))
+
+    def fits(self, solver: NativeSolver) -> bool:
+        """Whether it writes into the arrays of a solver in the units of its H."""
+        return solver.metric is self._metric and solver.program is self._program
+
+    def written(self, solver: NativeSolver) -> Units | None:
+        """The units of the step that the scene holds; its program is written in them now.
+
+        Returns
+        -------
+        Units or None
+            None where an order of sums decides on a unit.
+        """
+        if not self._write(self._structure.address):
+            return None
+        solver.written = units = Units(self._metric.coordinate, *self._structure["units"].tolist())
+        return units

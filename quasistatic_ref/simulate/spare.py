@@ -1,0 +1,62 @@
+"""What solves a step on which the default backend of a run fails: Clarabel."""
+
+from collections.abc import Callable
+
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
+
+
+class Spare:
+    """A second backend, which is made when it is asked for.
+
+    Parameters
+    ----------
+    default : str
+        The backend by default of such runs.
+    engine : str
+    accuracy : float
+        In natural units [-].
+    certify : str
+        As in :func:`~quasistatic_ref.solve.solve.solve_step`. What is certified in full needs no
+        second backend.
+    """
+
+    def __init__(self, default: str, engine: str, accuracy: float, certify: str) -> None:
+        self.default, self.engine, self.asked = default, engine, (accuracy, certify)
+        self.solver: Solver | None = None
+
+    def after(self, step: StepData, first: Callable[[], StepSolution]) -> StepSolution:
+        """What `first` gives, or else :meth:`answer`.
+
+        Raises
+        ------
+        StepNotSolved
+        """
+        try:
+            return first()
+        except StepNotSolved as failure:
+            return self.answer(step, failure)
+
+    def answer(self, step: StepData, failure: StepNotSolved) -> StepSolution:
+        """The second backend's answer to a step.
+
+        Raises
+        ------
+        StepNotSolved
+            The `failure` itself, if it is not one of the default backend, or of both.
+        """
+        of_backend = type(failure) is StepNotSolved and failure.backend == self.default
+        if not of_backend or self.default == DEFAULT:
+            raise failure
+        if self.solver is None or not self.solver.fits(step):
+            self.solver = solver_for(step, DEFAULT, self.engine)
+        accuracy, certify = self.asked
+        try:
+            return solve_step(step, self.solver, accuracy=accuracy, certify=certify)
+        except StepNotSolved:
+            raise failure from None

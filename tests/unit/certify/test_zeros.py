@@ -1,0 +1,57 @@
+"""Zeros that no ball shows: those that a working set implies, and those that its loads leave."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.zeros import zeros_hold
+from quasistatic_ref.compiled import compiled
+from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.solve.units import natural_units
+from tests.unit.certify.test_exact import resting_point
+from validation.confirmed_bits import differing
+
+SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
+"""Rows of a contact. Both of its spins hold its gap and its spin."""
+
+
+@pytest.mark.parametrize("name", ["sphere_spin", "two_finger_pinch", "block_incline"])
+def test_what_loads_leave_at_rest_is_proved_with_the_bits_of_the_exact_method(name):
+    run = load_scenario(name, ["steps=12", "solver.backend=none"]).run(progress=False)
+    for k in range(2, run.steps, 3):
+        step = run.step_data(k)
+        form = exact_form(step)
+        guess = exact_optimum(form).working_set
+        truth = exact_optimum(form, guess)
+        answers = [confirmed(step, guess, BallHessian(step))]
+        if (fast := compiled("certificate")) is not None:
+            units, rows = natural_units(step), np.array(guess, dtype=np.int64)
+            answers.append(fast.prover(step, units.coordinate, None).optimum(step, rows, units))
+        for answer in answers:
+            assert isinstance(answer, ExactOptimum)
+            assert differing(answer, truth) == []
+
+
+def test_what_is_not_pushed_stays_and_a_pair_of_slips_is_strictly_active():
+    unloaded, pushed = resting_point(), resting_point(tau_x=0.1)
+    assert zeros_hold(unloaded, SPINS, SLIPS, [0, 1, 2, 3])
+    assert zeros_hold(unloaded, SPINS, [0, 2], [0])  # their sum is twice the gap
+    assert not zeros_hold(pushed, SPINS, SLIPS, [])  # it slides along x
+    assert not zeros_hold(pushed, SPINS, [], [0])
+    assert zeros_hold(pushed, SPINS, [1, 3], [1, 2, 3])
+
+
+def test_of_a_row_without_slack_that_nothing_presses_on_nothing_is_known():
+    step = resting_point()
+    assert not zeros_hold(step, SPINS, [0], [])  # the optimum does not move, and has a kink there
+    weightless = resting_point(weight=0.0)
+    assert not zeros_hold(weightless, [], [0, 1, 2, 3, 4, 5], [])
+    assert zeros_hold(weightless, [], [], [0, 1, 2, 3])
+    assert not exact_optimum(exact_form(weightless)).differentiable
+
+
+def test_zeros_that_the_working_set_implies_need_no_loads():
+    pushed = resting_point(tau_x=0.1)
+    assert zeros_hold(pushed, [0, 1, 2], [3], [0, 1, 2])
