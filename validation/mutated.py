@@ -87,6 +87,13 @@ SOLVED = (
 )
 CURVED = ("unit/contact/test_curved_pairs.py", "unit/contact/test_distance.py")
 
+DIFFERENTIATED = (
+    "unit/simulate/test_derivatives.py",
+    "unit/simulate/test_derivative_verdicts.py",
+    "unit/simulate/test_one_sided.py",
+    "vectors/test_derivative_layer.py",
+)
+
 
 def ordered(own: str) -> tuple[str, ...]:
     """The tests of the exact method, those of one unit first."""
@@ -244,5 +251,22 @@ TESTS: dict[str, tuple[str, ...]] = {
     ),
     "step/sparse_form.py": SPARSE,
     "step/words.py": ("unit/step/test_words.py", *DATA),
+    "certify/optimum_rates.py": DIFFERENTIATED,
+    "certify/reason.py": DIFFERENTIATED,
+    "certify/touching.py": DIFFERENTIATED,
+    "certify/zeros.py": ("unit/certify/test_zeros.py", "unit/certify/test_confirm.py"),
+    "contact/contact_rates.py": DIFFERENTIATED,
+    "contact/couples.py": DIFFERENTIATED,
+    "contact/depth_ties.py": DIFFERENTIATED,
+    "contact/features.py": DIFFERENTIATED,
+    "contact/kinks.py": DIFFERENTIATED,
+    "contact/point_ties.py": DIFFERENTIATED,
+    "contact/spare_pairs.py": DIFFERENTIATED,
+    "contact/witness_rates.py": DIFFERENTIATED,
+    "model/mass.py": SYSTEM,
+    "model/mass_rates.py": DIFFERENTIATED,
+    "model/motion_rates.py": ("unit/model/test_motion_rates.py", *DIFFERENTIATED),
+    "model/tangent.py": ("unit/simulate/test_step_jax.py", "unit/simulate/test_smoothed.py"),
+    "solve/barrier.py": ("unit/simulate/test_smoothed.py",),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""

@@ -30,10 +30,10 @@ from tests import closest
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
-WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Of curved
-solids apart the reference is a cone program in float64: at the largest difference, of a cone and an ellipsoid, the
-gap along n, a lower bound of the distance, exceeds the reference. Microseconds are upper bounds:
-the machine did other work meanwhile.
+WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Of curved solids
+apart the reference is a cone program in float64: at the largest difference, of a cone and an
+ellipsoid, the gap along n, a lower bound of the distance, exceeds the reference. Microseconds
+are upper bounds: the machine did other work meanwhile.
 """
 
 

@@ -61,7 +61,8 @@ def step_jax(
     callable
         (q, q_bar_a, force=0) -> (q after the step, verdict), the arguments as those of
         :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`, in float64. The verdict is an
-        array of bool: which of :data:`~quasistatic_ref.certify.reason.KINDS` stand in the way.
+        array of bool: which of the ``KINDS`` of :mod:`~quasistatic_ref.certify.reason` stand in
+        the way.
 
     Raises
     ------

@@ -7,6 +7,7 @@ The mutants are generated (validation/mutants.py); these are a fixed sample of t
 import pytest
 
 from validation.mutants import Mutant, mutants
+from validation.mutated import TESTS
 from validation.mutations import PACKAGE, Workbench, all_mutants
 
 PAGE, CONES, FORM = "step/problem.py", "step/friction.py", "step/standard_form.py"
@@ -110,3 +111,17 @@ def test_a_mutant_is_the_file_with_its_one_change():
     assert second.key == "f.py f: a - 1 -> a + 1 (2)"
     assert first.source == "def f(a):\n    return a + 1 if a else a - 1\n"
     assert second.source == "def f(a):\n    return a - 1 if a else a + 1\n"
+
+
+def test_every_file_of_the_rooms_that_are_mutated_has_its_tests_named():
+    rooms = ("certify", "contact", "step", "solve", "model")
+    files = {path for room in rooms for path in (PACKAGE / room).rglob("*.py")}
+    with_mutants = {
+        str(path.relative_to(PACKAGE))
+        for path in files
+        if mutants(str(path.relative_to(PACKAGE)), path.read_text())
+    }
+    assert with_mutants <= set(TESTS) <= {str(path.relative_to(PACKAGE)) for path in files}
+    for tests in TESTS.values():
+        for test in tests:
+            assert (PACKAGE.parent / "tests" / test).exists(), test

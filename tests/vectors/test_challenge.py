@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shlex
 import sys
 
 import numpy as np
@@ -125,7 +126,9 @@ def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, ca
     (folder,) = out.iterdir()
     assert printed.out.splitlines()[-1] == str(folder)
     page = (folder / "README.md").read_text()
-    assert f"--again {folder / 'counterexample.json'}" in page
+    (line,) = (line for line in page.splitlines() if "--again" in line)
+    wanted = ["--command", asked, "--again", str(folder / "counterexample.json")]
+    assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
     again = ["--again", str(folder / "counterexample.json")]
     assert main(["vectors", "challenge", "--command", asked, *again, "--json"]) == 1
     (record,) = json.loads(capsys.readouterr().out)["findings"]

@@ -11,7 +11,7 @@ import pytest
 
 from validation.engines import phenomena as asked
 from validation.engines.judge import ENGINES, HERE
-from validation.engines.reproduce import FOLDER, LIST, missing
+from validation.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
 from validation.engines.tables import layers_page, phenomena_page
 
 G, M = 9.81, 0.3
@@ -108,6 +108,24 @@ def test_every_red_cell_has_a_reproduction():
     assert missing(RECORDS) == []
 
 
+def test_every_red_cell_is_shown_by_its_reproduction_in_its_setting():
+    assert unlike(RECORDS) == []
+
+
+def test_a_reproduction_that_prints_another_number_shows_no_cell():
+    cell = {"phenomenon": "sticks_on_slope", "verdict": "differs", "value": 100.0}
+    record = {"settings": {"elliptic, impratio 100": [cell]}}
+    for words, shown in (
+        ('cone="elliptic" impratio="100": 95 um/s (Coulomb: 0)', True),
+        ('cone="elliptic" impratio="100": 80 um/s (Coulomb: 0)', False),
+        ('cone="elliptic": 100 um/s (Coulomb: 0)', False),
+        ("", False),
+    ):
+        records = {"mujoco": {**record, "printed": {"mujoco_slope.py": words}}}
+        assert (unlike(records) == []) == shown
+    assert printed_for("XPBD: -1.5e-3 rad/s (Coulomb: 0)\nVBD: 2", "XPBD") == [-1.5e-3, 0.0]
+
+
 def test_the_pages_are_those_of_the_results():
     assert set(RECORDS) == set(ENGINES)
     assert (HERE / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
@@ -118,6 +136,20 @@ def test_every_setting_of_the_table_is_one_that_is_asked():
     for name, record in RECORDS.items():
         assert list(record["settings"]) == list(ENGINES[name].get("settings", {}))
         assert record["requires"] == ENGINES[name]["requires"]
+
+
+def test_every_cause_that_is_blamed_was_tried_on_a_cell_of_the_table():
+    for name, record in RECORDS.items():
+        asked = [{**one, "words": None} for one in ENGINES[name].get("tried", ())]
+        assert [{**one, "words": None} for one in record.get("tried", ())] == asked
+        for one in asked:
+            setting = {**ENGINES[name]["settings"][one["setting"]]}
+            assert one["phenomenon"] in asked_of(record, one["setting"])
+            assert any(setting.get(key) != value for key, value in one["values"].items())
+
+
+def asked_of(record, setting):
+    return {cell["phenomenon"] for cell in record["settings"][setting]}
 
 
 def lines(path):

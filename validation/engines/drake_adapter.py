@@ -24,7 +24,11 @@ def plant_of(scene: Any, setting: Any) -> tuple[Any, Any]:
     plant.mutable_gravity_field().set_gravity_vector(scene["gravity"])
     properties = drake.ProximityProperties()
     friction = drake.CoulombFriction(scene["mu_v"], scene["mu_v"])
-    drake.AddContactMaterial(friction=friction, properties=properties)
+    drake.AddContactMaterial(
+        friction=friction, properties=properties, dissipation=setting.get("dissipation")
+    )
+    if "relaxation_time" in setting:
+        properties.AddProperty("material", "relaxation_time", setting["relaxation_time"])
     soft = drake.ProximityProperties(properties)
     if setting["contact_model"] == "hydroelastic":
         drake.AddCompliantHydroelasticProperties(0.01, 1e7, soft)

@@ -7,7 +7,7 @@ import shlex
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +61,9 @@ def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
                 record["settings"][setting] = cells
                 record["version"] = program.said.implementation or before["version"]
                 text_written(path, json.dumps(record, indent=1) + "\n")
+            record["tried"] = [
+                {**one, **tried(program, one, engine)} for one in engine.get("tried", ())
+            ]
     record.setdefault("version", program.said.implementation)
     text_written(path, json.dumps(record, indent=1) + "\n")
 
@@ -120,14 +123,30 @@ def layer_record(engine: str, report: LayerReport, left_out: dict[str, str]) -> 
     }
 
 
+def tried(program: Program, one: dict[str, Any], engine: dict[str, Any]) -> dict[str, Any]:
+    """What becomes of a cell when its setting is changed in what is said to be the cause."""
+    setting = dict(engine["settings"][one["setting"]])
+    for key, value in one["values"].items():
+        old = setting.get(key)
+        setting[key] = {**old, **value} if isinstance(old, dict) else value
+    print(f"{one['setting']}, {one['changed']}", file=sys.stderr, flush=True)
+    (cell,) = phenomena(program, one["setting"], setting, engine, (one["phenomenon"],))
+    return {"words": cell["words"]}
+
+
 def phenomena(
-    program: Program, name: str, setting: dict[str, Any], engine: dict[str, Any]
+    program: Program,
+    name: str,
+    setting: dict[str, Any],
+    engine: dict[str, Any],
+    names: Collection[str] = (),
 ) -> list[dict[str, Any]]:
-    """The cells of a setting."""
+    """The cells of a setting, all of them or those named."""
     lacks = {*engine.get("lacks", ()), *setting.get("lacks", ())}
 
     def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-        reply = program.ask(name, "phenomena", {"scene": scene, "setting": setting})
+        changed = {**scene, **setting.get("scene", {})}
+        reply = program.ask(name, "phenomena", {"scene": changed, "setting": setting})
         if reply.kind != "output":
             raise ValueError(reply.said)
         return reply.output
@@ -139,5 +158,5 @@ def phenomena(
             "words": cell.words,
             "verdict": "-" if cell.phenomenon in lacks else "holds" if cell.holds else "differs",
         }
-        for cell in cells(simulate, setting["h"])
+        for cell in cells(simulate, setting["h"], names)
     ]

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import argparse
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,9 +58,10 @@ def scenes(phenomenon: dict[str, Any]) -> Iterator[tuple[float, dict[str, Any]]]
         yield run["x"], {**scene, "times": times, "loads": run["loads"]}
 
 
-def cells(simulate: Simulate, h: float) -> Iterator[Cell]:
-    """Every phenomenon, asked of an engine that takes steps of h [s]."""
-    for name, phenomenon in PHENOMENA.items():
+def cells(simulate: Simulate, h: float, names: Collection[str] = ()) -> Iterator[Cell]:
+    """Every phenomenon, or those named, asked of an engine that takes steps of h [s]."""
+    for name in names or PHENOMENA:
+        phenomenon = PHENOMENA[name]
         xs, runs = [], []
         try:
             for x, scene in scenes(phenomenon):

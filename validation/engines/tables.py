@@ -35,7 +35,7 @@ def phenomena_page(records: dict[str, Any]) -> str:
         "|" + "---|" * (len(names) + 2),
         f"| *the answer* | | {' | '.join(map(answer, PHENOMENA.values()))} |",
     ]
-    shown: dict[str, list[str]] = {}
+    shown: dict[tuple[str, str, str], list[str]] = {}
     for name, record in records.items():
         for setting, cells in record["settings"].items():
             words = [
@@ -47,22 +47,47 @@ def phenomena_page(records: dict[str, Any]) -> str:
             table.append(f"| {record['version']} | {setting} | {' | '.join(words)} |")
             for cell in cells:
                 if cell["verdict"] == "differs":
-                    what = f"{setting}: {PHENOMENA[cell['phenomenon']]['title']}"
-                    shown.setdefault(of_cell(name, setting, cell["phenomenon"]), []).append(what)
+                    file = of_cell(name, setting, cell["phenomenon"])
+                    what = file, record["version"], PHENOMENA[cell["phenomenon"]]["title"]
+                    shown.setdefault(what, []).append(setting)
     asked = [
         f"| {p['title']} | {p['answer'].strip()} | {p['tolerance']:g} | {p['reason'].strip()} |"
         for p in PHENOMENA.values()
     ]
-    programs = [f"| `{file}` | {'; '.join(cells)} |" for file, cells in sorted(shown.items())]
+    programs = [
+        f"| `{file}` | {version} | {title} | {'; '.join(settings)} |"
+        for (file, version, title), settings in sorted(shown.items())
+    ]
     return "\n".join([
         "<!-- Written by python -m validation.engines. -->", "",
         *table, "",
         "## What is asked", "",
         "| phenomenon | the answer | tolerance | its reason |", "|---|---|---|---|", *asked, "",
         "## Reproductions", "",
-        "| program in `validation/engines/reproductions/` | red cells that it shows |", "|---|---|",
+        "Programs in `validation/engines/reproductions/`, each of at most fifteen lines, and the "
+        "red cells whose numbers they print.", "",
+        "| program | engine | phenomenon | settings |", "|---|---|---|---|",
         *programs, "",
+        "## Causes, tried", "",
+        "One setting of a row above is changed in what may be the cause, and its phenomenon asked "
+        "again.", "",
+        "| engine | setting | phenomenon | is | changed | becomes |", "|---|---|---|---|---|---|",
+        *causes(records), "",
     ])  # fmt: skip
+
+
+def causes(records: dict[str, Any]) -> list[str]:
+    """Rows on what becomes of cells, by what was changed."""
+    rows = []
+    for record in records.values():
+        for one in record.get("tried", ()):
+            asked = PHENOMENA[one["phenomenon"]]
+            cells = {cell["phenomenon"]: cell for cell in record["settings"][one["setting"]]}
+            what = f"{asked['title']} [{asked['unit']}]"
+            was = cells[one["phenomenon"]]["words"]
+            columns = [record["version"], one["setting"], what, was, one["changed"], one["words"]]
+            rows.append(f"| {' | '.join(columns)} |")
+    return rows
 
 
 def answer(phenomenon: dict[str, Any]) -> str:

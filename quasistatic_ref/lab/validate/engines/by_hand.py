@@ -149,4 +149,6 @@ CLAIM = Claim(
     sweep="a finger pushes a sphere that is also spun by a torque, 60 steps",
     reason="QP_TOLERANCE, relative to the way of the sphere.",
     measure=evidence,
+    engine="qpsolvers",
+    setting="solver clarabel, tol_feas 1e-11, tol_gap_abs and tol_gap_rel 1e-13",
 )

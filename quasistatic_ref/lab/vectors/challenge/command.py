@@ -70,8 +70,7 @@ def _shown(outcome: Outcome, options: argparse.Namespace) -> None:
         }
         shared.print_json(record | {"remarks": outcome.remarks})
         return
-    if not options.quiet or outcome.findings:
-        shared.print_rows(outcome.rows)
+    shared.print_rows(outcome.rows)
     for finding in outcome.findings:
         print(f"quasistatic-ref: {finding.title}", file=sys.stderr)
         for sentence in finding.sentences:

@@ -1,7 +1,9 @@
 """What a challenge found: each by its mistake and field, with the smallest case that shows it."""
 
 import json
+import math
 import re
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,7 +65,7 @@ class Finding:
     def title(self) -> str:
         """One line: the layer, the mistake, what was seen."""
         looks = f"looks like {' or '.join(self.mistakes)}: " if self.mistakes else ""
-        times = "" if self.kind == "stray" else f", {self.cases} cases"
+        times = f", {self.cases} case{'s' * (self.cases > 1)}" if self.kind == "wrong" else ""
         return f"{self.layer}: {looks}{self.reason} (first in {self.first}{times})"
 
     @property
@@ -80,12 +82,24 @@ class Finding:
     def written(self, folder: Path, command: str) -> Path:
         """Write its folder: the record, and a page with the line that runs it again."""
         place = folder / self.name
-        text_written(place / RECORD, json.dumps(self.record, indent=1, allow_nan=True) + "\n")
-        again = f"quasistatic-ref vectors challenge --command {command!r} --again {place / RECORD}"
+        record = json.dumps(_finite(self.record), indent=1, allow_nan=False)
+        text_written(place / RECORD, record + "\n")
+        program = ("quasistatic-ref", "vectors", "challenge", "--command", command)
+        again = shlex.join([*program, "--again", str(place / RECORD)])
         lines = [f"# {self.layer}: {', '.join(self.mistakes) or self.field or self.kind}", ""]
         lines += [*self.sentences, "", f"Seen: {self.reason}. Again:", "", f"    {again}", ""]
         lines += ["The input", "", f"    {json.dumps(self.case)}", ""]
         if self.expected is not None and self.given is not None:
-            table = aligned(side_by_side(self.expected, self.given))
+            asked = {key: value for key, value in self.expected.items() if key != "certificate"}
+            table = aligned(side_by_side(asked, self.given))
             lines += ["Expected, and given", "", *(f"    {row}" for row in table), ""]
         return text_written(place / "README.md", "\n".join(lines)).parent
+
+
+def _finite(value: Json) -> Json:
+    """The same with words in the place of numbers that JSON has not: "nan", "inf"."""
+    if isinstance(value, dict):
+        return {key: _finite(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(one) for one in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -60,6 +60,7 @@ class Hunt:
         self._right: dict[str, list[Failed]] = {name: [] for name in LAYERS}
         self._known: set[tuple[str, str]] = set()
         self._troubles: Counter[str] = Counter()
+        self._unsupported: dict[str, str] = {}
         self._wanted: set[str] = set()
         self._shrinks, self._began = 0, time.monotonic()
 
@@ -97,10 +98,15 @@ class Hunt:
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
-                    f"{layer} was asked no longer: it did not come back in time"
+                    f"{layer} was asked no longer: {GIVEN_UP} cases came to no answer in time"
                 )
             elif layer in self._wanted and not self.goes_on(layer):
                 self.outcome.remarks.append(f"{layer} is not supported")
+            elif count := self.outcome.verdicts[layer, "unsupported"]:
+                first = self._unsupported[layer]
+                self.outcome.remarks.append(
+                    f"{layer}: {count} cases are not supported, {first} is the first"
+                )
         return self.outcome
 
     def _ask(self, tasks: Sequence[Task]) -> None:
@@ -121,7 +127,9 @@ class Hunt:
             self._trouble("stray", layer, id, said, case)
         if reply.kind != "output":
             self.outcome.verdicts[layer, reply.kind] += 1
-            if reply.kind != "unsupported":
+            if reply.kind == "unsupported":
+                self._unsupported.setdefault(layer, id)
+            else:
                 self._troubles[layer] += reply.kind in ("crash", "hang", "late", "garbage")
                 self._trouble(reply.kind, layer, id, reply.said, case)
             return

@@ -56,8 +56,10 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
         return f"A'lam is off by {off:.2g}"
     share = record.get("negligible", NEGLIGIBLE)
     small, slack = share * largest, _slack(A, output)
+    # An energy that rounding leaves: a program on which nothing presses has no largest multiplier.
+    work = tolerance_of(tolerance, "A_lam") * tolerance_of(tolerance, "delta_q")
     if conic:
-        return _conic_problem(multipliers.reshape(-1, 4), slack.reshape(-1, 4), small, share)
+        return _conic_problem(multipliers.reshape(-1, 4), slack.reshape(-1, 4), small, share, work)
     if (multipliers < -small).any():
         row = int(multipliers.argmin())
         return f"lam[{row}] is {multipliers[row]:.2g}, below 0"
@@ -65,7 +67,7 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
     room += (
         EPS * 4 * float(np.abs(A).max(initial=0.0)) * (1.0 + float(np.abs(slack).max(initial=0)))
     )
-    pressing = (multipliers > small) & (slack > room)
+    pressing = (multipliers > small) & (slack > room) & (multipliers * slack > work)
     if pressing.any():
         row = int(np.where(pressing, multipliers, -1).argmax())
         return f"lam[{row}] is {multipliers[row]:.2g} on a row whose slack is {slack[row]:.2g}"
@@ -78,13 +80,13 @@ def _slack(A: Array, output: Json) -> Array:
     return np.asarray(A @ np.array(output["delta_q"]) - np.array(output["b"], dtype=np.float64))
 
 
-def _conic_problem(lam: Array, z: Array, small: float, share: float) -> str | None:
+def _conic_problem(lam: Array, z: Array, small: float, share: float, work: float) -> str | None:
     outside = np.linalg.norm(lam[:, 1:], axis=1) - lam[:, 0]
     if not (outside <= small).all():
         return f"lam of block {int(outside.argmax())} is outside its cone"
     product = np.abs(np.einsum("ji,ji->j", lam, z))
     size = np.linalg.norm(lam, axis=1) * np.linalg.norm(z, axis=1)
-    if (product > share * max(float(size.max(initial=0.0)), 1e-300)).any():
+    if (product > max(share * float(size.max(initial=0.0)), work, 1e-300)).any():
         return f"lam of block {int(product.argmax())} is not complementary to F x + f"
     return None
 
