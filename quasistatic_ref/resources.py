@@ -22,6 +22,11 @@ def reality_folder() -> Path:
     return _folder("validation/reality", "lab/reality/data")
 
 
+def problem_set_folder() -> Path:
+    """The folder of the set of quadratic programs that comes with the package."""
+    return _folder("validation/contact_qp_1", "lab/study/sets/data")
+
+
 def _folder(next_to: str, inside: str) -> Path:
     """Return a folder by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parent

@@ -10,7 +10,7 @@ from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
-ROADS = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
+INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
 
 

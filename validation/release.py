@@ -129,6 +129,22 @@ RESULTS = (
         output="validation/results/large_steps.md",
     ),
     Result(
+        "contact_qp",
+        ("validation.contact_qp",),
+        (
+            "validation/results/contact_qp.csv",
+            "validation/results/contact_qp.md",
+            "docs/figures/contact_qp.png",
+        ),
+    ),
+    Result(
+        "sequences",
+        (CLI, "study", "sequences", "daqp", "osqp", "clarabel", "piqp", "quadprog",
+         "qpsolvers:daqp", "--repetitions", "1", "--quiet"),
+        ("validation/results/sequences.txt",),
+        output="validation/results/sequences.txt",
+    ),
+    Result(
         "curved_pairs",
         ("validation.curved_pairs", "--out", "validation/results/curved_pairs.md"),
         ("validation/results/curved_pairs.md",),

@@ -8,6 +8,7 @@ a factor of :math:`1 - \gamma_D` at most. What underflows is off by TINY at most
 
 import math
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -38,6 +39,32 @@ def rounding(terms: int, sizes: Array) -> Array:
     D = terms + ROUNDINGS
     part = D * UNIT / (1 - 2 * D * UNIT)  # gamma_D / (1 - gamma_D)
     return above(math.nextafter(part, math.inf) * sizes + TINY)
+
+
+class TermSizes(Protocol):
+    """What a bound of rounding needs to know of A, of any form: see :class:`Sizes`."""
+
+    @property
+    def load(self) -> Array:
+        """Of g, shape (n_v,)."""
+
+    @property
+    def row_terms(self) -> int:
+        """Most terms of a row."""
+
+    @property
+    def column_terms(self) -> int:
+        """Most terms of a column."""
+
+    @property
+    def usable(self) -> bool:
+        """Whether no number is beyond LARGEST."""
+
+    def rows(self, x: Array) -> Array:
+        """Of A x, shape (m,), from x (n_v,)."""
+
+    def columns(self, lam: Array) -> Array:
+        """Of A'lam, shape (n_v,), from lam >= 0 (m,)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from quasistatic_ref.certify.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.certify.opening import opening
 from quasistatic_ref.certify.outward import above, below, down, total, total_of_products, up
-from quasistatic_ref.certify.sizes import LARGEST, Sizes, rounding
+from quasistatic_ref.certify.sizes import LARGEST, TermSizes, rounding
 from quasistatic_ref.step.data import Array
 
 ENOUGH = 1 + 2.0**-40
@@ -77,14 +77,14 @@ class LargeForm:
     g : ndarray, shape (n_v,)
     A : scipy.sparse.csc_matrix, shape (m, n_v)
     b : ndarray, shape (m,)
-    sizes : Sizes
+    sizes : TermSizes
     """
 
     metric: Metric
     g: Array
     A: csc_matrix
     b: Array
-    sizes: Sizes
+    sizes: TermSizes
 
 
 def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:

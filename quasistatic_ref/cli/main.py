@@ -134,7 +134,8 @@ def command_parser(asked: Container[str | None]) -> Parser:
 def _actions(command: Parser) -> list[Parser]:
     """The parsers of a command's actions; its own, if it has none."""
     below = (a for a in command._actions if isinstance(a, argparse._SubParsersAction))
-    return [action for choice in below for action in choice.choices.values()] or [command]
+    inner = [own for choice in below for one in choice.choices.values() for own in _actions(one)]
+    return inner or [command]
 
 
 def _module(command: str) -> Any:

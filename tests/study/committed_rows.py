@@ -12,10 +12,10 @@ from quasistatic_ref.lab.study.statistics import success
 from quasistatic_ref.lab.study.store import rows_read, study_read
 
 DEFAULT = Path(__file__).parents[2] / "validation" / "studies" / "default"
-FIELDS = ("label", "solver", "road", "setting", "units", "warm", "unit", "family", "problem",
+FIELDS = ("label", "solver", "interface", "setting", "units", "warm", "unit", "family", "problem",
           "solved", "asked", "said_optimal", "wrong", "outcome", "digits", "seconds",
           "iterations")  # fmt: skip
-WIDEST = {"road": "qpsolvers", "units": "natural", "warm": False}
+WIDEST = {"interface": "qpsolvers", "units": "natural", "warm": False}
 SETTINGS = ("default", "low", "mid", "high", "tuned")
 CVXPY = ("clarabel", "daqp", "highs", "osqp", "piqp", "proxqp", "qpalm", "scs")
 GIVEN = ("high", "tuned")
@@ -87,11 +87,11 @@ def ordered(part):
 
 def by_interface(solver, setting):
     cold = (("units", "natural"), ("warm", False))
-    return both(solver, setting, "road", ("qpsolvers", "cvxpy"), cold)
+    return both(solver, setting, "interface", ("qpsolvers", "cvxpy"), cold)
 
 
 def by_start(solver, setting):
-    direct = (("units", "natural"), ("road", "qpsolvers"))
+    direct = (("units", "natural"), ("interface", "qpsolvers"))
     return both(solver, setting, "warm", (False, True), direct)
 
 
@@ -127,7 +127,7 @@ def missed(solver, *families, begins=""):
 
 
 def spent():
-    """Seconds that each solver took, by road:solver."""
+    """Seconds that each solver took, by interface:solver."""
     return {label: float(own["spent"].sum()) for (label,), own in groups(columns(), ["label"])}
 
 

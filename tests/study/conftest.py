@@ -4,7 +4,9 @@ import pytest
 
 from quasistatic_ref.lab.study.problems import problem_of
 from quasistatic_ref.lab.study.run import run_study
+from quasistatic_ref.lab.study.sets.folder import set_read
 from quasistatic_ref.lab.study.spec import solver_study, study_tables
+from quasistatic_ref.resources import problem_set_folder
 from tests.study.planted import FAKES, slab
 
 
@@ -35,3 +37,9 @@ def run(study, tmp_path):
 def problem():
     """One problem of 12 contacts with its exact answer."""
     return problem_of(slab())
+
+
+@pytest.fixture(scope="session")
+def members():
+    """Every problem of the set that ships."""
+    return set_read(problem_set_folder())

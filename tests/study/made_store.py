@@ -12,7 +12,7 @@ LIMIT = 0.5
 
 def measurement(chance, problem, solver, setting, units, warm):
     """One row; a budget ends for cat after problem 8."""
-    road, name = solver.split(":")
+    interface, name = solver.split(":")
     late = name == "cat" and problem > 8
     outcome = "not_run_budget" if late else chance.choice(OUTCOMES)
     solved = outcome == "solved"
@@ -22,7 +22,7 @@ def measurement(chance, problem, solver, setting, units, warm):
         "problem": f"{FAMILIES[problem % 2]}/{problem}",
         "family": FAMILIES[problem % 2],
         "solver": name,
-        "road": road,
+        "interface": interface,
         "setting": setting,
         "warm": warm,
         "units": units,
@@ -52,7 +52,7 @@ def written(folder, problems=12, seed=3):
                             rows.append(measurement(chance, problem, solver, setting, units, warm))
     study = {
         "format": "quasistatic-ref/study-store",
-        "version": 1,
+        "version": 2,
         "kind": "solvers",
         "time_limit": LIMIT,
         "settings": [
@@ -62,7 +62,7 @@ def written(folder, problems=12, seed=3):
         "solvers": [
             {
                 "name": s.split(":")[1],
-                "road": s.split(":")[0],
+                "interface": s.split(":")[0],
                 "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in
                             SETTINGS.items()},
             }

@@ -19,7 +19,7 @@ def parsed(markdown):
 
 
 def picked(rows, words):
-    """The rows that a filter names, `road = cvxpy, warm = false; ...`."""
+    """The rows that a filter names, `interface = cvxpy, warm = false; ...`."""
     kept = rows
     if words.startswith("all rows"):
         return kept
@@ -31,7 +31,7 @@ def picked(rows, words):
 
 def said(row, name):
     if name == "label":
-        return row["road"] + ":" + row["solver"]
+        return row["interface"] + ":" + row["solver"]
     value = row[name]
     return str(value).lower() if isinstance(value, bool) else str(value)
 

@@ -43,9 +43,16 @@ CONSTANTS = re.compile(r"1e-\d+|\d digits|by 1 %|limit of 1 s|sqrt\(2 eps\)|up t
 
 def extent():
     count = of.study()["problems"]["count"]
-    roads = [len(set(chosen(columns(), {"road": r})["solver"])) for r in ("qpsolvers", "cvxpy")]
+    interfaces = [
+        len(set(chosen(columns(), {"interface": r})["solver"])) for r in ("qpsolvers", "cvxpy")
+    ]
     names = (len(set(columns()[name])) for name in ("setting", "units"))
-    return f"{count:,}", of.enclosed(), *(word(n) for n in (*roads, *names)), f"{size(columns()):,}"
+    return (
+        f"{count:,}",
+        of.enclosed(),
+        *(word(n) for n in (*interfaces, *names)),
+        f"{size(columns()):,}",
+    )
 
 
 def small_daqp():
@@ -110,7 +117,7 @@ def ending():
 
 def budgets():
     spent = of.spent()
-    own = [spent[f"{road}:proxqp"] for road in ("qpsolvers", "cvxpy")]
+    own = [spent[f"{interface}:proxqp"] for interface in ("qpsolvers", "cvxpy")]
     others = (seconds for label, seconds in spent.items() if not label.endswith(":proxqp"))
     return own[0], of.study()["budget"], own[1], math.ceil(max(others))
 

@@ -20,7 +20,10 @@ BAD = {
     "no problems": ("problems.families.contacts = 0", "problems.families: must name at least one"),
     "an unknown scenario": ('problems.scenarios = ["bunny"]', "did you mean 'bunny_grasp'?"),
     "an unknown solver": ('[[runs]]\nsolvers = ["qpsolvers:dapq"]', "did you mean 'daqp'?"),
-    "an unknown road": ('[[runs]]\nsolvers = ["cvxopt:daqp"]', "runs[0].solvers: holds no solver"),
+    "an unknown interface": (
+        '[[runs]]\nsolvers = ["cvxopt:daqp"]',
+        "runs[0].solvers: holds no solver",
+    ),
     "no solvers": ("[[runs]]\nsolvers = []", "runs[0].solvers: must not be empty"),
     "a list for a solver": (
         '[[runs]]\nsolvers = [["x"]]',
@@ -38,8 +41,8 @@ BAD = {
     "no tables of runs": ("runs = []", "runs: must not be empty"),
     "warm that is no choice": (RUN + "warm = [1]", "runs[0].warm: must be a list of true and"),
     "no repetition": (RUN + "repetitions = 0", "runs[0].repetitions: must be at least 1"),
-    "two roads": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
-    "no road": ("[solvers.mine]\n", "solvers.mine: must say one of"),
+    "two interfaces": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
+    "no interface": ("[solvers.mine]\n", "solvers.mine: must say one of"),
     "no function": ('[solvers.mine]\ncallable = "module"', "must read module:function"),
     "no command": ("[solvers.mine]\nexecutable = []", "must not be empty"),
     "options of no setting": (MINE + "options.higher.a = 1", "solvers.mine.options.higher"),

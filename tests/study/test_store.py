@@ -7,16 +7,16 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.grade import ungraded
-from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, table
+from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, study_read, table
 
-STUDY = {"format": "quasistatic-ref/study-store", "version": 1, "kind": "solvers"}
+STUDY = {"format": "quasistatic-ref/study-store", "version": 2, "kind": "solvers"}
 
 
 SECONDS = {"solver": None, "call": 1.0, "spent": 1.0}
 
 
 def row(problem, **changes):
-    named = {"problem": problem, "family": "f", "solver": "s", "road": "callable"}
+    named = {"problem": problem, "family": "f", "solver": "s", "interface": "callable"}
     named |= {"setting": "default", "warm": False, "units": "raw", "repetition": 0}
     return named | ungraded("failed", "sorry", 1.0) | {"seconds": SECONDS} | changes
 
@@ -109,3 +109,16 @@ def test_a_store_is_plain_json_lines(tmp_path):
     with Store(tmp_path, STUDY) as store:
         store.add(row("a"))
     assert json.loads((tmp_path / ROWS).read_text()) == row("a")
+
+
+def test_rows_of_version_1_are_read_with_the_interface_they_called_a_road(tmp_path):
+    old = {"road" if name == "interface" else name: value for name, value in row("a").items()}
+    (tmp_path / ROWS).write_text(json.dumps(old) + "\n")
+    solvers = [{"name": "s", "road": "callable", "options": {}}]
+    (tmp_path / "study.json").write_text(json.dumps(STUDY | {"version": 1, "solvers": solvers}))
+    assert rows_read(tmp_path) == [row("a")]
+    assert study_read(tmp_path)["solvers"] == [
+        {"name": "s", "interface": "callable", "options": {}}
+    ]
+    with pytest.raises(InputError, match="a store of version 1, which is read and reported but"):
+        Store(tmp_path, STUDY)

@@ -1,4 +1,4 @@
-"""Layer distance: closed forms by hand, two roads to one answer, uniqueness, the package's own."""
+"""Layer distance: closed forms by hand, two ways to one answer, uniqueness, the package's own."""
 
 from itertools import islice
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.commands import study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_pack, run_report
 from quasistatic_ref.lab.study.store import ROWS, Row
 
@@ -16,6 +17,8 @@ ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
+    "problems": "sets of problems with exact answers: list, export, check, make",
+    "sequences": "ask steps in order, from cold and from what the step before left",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
 
@@ -28,6 +31,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         for name, words in ACTIONS.items()
     }
     run_, export = parsers["run"], parsers["export"]
+    study_problems.add_options(parsers["problems"])
+    study_sequences.add_options(parsers["sequences"])
     study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
@@ -60,6 +65,8 @@ def run(options: argparse.Namespace) -> int:
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
         "export": _export,
+        "problems": study_problems.run_problems,
+        "sequences": study_sequences.run_sequences,
         "report": run_report,
         "pack": run_pack,
     }
@@ -113,8 +120,8 @@ def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
     table: list[tuple[str, ...]] = [
         ("solver", "calls", *(c.replace("_", " ") for c in columns), "said optimal, was wrong")
     ]
-    for label in sorted({f"{row['road']}:{row['solver']}" for row in rows}):
-        own = [row for row in rows if f"{row['road']}:{row['solver']}" == label]
+    for label in sorted({f"{row['interface']}:{row['solver']}" for row in rows}):
+        own = [row for row in rows if f"{row['interface']}:{row['solver']}" == label]
         counts = Counter(row["outcome"] for row in own)
         wrong = sum(row["wrong"] for row in own)
         table.append((label, str(len(own)), *(str(counts[c]) for c in columns), str(wrong)))

@@ -35,6 +35,6 @@ def pens(names: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 
 def short(names: Sequence[str]) -> dict[str, str]:
-    """Labels as a figure shows them: without their road, where all are on the same."""
+    """Labels as a figure shows them: without their interface, where all have the same."""
     same = len({name.partition(":")[0] for name in names}) == 1
     return {name: name.partition(":")[2] if same and ":" in name else name for name in names}

@@ -93,7 +93,7 @@ def advice_table(
     more: str,
 ) -> Table:
     """The advice with the options in each solver's own names."""
-    options = {f"{s['road']}:{s['name']}": s["options"] for s in solvers}
+    options = {f"{s['interface']}:{s['name']}": s["options"] for s in solvers}
     rows = tuple(
         (
             a.label,
@@ -117,7 +117,7 @@ def advice_table(
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
     """Every solver's options at every setting."""
     rows = tuple(
-        (f"{s['road']}:{s['name']}", setting, f"`{options_words(options)}`")
+        (f"{s['interface']}:{s['name']}", setting, f"`{options_words(options)}`")
         for s in solvers
         for setting, options in s["options"].items()
     )

@@ -61,11 +61,11 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     InputError
         If a callable cannot be imported, or there is no such executable.
     """
-    if solver.road == "cvxpy":
+    if solver.interface == "cvxpy":
         return _by_cvxpy(str(solver.target))
-    if solver.road == "qpsolvers":
+    if solver.interface == "qpsolvers":
         return _directly(str(solver.target))
-    if solver.road == "callable":
+    if solver.interface == "callable":
         return _calling(imported(str(solver.target)))
     return _running(_command(tuple(solver.target), folder), folder)
 

@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.store import Row
 Columns = Mapping[str, np.ndarray]
 Where = Mapping[str, str | bool]
 
-TEXT = ("problem", "family", "road", "solver", "setting", "units", "outcome", "claimed")
+TEXT = ("problem", "family", "interface", "solver", "setting", "units", "outcome", "claimed")
 
 
 def columns_of(rows: Sequence[Row], limit: float) -> Columns:
@@ -25,7 +25,7 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     Returns
     -------
     mapping of str to ndarray, shape (rows,)
-        The fields of the rows, and ``label`` (road:solver); ``unit``, the problem with its
+        The fields of the rows, and ``label`` (interface:solver); ``unit``, the problem with its
         repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that were
         delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of the
         call, the time limit where it does not; ``net``; ``iterations``, NaN where not told.
@@ -34,7 +34,9 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     for name in ("warm", "said_optimal", "wrong"):
         columns[name] = np.array([row[name] for row in rows], dtype=bool)
     columns["repetition"] = np.array([row["repetition"] for row in rows], dtype=int)
-    columns["label"] = np.array([f"{row['road']}:{row['solver']}" for row in rows], dtype=np.str_)
+    columns["label"] = np.array(
+        [f"{row['interface']}:{row['solver']}" for row in rows], dtype=np.str_
+    )
     columns["unit"] = np.array(
         [f"{row['problem']}#{row['repetition']}" for row in rows], dtype=np.str_
     )

@@ -171,7 +171,7 @@ def _spent(store: Store, labels: Mapping[str, object]) -> dict[str, float]:
     """Seconds that each solver has used, of the rows that are there."""
     spent = dict.fromkeys(labels, 0.0)
     for row in store.rows:
-        label = f"{row['road']}:{row['solver']}"
+        label = f"{row['interface']}:{row['solver']}"
         if label in spent:
             spent[label] += row["seconds"]["spent"]
     return spent

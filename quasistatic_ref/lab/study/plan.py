@@ -43,7 +43,7 @@ class Measurement:
             "problem": self.problem,
             "family": self.family,
             "solver": self.solver.name,
-            "road": self.solver.road,
+            "interface": self.solver.interface,
             "setting": self.setting.name,
             "warm": self.warm,
             "units": self.units,

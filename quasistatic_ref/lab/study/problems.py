@@ -26,6 +26,7 @@ from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
 from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
 from quasistatic_ref.lab.study.schema import FACT
+from quasistatic_ref.lab.study.sets.selection import problems_taken, set_identity
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
@@ -66,15 +67,19 @@ def made(test_set: TestSet, count_steps: Count = no_count) -> Iterator[Made]:
         Is called with the number of steps of scenarios that were just simulated.
     """
     count, seed = test_set.families, test_set.seed
-    names = test_set.scenarios
+    names, most = test_set.scenarios, test_set.most
     for name in scenarios_run(test_set):
         scenario_run(name, count_steps)
     share = _shares(count["scenarios"], len(names))
     yield from chain.from_iterable(harvested(n, c) for n, c in zip(names, share, strict=True) if c)
     if n := count["contacts"]:
-        yield from slabs("contacts", "contacts", _scale(1, MOST_CONTACTS, n).round(), seed)
+        yield from slabs(
+            "contacts", "contacts", _scale(1, most.get("contacts", MOST_CONTACTS), n).round(), seed
+        )
     if n := count["mass_ratio"]:
-        yield from slabs("mass_ratio", "ratio", _scale(1, MOST_RATIO, n), seed)
+        yield from slabs(
+            "mass_ratio", "ratio", _scale(1, most.get("mass_ratio", MOST_RATIO), n), seed
+        )
     if n := count["time_step"]:
         yield from slabs("time_step", "h", _scale(TIME_STEPS[0], TIME_STEPS[-1], -(-n // 2)), seed)
         share = _shares(n // 2, len(TIME_STEPS))
@@ -86,7 +91,8 @@ def made(test_set: TestSet, count_steps: Count = no_count) -> Iterator[Made]:
             changes = [f"contacts.grip.k={k}", f"contacts.floor.k={k}"]
             yield from asked_again("closest_points", AGAIN, changes, c, i)
     if n := count["bodies"]:
-        yield from towers([int(v) for v in _scale(2, MOST_BODIES, n).round()], seed)
+        bodies = _scale(2, most.get("bodies", MOST_BODIES), n)
+        yield from towers([int(v) for v in bodies.round()], seed)
 
 
 def _scale(first: float, last: float, count: int) -> np.ndarray:
@@ -144,6 +150,10 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
                 file=folder,
             )
         return problems_read(folder)
+    if test_set.source:
+        taken = problems_taken(test_set)
+        _written(taken, asked, folder)
+        return taken
     # The bar counts steps: those of the runs that problems are taken from, and the problems.
     total = sum(test_set.families.values())
     begun = folder / BEGUN
@@ -230,6 +240,8 @@ def _asked(test_set: TestSet) -> dict[str, Any]:
         "seed": test_set.seed,
         "asked": dict(test_set.families),
         "scenarios": list(test_set.scenarios),
+        **({"most": dict(test_set.most)} if test_set.most else {}),
+        **({"set": set_identity(test_set.source)} if test_set.source else {}),
     }
 
 

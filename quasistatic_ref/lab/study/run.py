@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.plan import plan
 from quasistatic_ref.lab.study.problems import problem_set, set_record
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.spec import Study
-from quasistatic_ref.lab.study.store import Row, Store, key_of
+from quasistatic_ref.lab.study.store import VERSION, Row, Store, key_of
 
 
 def run_study(
@@ -75,7 +75,7 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     solvers = [
         {
             "name": s.name,
-            "road": s.road,
+            "interface": s.interface,
             "target": s.target,
             "options": {
                 t.name: s.settings_of(t, study.time_limit)
@@ -87,7 +87,7 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "format": "quasistatic-ref/study-store",
-        "version": 1,
+        "version": VERSION,
         "kind": "solvers",
         "time_limit": study.time_limit,
         "budget": study.budget,

@@ -57,8 +57,8 @@ VALUE: Kind = ("a number or a word", lambda v: _is_number(v) or isinstance(v, bo
 ANYTHING: Kind = ("anything", lambda value: True)
 
 SOLVER_ROW: Shape = {
-    "problem": TEXT, "family": TEXT, "solver": TEXT, "road": TEXT, "setting": TEXT, "warm": FLAG,
-    "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES), "claimed": TEXT,
+    "problem": TEXT, "family": TEXT, "solver": TEXT, "interface": TEXT, "setting": TEXT,
+    "warm": FLAG, "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES), "claimed": TEXT,
     "said_optimal": FLAG, "wrong": FLAG, "digits": {"delta_q": MAYBE, "net_wrench": MAYBE},
     "residuals": _table_of(MAYBE),
     "seconds": {"solver": _or_null(TIME), "call": _or_null(TIME), "spent": TIME},
@@ -80,7 +80,11 @@ STUDIES: dict[str, Shape] = {
         "time_limit": POSITIVE,
         "settings": [{"name": TEXT, "accuracy": MAYBE, "promised": NUMBER, "tuned": FLAG}],
         "solvers": [
-            {"name": TEXT, "road": TEXT, "options": _table_of(("a table", _table_of(ANYTHING)[1]))}
+            {
+                "name": TEXT,
+                "interface": TEXT,
+                "options": _table_of(("a table", _table_of(ANYTHING)[1])),
+            }
         ],
         **_PLACE,
     },
@@ -147,14 +151,14 @@ def check_solver_rows(
         Naming the field and the value.
     """
     settings = {setting["name"] for setting in study["settings"]}
-    options = {(s["road"], s["name"]): s["options"] for s in study["solvers"]}
+    options = {(s["interface"], s["name"]): s["options"] for s in study["solvers"]}
     families = {fact["family"] for fact in facts}
     for row in rows:
         if row["family"] not in families:
             raise _stranger("family", row["family"])
-        if (row["road"], row["solver"]) not in options:
-            raise _stranger("solver", f"{row['road']}:{row['solver']}")
-        if row["setting"] not in settings & set(options[row["road"], row["solver"]]):
+        if (row["interface"], row["solver"]) not in options:
+            raise _stranger("solver", f"{row['interface']}:{row['solver']}")
+        if row["setting"] not in settings & set(options[row["interface"], row["solver"]]):
             raise _stranger("setting", row["setting"])
 
 

@@ -56,7 +56,7 @@ class _Asked:
     settings : list of str
         Each solver's own first, then from loose to tight.
     base : mapping
-        The road, units and warmth that most calls were made with.
+        The interface, units and warmth that most calls were made with.
     """
 
     study: Mapping[str, Any]
@@ -97,7 +97,7 @@ def solver_report(
     asked = _Asked(study, columns, _settings(study, columns), _widest(columns))
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
-        f"{len(facts):,} problems, {len(set(columns['label'])):,} solvers by road, "
+        f"{len(facts):,} problems, {len(set(columns['label'])):,} pairs of solver and interface, "
         f"{len(rows):,} measurements."
     )
     options = options_table(study["solvers"])
@@ -106,7 +106,7 @@ def solver_report(
         "Accuracy and time": _compared(asked),
         "Said optimal, was wrong": _claims(asked),
         "By problem family": _by_family(asked, families),
-        "Units, warm starts, roads": _contrasts(asked),
+        "Units, warm starts, interfaces": _contrasts(asked),
         "How calls ended": [outcome_table(columns)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
         "Limitations": limitations(),
@@ -125,10 +125,10 @@ def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
 
 
 def _widest(columns: Columns) -> Where:
-    """The road, units and warmth that most calls were made with: what is compared first."""
-    most = max(groups(columns, ["road", "units", "warm"]), key=lambda one: size(one[1]))
-    road, units, warm = most[0]
-    return {"road": road, "units": units, "warm": warm == "True"}
+    """The interface, units and warmth that most calls were made with: what is compared first."""
+    most = max(groups(columns, ["interface", "units", "warm"]), key=lambda one: size(one[1]))
+    interface, units, warm = most[0]
+    return {"interface": interface, "units": units, "warm": warm == "True"}
 
 
 def _advised(asked: _Asked) -> list[Block]:
@@ -225,12 +225,12 @@ def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
 
 
 def _contrasts(asked: _Asked) -> list[Block]:
-    road, units = {"road": asked.base["road"]}, {"units": asked.base["units"]}
+    interface, units = {"interface": asked.base["interface"]}, {"units": asked.base["units"]}
     cold, columns = {"warm": False}, (asked.columns, asked.settings)
     directly, raw = ("qpsolvers", "cvxpy"), ("raw", "natural")
     tables = (
-        contrast(*columns, "Raw units and natural units.", "units", raw, road | cold),
-        contrast(*columns, "Cold and warm starts.", "warm", (False, True), road | units, True),
-        contrast(*columns, "Directly and through CVXPY.", "road", directly, units | cold),
+        contrast(*columns, "Raw units and natural units.", "units", raw, interface | cold),
+        contrast(*columns, "Cold and warm starts.", "warm", (False, True), interface | units, True),
+        contrast(*columns, "Directly and through CVXPY.", "interface", directly, units | cold),
     )
     return [table for table in tables if table.rows]

@@ -125,7 +125,7 @@ def contrast(
     settings : sequence of str
     title : str
     by : str
-        The field; ``road`` compares a solver with itself, too.
+        The field; ``interface`` compares a solver with itself, too.
     values : sequence
     where : mapping
     iterations : bool

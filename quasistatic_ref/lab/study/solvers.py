@@ -1,4 +1,4 @@
-"""The solvers of a study, by the road on which they are asked, and the settings to ask at."""
+"""The solvers of a study, by the interface through which they are asked, and their settings."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,7 +6,7 @@ from typing import Any
 
 from quasistatic_ref.solve.backends import BACKENDS, Backend
 
-ROADS = ("cvxpy", "qpsolvers", "callable", "executable")
+INTERFACES = ("cvxpy", "qpsolvers", "callable", "executable")
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Solver:
     Parameters
     ----------
     name : str
-    road : str
-        One of ``ROADS``.
+    interface : str
+        One of ``INTERFACES``.
     target : str or tuple of str
         The solver's name there; ``module:function``; or a command with its arguments.
     options : mapping of str to mapping
@@ -57,24 +57,24 @@ class Solver:
     """
 
     name: str
-    road: str
+    interface: str
     target: str | tuple[str, ...]
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
-        """Road and name, unique in a study."""
-        return f"{self.road}:{self.name}"
+        """Interface and name, unique in a study."""
+        return f"{self.interface}:{self.name}"
 
     @property
     def warm(self) -> bool:
         """Whether a start can be handed to it."""
-        return self.known and self.road in self.entry.warm
+        return self.known and self.interface in self.entry.warm
 
     @property
     def known(self) -> bool:
         """Whether its options are in our table."""
-        return self.road in ("cvxpy", "qpsolvers")
+        return self.interface in ("cvxpy", "qpsolvers")
 
     @property
     def entry(self) -> Backend:

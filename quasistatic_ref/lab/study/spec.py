@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import chosen_solvers, own_solvers
 from quasistatic_ref.lab.study.spec_table import (
+    COUNT,
     COUNTS,
     FORMAT,
     PROBLEMS,
@@ -27,7 +28,10 @@ from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.settings import toml_tables
 
 KINDS = ("solvers", "sweep")
-FAMILIES = tuple(TABLES[COUNTS])
+FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
+"""Families that are made for a study; a set has more."""
+TURNED = ("contacts", "mass_ratio", "bodies")
+"""Those of them whose dial a study file may end elsewhere."""
 LARGEST = 2**20
 """Largest study file [bytes]."""
 QUICK = 20
@@ -45,6 +49,10 @@ class TestSet:
         Number of problems of each.
     scenarios : tuple of str
         Those that are harvested.
+    source : str
+        The set of problems that they are taken from: a name, or a folder; else they are made.
+    most : mapping of str to float
+        Where the dials of families end [the unit of each]; else at their hard ends.
     """
 
     __test__ = False  # no test of pytest's
@@ -52,6 +60,8 @@ class TestSet:
     seed: int
     families: Mapping[str, int]
     scenarios: tuple[str, ...]
+    source: str = ""
+    most: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -190,12 +200,30 @@ def _problems(table: Fields, quick: bool) -> TestSet:
     given, known = TABLES.all_values(table, PROBLEMS), scenario_names()
     scenarios = known if given["scenarios"] is None else given["scenarios"]
     _check_known(table, "scenarios", scenarios, known)
-    families = TABLES.all_values(given["families"], COUNTS)
+    source = given["set"] or ""
+    families, most = _counts(given["families"], bool(source))
     if quick:
         families = {name: -(-count // QUICK) for name, count in families.items()}
     if not sum(families.values()):
         raise table.fail("families", "must name at least one problem")
-    return TestSet(given["seed"], families, tuple(scenarios))
+    return TestSet(given["seed"], families, tuple(scenarios), source, most)
+
+
+def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, float]]:
+    """How many problems of each family, and where their dials end."""
+    counts, most = {}, {}
+    for name, own in TABLES.all_values(table, COUNTS).items():
+        inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
+        count = TABLES.all_values(inner, COUNT)
+        if count["count"] and not of_a_set and name not in FAMILIES:
+            raise table.fail(name, 'is a family of sets; say set = "contact-qp-1"')
+        if count["most"] is not None and not (of_a_set or name in TURNED):
+            raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
+        if count["count"] or name in FAMILIES:
+            counts[name] = count["count"]
+        if count["most"] is not None:
+            most[name] = count["most"]
+    return counts, most
 
 
 def _settings(tables: Fields) -> dict[str, Setting]:

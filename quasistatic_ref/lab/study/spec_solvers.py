@@ -6,12 +6,15 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
-from quasistatic_ref.lab.study.solvers import ROADS, Setting, Solver
+from quasistatic_ref.lab.study.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
-BY_ROAD = {"cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy], "qpsolvers": list(BACKENDS)}
+BY_INTERFACE = {
+    "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
+    "qpsolvers": list(BACKENDS),
+}
 
 
 def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, Solver]:
@@ -20,26 +23,29 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
     Raises
     ------
     InputError
-        If a table names no road, or more than one.
+        If a table names no interface, or more than one.
     """
     solvers = {}
     for name in tables.names():
         table = tables.table(name)
         given = TABLES.all_values(table, SOLVER)
-        roads = [road for road in ROADS if given[road] is not None]
-        if len(roads) != 1:
+        interfaces = [interface for interface in INTERFACES if given[interface] is not None]
+        if len(interfaces) != 1:
             words = "must say one of cvxpy, qpsolvers, callable and executable"
-            raise tables.fail(name, words, roads or None)
-        (road,) = roads
-        target, options = _target(table, road, given[road]), _options(given["options"], settings)
-        solvers[name] = Solver(name, road, target, options)
+            raise tables.fail(name, words, interfaces or None)
+        (interface,) = interfaces
+        target, options = (
+            _target(table, interface, given[interface]),
+            _options(given["options"], settings),
+        )
+        solvers[name] = Solver(name, interface, target, options)
     return solvers
 
 
 def chosen_solvers(
     table: Fields, names: list[str], own: Mapping[str, Solver]
 ) -> tuple[Solver, ...]:
-    """The solvers of a list: names of the study's own, ``road:name``, and ``road:*``.
+    """The solvers of a list: names of the study's own, ``interface:name``, and ``interface:*``.
 
     Raises
     ------
@@ -51,38 +57,38 @@ def chosen_solvers(
         if name in own:
             found = [own[name]]
         else:
-            road, _, solver = name.partition(":")
-            if road not in BY_ROAD:
-                known = [*own, *(f"{r}:*" for r in BY_ROAD)]
+            interface, _, solver = name.partition(":")
+            if interface not in BY_INTERFACE:
+                known = [*own, *(f"{r}:*" for r in BY_INTERFACE)]
                 raise table.fail("solvers", f"holds no solver{suggestion(name, known)}", name)
-            everyone = installed(road) if solver == "*" else (solver,)
+            everyone = installed(interface) if solver == "*" else (solver,)
             for one in everyone:
-                _check_installed(table, road, one)
-            found = [Solver(one, road, one) for one in everyone]
+                _check_installed(table, interface, one)
+            found = [Solver(one, interface, one) for one in everyone]
         chosen |= {solver.label: solver for solver in found}
     return tuple(chosen.values())
 
 
-def _check_installed(table: Fields, road: str, solver: str) -> None:
-    if solver not in BY_ROAD[road]:
-        hint = suggestion(solver, BY_ROAD[road])
-        raise table.fail("solvers", f"holds no solver of {road}{hint}", solver)
-    if solver not in installed(road):
+def _check_installed(table: Fields, interface: str, solver: str) -> None:
+    if solver not in BY_INTERFACE[interface]:
+        hint = suggestion(solver, BY_INTERFACE[interface])
+        raise table.fail("solvers", f"holds no solver of {interface}{hint}", solver)
+    if solver not in installed(interface):
         remedy = BACKENDS[solver].to_install_it
         raise table.fail("solvers", f"is not installed; {remedy}", solver)
 
 
-def _target(table: Fields, road: str, given: Any) -> str | tuple[str, ...]:
-    if road == "executable":
+def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
+    if interface == "executable":
         return tuple(given)
-    if road == "callable":
+    if interface == "callable":
         if not re.fullmatch(MODULE, given):
-            raise table.fail(road, "must read module:function", given)
+            raise table.fail(interface, "must read module:function", given)
         return str(given)
     try:
-        _check_installed(table, road, given)
+        _check_installed(table, interface, given)
     except InputError as error:
-        raise table.fail(road, error.problem, given) from None
+        raise table.fail(interface, error.problem, given) from None
     return str(given)
 
 

@@ -8,8 +8,9 @@ from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.declared import Field, Tables
+from quasistatic_ref.lab.study.families.dials import DIALS, HARVESTED
 from quasistatic_ref.lab.study.qp import UNITS
-from quasistatic_ref.lab.study.solvers import ROADS, SETTINGS
+from quasistatic_ref.lab.study.solvers import INTERFACES, SETTINGS
 from quasistatic_ref.schema import json_schema
 from quasistatic_ref.tolerances import LARGE
 
@@ -19,14 +20,22 @@ LONGEST_LIMIT = 1e6
 """Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
 MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
 STUDY, SOLVERS, SWEEPS = "a study", "a study of solvers", "a study of sweeps"
-PROBLEMS, COUNTS, SETTING, SOLVER = (
+PROBLEMS, COUNTS, COUNT, SETTING, SOLVER = (
     "[problems]",
     "[problems.families]",
+    "[problems.families.NAME]",
     "[settings.NAME]",
     "[solvers.NAME]",
 )
 RUN, SWEEP, AXIS = "[[runs]]", "[[sweeps]]", "[sweeps.axes.NAME]"
 TEXT = {"type": "string"}
+OF_SETS = {
+    name: own[0] if own else "none"
+    for name in ("sequences", *DIALS)
+    if name not in ("contacts", "mass_ratio", "bodies")
+    for own in [(DIALS[name].name,) if name in DIALS else HARVESTED[name]]
+}
+"""Families that only a set has, and their dials."""
 
 
 def _head(kind: str, **default: Any) -> dict[str, Field]:
@@ -38,7 +47,10 @@ def _head(kind: str, **default: Any) -> dict[str, Field]:
 
 
 def _family(says: str) -> Field:
-    return Field("integer", says, default=0, least=0, most=MOST_PROBLEMS)
+    number = {"type": "integer", "minimum": 0, "maximum": MOST_PROBLEMS}
+    inner = {"$ref": "#/definitions/problems_families_NAME"}
+    return Field("integer or table", says, default=0, of=COUNT,
+                 schema={"anyOf": [number, inner]})  # fmt: skip
 
 
 TABLES = Tables({
@@ -60,6 +72,8 @@ TABLES = Tables({
                       most=2**32 - 1),
         "scenarios": Field("list of words", "whose steps are harvested; else those of all that "
                            "come along", default=None),
+        "set": Field("text", "what problems are taken from, \"contact-qp-1\" or the folder of "
+                     "another set; else they are made", default=None),
         "families": Field("table", "how many problems of each", default={"scenarios": 20},
                           of=COUNTS),
     },
@@ -70,6 +84,12 @@ TABLES = Tables({
         "time_step": _family("h from 0.1 to 1e-4 s"),
         "closest_points": _family("k from 1 to 50"),
         "bodies": _family("towers of 2 to 40 slabs"),
+        **{name: _family(f"of a set: dial {says}") for name, says in OF_SETS.items()},
+    },
+    COUNT: {
+        "count": Field("integer", "how many problems", least=0, most=MOST_PROBLEMS),
+        "most": Field("number", "where the dial ends; else at its hard end", default=None,
+                      above=0.0, most=LARGE),
     },
     SETTING: {
         "accuracy": Field("number", "asked of residuals and gap; a new name needs it", "-", None,
@@ -141,7 +161,7 @@ def study_schema() -> dict[str, Any]:
     rules = {
         STUDY: {"oneOf": [_only(SOLVERS, sweeps), {"required": ["kind", "sweeps"],
                                                    **_only(SWEEPS, solvers)}]},
-        SOLVER: {"oneOf": [{"required": [road]} for road in ROADS]},
+        SOLVER: {"oneOf": [{"required": [interface]} for interface in INTERFACES]},
     }  # fmt: skip
     return json_schema("A study", Tables({STUDY: both, **inner}), rules, STUDY)
 

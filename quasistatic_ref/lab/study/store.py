@@ -15,16 +15,19 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.lab.study.old_rows import today_row, today_study
 from quasistatic_ref.lab.study.schema import SOLVER_ROW, STUDIES, SWEEP_ROW, Shape, checked
 
 ROWS, STUDY = "rows.jsonl", "study.json"
+VERSION = 2
+"""Of a store of solvers; rows of version 1 are read by :mod:`.old_rows`."""
 PACKED = "rows.jsonl.xz"
 """The rows of a store that was packed to be kept, not to be continued."""
 LARGEST_UNPACKED = 256 * 2**20
 """Largest size of packed rows [bytes]: those of the study 'default' have 26 MiB."""
 MEMORY = 128 * 2**20
 """What the unpacking itself may take [bytes]: 65 MiB at the strongest setting."""
-KEY = ("problem", "solver", "road", "setting", "warm", "units", "repetition")
+KEY = ("problem", "solver", "interface", "setting", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 SWEEP_KEY = ("sweep", "values")
 MACHINE_DEPENDENT = ("seconds",)
@@ -87,6 +90,12 @@ class Store:
             text_written(path, text + "\n")
             return
         there = study_read(self.folder)
+        if there.get("version") != study["version"]:
+            problem = (
+                f"holds a store of version {there.get('version')}, which is read and reported "
+                "but not continued; choose another folder with --out"
+            )
+            raise InputError(problem, file=self.folder)
         for name, value in json.loads(text).items():
             if there.get(name) != value:
                 raise InputError(
@@ -162,7 +171,7 @@ def study_read(folder: str | Path) -> dict[str, Any]:
         json_text(study)
     except ValueError:  # NaN and 1e999, which Python reads and JSON does not have
         raise InputError("holds a number that is not finite", file=Path(folder) / STUDY) from None
-    return study
+    return today_study(study)
 
 
 def study_checked(folder: str | Path) -> dict[str, Any]:
@@ -225,7 +234,7 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
     lines = content.split(b"\n")
     for number, line in enumerate(lines[:-1], start=1):
         try:
-            row = json.loads(text_of(line, path))
+            row = today_row(json.loads(text_of(line, path)))
             key = key_of(row)
         except (ValueError, InputError, KeyError, TypeError, RecursionError):
             if number == len(lines) - 1:

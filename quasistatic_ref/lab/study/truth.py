@@ -46,7 +46,7 @@ def answer_of(form: StandardForm) -> Truth:
     natural = natural_form(form, units_of(form))
     warm: list[int] = []
     for solver in WITNESSES:
-        reply = _asked(natural, solver)
+        reply = asked(natural, solver)
         if reply is None or reply.x is None or reply.lam is None or not reply.solved:
             continue
         warm = warm_rows(natural.A, reply.lam, natural.A @ reply.x - natural.b)
@@ -61,7 +61,8 @@ def answer_of(form: StandardForm) -> Truth:
     return Truth(optimum.delta_q, optimum.net, 0.0)
 
 
-def _asked(natural: StandardForm, solver: str) -> Reply | None:
+def asked(natural: StandardForm, solver: str) -> Reply | None:
+    """What a solver says to a problem in natural units; None if it is not installed."""
     if solver not in installed("qpsolvers"):
         return None
     options = BACKENDS[solver].first(ACCURACY)

@@ -32,7 +32,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert main(["bench", "--quick", "--json", "--out", str(tmp_path)]) == 0
     found = json.loads(capsys.readouterr().out)
     assert json.loads((tmp_path / "bench.json").read_text()) == found
-    assert set(found["roads"]["microseconds"]) == {
+    assert set(found["interfaces"]["microseconds"]) == {
         "step, native", "DAQP alone", "step, through CVXPY", "step, CVXPY rebuilt each time",
         "hand-written qpsolvers loop", "all distances, brute force",
     }  # fmt: skip
@@ -44,13 +44,20 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert [row["contacts"] for row in found["contacts"]] == [5, 25]
     assert all(row["selection"] > 0 for row in found["parts"])
     text = (tmp_path / "bench.md").read_text()
-    for title in ("by every road", "By part", "certificate", "Points", "Rows of boxes", "Heaps"):
+    for title in (
+        "by every interface",
+        "By part",
+        "certificate",
+        "Points",
+        "Rows of boxes",
+        "Heaps",
+    ):
         assert title in text
     assert "the paper's 90 us" in text
     assert (tmp_path / "step_times.png").is_file()
 
 
-def test_the_roads_lead_to_the_same_step(at):
+def test_the_interfaces_lead_to_the_same_step(at):
     native = at.scenario.simulator()
     for q, goal in zip(at.q, at.goals, strict=True):
         result = native.step(q, goal)
@@ -83,7 +90,7 @@ def test_ratios_are_of_pairs():
     np.testing.assert_allclose(ratio(np.array([2.0, 9, 8]), np.array([1.0, 3, 2])), 3.0)
 
 
-ROADS = {
+INTERFACES = {
     "microseconds": {"step, native": 180.0}, "over_solver": 16.5, "cvxpy_over_native": 9.0,
     "rebuilt_over_native": 20.0, "by_hand_over_native": 1.5,
 }  # fmt: skip
@@ -92,7 +99,11 @@ ROADS = {
 def test_each_promise_is_judged_by_its_limit():
     clouds = [{"points": 1_000_000, "over_992": 5.0, "tree_seconds": 6.0}]
     heaps = [{"contacts": 252, "seconds": 1.0}, {"contacts": 1040, "seconds": 0.059}]
-    tables = {"roads": ROADS, "clouds": clouds, "exponents": {"bodies": 1.1, "contacts": None}}
+    tables = {
+        "interfaces": INTERFACES,
+        "clouds": clouds,
+        "exponents": {"bodies": 1.1, "contacts": None},
+    }
     tables["heaps"] = heaps
     tables["residual_over_off"] = 1.6
     judged = {p["what"]: p["holds"] for p in promises(tables)}
@@ -113,9 +124,11 @@ def test_each_promise_is_judged_by_its_limit():
 
 def test_compiled_steps_are_judged_where_there_are_any(at):
     compiled = {"step": 91.0, "over_solver": 3.9, "certified": 249.0, "certified, p99": 351.0}
-    found = promises({"roads": ROADS, "compiled": compiled})[-4:]
+    found = promises({"interfaces": INTERFACES, "compiled": compiled})[-4:]
     assert [p["holds"] for p in found] == [True, False, True, False]
-    assert promises({"roads": ROADS, "compiled": None}) == promises({"roads": ROADS})
+    assert promises({"interfaces": INTERFACES, "compiled": None}) == promises(
+        {"interfaces": INTERFACES}
+    )
     measured = by_compiled_code(at, 1)
     assert measured is None or set(measured) == set(compiled)
 
@@ -129,7 +142,7 @@ def test_the_page_says_why_mujoco_was_not_run(tmp_path):
             "selection": 1.0, "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
     tables = {
         "machine": dict.fromkeys(("processor", "cores", "system", "python", "numpy", "load"), "x"),
-        "roads": ROADS,
+        "interfaces": INTERFACES,
         "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
         "parts": [part], "certification": {"off": 1.0, "full": 2.0}, "clouds": [],
         "chains": [], "contacts": [], "heaps": [],

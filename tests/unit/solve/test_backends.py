@@ -1,4 +1,4 @@
-"""Every road to an answer agrees with the judge, and a bad answer never comes back."""
+"""Every interface agrees with the judge, and a bad answer never comes back."""
 
 import dataclasses
 import functools
@@ -20,9 +20,9 @@ from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
+    INTERFACES,
     JUDGE,
     REQUIRED,
-    ROADS,
     changed,
     error,
     pinch,
@@ -34,7 +34,7 @@ from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM
 
 solve_step = functools.partial(solve.solve_step, certify="residual")  # what backends say
 
-every_road = pytest.mark.parametrize("road", ROADS)
+every_interface = pytest.mark.parametrize("interface", INTERFACES)
 SHAPES = [
     (7, 6, (6,) * 10 + (4,) * 5),
     (3, 4, (6, 4)),
@@ -53,8 +53,8 @@ def opposing_walls():
     return step.replace(contacts=changed(walls, n=n, d2=d2, mu_v=[0.0, 0.0]))
 
 
-def test_the_roads_of_these_tests_are_installed_so_that_green_means_they_ran():
-    assert set(ROADS) | {JUDGE} <= set(installed_backends())
+def test_the_solvers_of_these_tests_are_installed_so_that_green_means_ran():
+    assert set(INTERFACES) | {JUDGE} <= set(installed_backends())
 
 
 def test_the_required_backends_are_those_of_the_package():
@@ -62,14 +62,14 @@ def test_the_required_backends_are_those_of_the_package():
     assert {DEFAULT, DEFAULT_OF_RUNS} <= set(REQUIRED)
 
 
-@every_road
+@every_interface
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
-def test_every_road_agrees_with_an_active_set_solver_at_1e_12(road, shape):
+def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, shape):
     for seed in range(3):
         rng = np.random.default_rng(seed)
         for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
             truth = solve_step(step, JUDGE, accuracy=1e-12)
-            answer = solve_step(step, road, accuracy=1e-12)
+            answer = solve_step(step, interface, accuracy=1e-12)
             gap = error(step, answer.delta_q, truth.delta_q)
             np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)
             # lam is not unique with 15 contacts in R^13; what it does to the coordinates is.
@@ -77,13 +77,13 @@ def test_every_road_agrees_with_an_active_set_solver_at_1e_12(road, shape):
             push, expected = A.T @ answer.lam, A.T @ truth.lam
             scale = np.abs(expected).max(initial=0.0)
             np.testing.assert_allclose(push, expected, rtol=0.0, atol=MULTIPLIERS * scale)
-            assert answer.backend == road
+            assert answer.backend == interface
             assert answer.certificate.kind == "residual"
 
 
 def test_every_other_installed_backend_agrees_or_says_that_it_did_not_solve():
     step, delta_q, _ = planted_step(np.random.default_rng(0), *SHAPES[0])
-    for name in set(installed_backends()) - set(ROADS):
+    for name in set(installed_backends()) - set(INTERFACES):
         try:
             answer = solve_step(step, name)
         except StepNotSolved:
@@ -92,27 +92,27 @@ def test_every_other_installed_backend_agrees_or_says_that_it_did_not_solve():
         np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM, err_msg=name)
 
 
-@every_road
-def test_no_road_warns(road, rng):
-    solve_step(planted_step(rng)[0], road)  # warnings are errors here
+@every_interface
+def test_no_interface_warns(interface, rng):
+    solve_step(planted_step(rng)[0], interface)  # warnings are errors here
 
 
-@every_road
-def test_no_road_prints(road, rng, capfd):
-    solve_step(random_step(rng, rows=()), road)
+@every_interface
+def test_no_interface_prints(interface, rng, capfd):
+    solve_step(random_step(rng, rows=()), interface)
     out, err = capfd.readouterr()
     assert out + err == ""
 
 
-@every_road
-def test_a_step_gives_the_same_bits_whatever_was_solved_before(road):
+@every_interface
+def test_a_step_gives_the_same_bits_whatever_was_solved_before(interface):
     steps = [planted_step(np.random.default_rng(seed))[0] for seed in (1, 2)]
     mu = {name: getattr(steps[1].contacts, name) for name in ("mu_v", "mu_omega")}
     steps[0] = steps[0].replace(contacts=changed(steps[0].contacts, **mu))
-    solver = solver_for(steps[0], road)
+    solver = solver_for(steps[0], interface)
     solve_step(steps[0], solver)
     after_another = solve_step(steps[1], solver)
-    alone = solve_step(steps[1], road)
+    alone = solve_step(steps[1], interface)
     np.testing.assert_allclose(after_another.delta_q, alone.delta_q, rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(after_another.lam, alone.lam, rtol=EXACT, atol=EXACT)
 
@@ -150,14 +150,14 @@ def test_certify_is_one_of_the_known_kinds():
         solve_step(point_on_floor(), certify="yes")
 
 
-@every_road
-def test_an_infeasible_step_is_raised_with_the_step_in_si_units(road):
+@every_interface
+def test_an_infeasible_step_is_raised_with_the_step_in_si_units(interface):
     step = opposing_walls()
     with pytest.raises(StepNotSolved) as caught:
-        solve_step(step, road)
+        solve_step(step, interface)
     assert caught.value.step is step
-    assert caught.value.backend == road
-    assert caught.value.accuracy == max(1e-12, backend(road).floor)
+    assert caught.value.backend == interface
+    assert caught.value.accuracy == max(1e-12, backend(interface).floor)
 
 
 @pytest.mark.parametrize(
@@ -263,7 +263,7 @@ def test_a_backend_is_not_asked_for_more_than_it_can_and_says_so():
     assert solve_step(pinch(), "osqp", accuracy=1e-5).statistics.accuracy == 1e-5
 
 
-def test_a_backend_of_the_other_road_only_is_named_with_its_road(monkeypatch):
+def test_a_backend_of_the_other_interface_only_is_named_with_its_interface(monkeypatch):
     table = "quasistatic_ref.solve.backends.installed_backends"
     monkeypatch.setattr(table, lambda: ("clarabel", "qpsolvers:quadprog"))
     with pytest.raises(BackendError, match="is reached as 'qpsolvers:quadprog'"):

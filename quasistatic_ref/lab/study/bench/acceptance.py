@@ -41,12 +41,12 @@ STRETCH = {
 
 def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Each promise that the tables speak of: what, measured, limit and whether it holds."""
-    roads, exponents = tables["roads"], tables.get("exponents", {})
+    interfaces, exponents = tables["interfaces"], tables.get("exponents", {})
     measured = [
-        ("step over the bare solver", roads["over_solver"], AT_MOST, OVER_SOLVER),
-        ("through CVXPY over native", roads["cvxpy_over_native"], AT_LEAST, 8.0),
-        ("rebuilt each step over native", roads["rebuilt_over_native"], AT_LEAST, 25.0),
-        ("hand-written loop over native", roads["by_hand_over_native"], AT_LEAST, 1.0),
+        ("step over the bare solver", interfaces["over_solver"], AT_MOST, OVER_SOLVER),
+        ("through CVXPY over native", interfaces["cvxpy_over_native"], AT_LEAST, 8.0),
+        ("rebuilt each step over native", interfaces["rebuilt_over_native"], AT_LEAST, 25.0),
+        ("hand-written loop over native", interfaces["by_hand_over_native"], AT_LEAST, 1.0),
         ("bounded step over the same without", tables.get("residual_over_off"), AT_MOST, BOUNDED),
     ]
     compiled = tables.get("compiled") or {}
@@ -79,4 +79,4 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 def from_paper(tables: Mapping[str, Any]) -> float:
     """How many times the paper's 90 us the step takes on this machine [-]."""
-    return float(tables["roads"]["microseconds"]["step, native"]) / PAPER
+    return float(tables["interfaces"]["microseconds"]["step, native"]) / PAPER

@@ -28,7 +28,7 @@ PARTS = ("distances", "selection", "rows", "solve", "integrate")
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Where a run passed: what every road starts each of its steps from.
+    """Where a run passed: what each interface starts each of its steps from.
 
     Parameters
     ----------
@@ -57,8 +57,8 @@ def places(steps: int, backend: str = "daqp") -> Places:
     return Places(scenario, visited, goals)
 
 
-def roads(at: Places, repeat: int) -> dict[str, Any]:
-    """The step with DAQP natively, beside every other road and DAQP alone on the same program."""
+def interfaces(at: Places, repeat: int) -> dict[str, Any]:
+    """The step with DAQP natively, beside other interfaces and DAQP alone on the same program."""
     run = _Run(by_numpy(at.scenario), at)
     native, through = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
@@ -142,7 +142,7 @@ def by_compiled_code(at: Places, repeat: int) -> dict[str, float] | None:
 
 
 FEWER = {"step, CVXPY rebuilt each time": 3}
-"""Every how many rounds the slow roads are taken."""
+"""Every how many rounds the slow interfaces are taken."""
 
 
 class _Run:

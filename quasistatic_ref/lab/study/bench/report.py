@@ -40,7 +40,7 @@ def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
 
 def paper_sentence(tables: Mapping[str, Any]) -> str:
     """How far the step is from the paper's time, and what is compared on which machine."""
-    step, m = tables["roads"]["microseconds"]["step, native"], tables["machine"]
+    step, m = tables["interfaces"]["microseconds"]["step, native"], tables["machine"]
     return (
         f"the 13 x 80 step (DAQP, warm-started, distances by the tracker, nothing certified) takes "
         f"{step:.0f} us here (Python on {m['processor']}, {m['cores']} cores), "
@@ -66,7 +66,7 @@ def page(tables: Mapping[str, Any]) -> str:
         f"In short: {paper_sentence(tables)}.",
         "",
         *_table(promise_rows(tables["promises"])),
-        *_section("The step of the bunny by every road", _roads(tables)),
+        *_section("The step of the bunny by every interface", _interfaces(tables)),
         *_section("By part, engine and backend [us], all in turn, caches cold", parts),
         *_section("With a certificate, native, DAQP or the default [us]", certified),
         *_section("A planar push in the ellipsoid", _formatted(BY_PUSH, tables.get("push", []))),
@@ -78,9 +78,9 @@ def page(tables: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _roads(tables: Mapping[str, Any]) -> Rows:
-    times = tables["roads"]["microseconds"]
-    rows: Rows = [("road", "median [us]", "over native")]
+def _interfaces(tables: Mapping[str, Any]) -> Rows:
+    times = tables["interfaces"]["microseconds"]
+    rows: Rows = [("interface", "median [us]", "over native")]
     rows += [(k, f"{us:.1f}", f"{us / times['step, native']:.2f}") for k, us in times.items()]
     mujoco = tables["mujoco"]
     if "not run" in mujoco:

@@ -15,10 +15,10 @@ from quasistatic_ref.lab.study.bench.clouds import clouds
 from quasistatic_ref.lab.study.bench.grasp import (
     by_compiled_code,
     certification,
+    interfaces,
     parts,
     places,
     residual_over_off,
-    roads,
 )
 from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
 from quasistatic_ref.lab.study.bench.push import pushes
@@ -59,8 +59,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
     load = f"load before the run {_load()}"
     at = places(steps)
-    tell("roads")
-    found["roads"] = roads(at, repeat)
+    tell("interfaces")
+    found["interfaces"] = interfaces(at, repeat)
     tell("compiled")
     found["compiled"] = by_compiled_code(at, repeat)
     tell("parts")

@@ -1,6 +1,6 @@
 """What a family yields: a step, and what is worth knowing about it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,6 +21,12 @@ class Made:
         single body has one too. Of a family that sets it, the ratio that was set.
     k : int
         Closest points per pair; 0 where nothing was selected.
+    dial : float or None
+        The number that the family scales [the unit of its dial].
+    tags : tuple of str
+        What else tells it from others of its family.
+    sequence : (str, int) or None
+        The sequence of steps that it is one of, and its place there.
     """
 
     id: str
@@ -28,6 +34,9 @@ class Made:
     step: StepData
     mass_ratio: float
     k: int
+    dial: float | None = None
+    tags: tuple[str, ...] = field(default=())
+    sequence: tuple[str, int] | None = None
 
 
 def mass_ratio(step: StepData) -> float:

@@ -1,0 +1,141 @@
+"""``study problems``: sets of problems with exact answers, without a study."""
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.resources import problem_set_folder
+
+ACTIONS = {
+    "list": "the families of a set, their dials, and how many problems they have",
+    "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB) or json",
+    "check": "compare a set's files with its hashes; with --exact prove every answer again",
+    "make": "make a set from scenes, with exact answers; an interrupted one goes on",
+}
+UNITS = ("raw", "natural")
+FORMATS = ("npz", "parquet", "mat", "json")
+"""As in lab/study/sets/exports.py, which takes a while to import; a test holds them equal."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the commands below ``study problems``."""
+    actions = parser.add_subparsers(dest="problems", metavar="ACTION", required=True)
+    parsers = {
+        name: actions.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        for name, words in ACTIONS.items()
+    }
+    for name in ("list", "export", "check"):
+        words = "of a set of problems; else contact-qp-1, which comes along"
+        parsers[name].add_argument(
+            "set", nargs="?", type=Path, metavar="FOLDER", default=None, help=words
+        )
+    export = parsers["export"]
+    to = export.add_argument("--to", required=True, choices=FORMATS, help="which format")
+    shared.completed(to, lambda: FORMATS)
+    export.add_argument("--units", default="raw", choices=UNITS, help="raw (SI) or natural")
+    export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    for one, words in (("--families", "only these, commas between"), ("--tag", "only such ones"),
+                       ("--id", "one problem only")):  # fmt: skip
+        export.add_argument(one, metavar=one[2:].upper(), help=words)
+    shared.add(export, "--out", default=Path("problems"))
+    parsers["check"].add_argument(
+        "--exact", action="store_true", help="prove every answer again (minutes, no solver)"
+    )
+    shared.add(parsers["make"], "--out", default=Path("contact-qp-1"))
+    for name in ("list", "check"):
+        shared.add(parsers[name], "--json")
+
+
+def run_problems(options: argparse.Namespace) -> int:
+    """Do what was asked for."""
+    runs = {"list": _list, "export": _export, "check": _check, "make": _make}
+    return runs[options.problems](options)
+
+
+def _folder(options: argparse.Namespace) -> Path:
+    given: Path | None = options.set
+    return problem_set_folder() if given is None else given
+
+
+def _list(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.sets.folder import manifest
+
+    head = manifest(_folder(options))
+    if options.json:
+        shared.print_json(head)
+        return 0
+    rows: list[tuple[str, ...]] = [("family", "problems", "dial", "from", "to", "unit")]
+    for name, own in head["families"].items():
+        dial = own["dial"] or {"name": "", "first": "", "most": "", "unit": ""}
+        ends = (str(dial["first"]), str(dial["most"]))
+        rows.append((name, str(own["count"]), dial["name"], *ends, dial["unit"]))
+    shared.print_rows(rows)
+    print(f"{head['name']}: {head['count']} problems")
+    return 0
+
+
+def _export(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.sets.exports import exported, for_qpbenchmark
+    from quasistatic_ref.lab.study.sets.folder import manifest, set_read
+
+    if options.every < 1:
+        raise InputError("must be at least 1", field="--every", value=options.every)
+    folder = _folder(options)
+    families = options.families.split(",") if options.families else None
+    found = set_read(folder, families, [options.id] if options.id else None)
+    found = [one for one in found if options.tag is None or options.tag in one.facts["tags"]]
+    found = found[:: options.every]
+    natural = options.units == "natural"
+    members = [one.natural for one in found] if natural else found
+    name = manifest(folder)["name"] + ("-natural" if natural else "")
+    for path in exported(name, members, options.to, options.out):
+        print(f"wrote {path}")
+    left = 0 if options.to != "parquet" else sum(not for_qpbenchmark(one) for one in found)
+    if left:
+        words = "sparse, conic or infeasible, for which qpbenchmark has no place"
+        print(f"quasistatic-ref: left out {left} problems: {words}", file=sys.stderr)
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.sets.checking import refutation
+    from quasistatic_ref.lab.study.sets.editions import edition_problem
+    from quasistatic_ref.lab.study.sets.folder import set_read
+    from quasistatic_ref.progress import progress_bar
+
+    folder = _folder(options)
+    members = set_read(folder)
+    wrong = {}
+    if options.exact:
+        with progress_bar(total=len(members), unit="problem", words="proved again",
+                          shown=not options.quiet) as bar:  # fmt: skip
+            for one in members:
+                why = refutation(one)
+                if why is not None:
+                    wrong[one.id] = why
+                bar.update()
+    other = edition_problem(folder)
+    kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in members)
+    if options.json:
+        found = {"problems": len(members), "answers": kinds, "refuted": wrong, "edition": other}
+        shared.print_json(found)
+        return int(bool(wrong or other))
+    said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    print(f"{len(members)} problems, as the manifest lists them: {said}")
+    if options.exact:
+        print(f"{len(members) - len(wrong)} answers proved again, {len(wrong)} refuted")
+    for sentence in (*(f"{name}: {why}" for name, why in wrong.items()), *filter(None, [other])):
+        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    return int(bool(wrong or other))
+
+
+def _make(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.sets.making import made_set
+    from quasistatic_ref.lab.study.sets.recipe import CONTACT_QP_1
+
+    for path in made_set(CONTACT_QP_1, options.out, not options.quiet):
+        print(f"wrote {path}")
+    return 0

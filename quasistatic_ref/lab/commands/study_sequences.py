@@ -1,0 +1,105 @@
+"""``study sequences``: steps asked in order, from cold and from what the step before left."""
+
+import argparse
+import csv
+import io
+import sys
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+
+MODES = ("cold", "updates", "primal", "primal-dual", "active set")
+"""As in lab/study/sequences.py, which takes a while to import; a test holds them equal."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare solvers, modes and what is asked."""
+    words = "daqp, osqp, ...: natively; qpsolvers:NAME; or module:function"
+    parser.add_argument("solvers", nargs="+", metavar="SOLVER", help=words)
+    parser.add_argument(
+        "--modes", metavar="MODE,...", help=f"of {', '.join(MODES)}; else all that each can"
+    )
+    parser.add_argument("--scenario", metavar="NAME", help="only sequences of this scenario")
+    words = "steps from one problem to the next: 1 (default), 4 or 16"
+    parser.add_argument("--stride", type=int, default=1, metavar="N", help=words)
+    words = "asked of the solvers, in natural units (1e-9)"
+    parser.add_argument("--accuracy", type=float, default=1e-9, metavar="EPS", help=words)
+    words = "of each sequence, whose times are medians (5)"
+    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help=words)
+    shared.add(parser, "--out", default=None)
+    shared.add(parser, "--json")
+
+
+def run_sequences(options: argparse.Namespace) -> int:
+    """Ask, and print a line for each solver and mode; InputError if that is not possible."""
+    from quasistatic_ref.files import text_written
+    from quasistatic_ref.lab.study.sequences import Asked, asked_in_order, checked
+    from quasistatic_ref.lab.study.sets.folder import set_read
+    from quasistatic_ref.lab.study.sets.member import Member
+    from quasistatic_ref.progress import progress_bar
+    from quasistatic_ref.resources import problem_set_folder
+
+    if options.repetitions < 1:
+        raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)
+    if not 0 < options.accuracy < 1:
+        raise InputError("must be between 0 and 1", field="--accuracy", value=options.accuracy)
+    sys.path.insert(0, str(Path.cwd()))
+    modes = checked(options.solvers, options.modes.split(",") if options.modes else None)
+    sequences: dict[str, list[Member]] = defaultdict(list)
+    for one in set_read(problem_set_folder(), ["sequences"]):
+        name = one.facts["sequence"]["name"]
+        wanted = options.scenario in (None, name.partition("/")[0])
+        if wanted and one.facts["dial"] == options.stride:
+            sequences[name].append(one)
+    if not sequences:
+        raise InputError("have no such sequence", field="--scenario and --stride",
+                         value=[options.scenario, options.stride])  # fmt: skip
+    total = sum(map(len, sequences.values())) * sum(map(len, modes.values()))
+    rows: list[Asked] = []
+    with progress_bar(total=total, unit="problem", words="asked", shown=not options.quiet) as bar:
+        for row in asked_in_order(sequences, modes, options.accuracy, options.repetitions):
+            rows.append(row)
+            bar.update()
+    if options.out is not None:
+        path = text_written(options.out / "sequences.csv", _table(rows))
+        print(f"wrote {path}", file=sys.stderr if options.json else sys.stdout)
+    if options.json:
+        shared.print_json([asdict(row) for row in rows])
+        return 0
+    shared.print_rows(_summary(rows, modes))
+    return 0
+
+
+def _summary(rows: list[Any], modes: Mapping[str, Sequence[str]]) -> list[tuple[str, ...]]:
+    """One line a solver and mode, of all problems but the first of each sequence."""
+    heading = ("solver", "mode", "problems", "solved", "digits, worst", "iterations, median",
+               "time, median [ms]", "over cold")  # fmt: skip
+    table: list[tuple[str, ...]] = [heading]
+    for solver, own in modes.items():
+        cost = {}
+        for mode in own:
+            some = [r for r in rows if (r.solver, r.mode) == (solver, mode) and r.place > 0]
+            counts = [r.iterations for r in some if r.iterations is not None]
+            cost[mode] = 1e3 * float(np.median([r.seconds for r in some]))
+            over = f"{cost[mode] / cost['cold']:.2f}" if "cold" in cost else "-"
+            table.append((
+                solver, mode, str(len(some)), str(sum(r.solved for r in some)),
+                f"{min(r.digits for r in some):.1f}",
+                f"{np.median(counts):g}" if counts else "-", f"{cost[mode]:.3g}", over,
+            ))  # fmt: skip
+    return table
+
+
+def _table(rows: list[Any]) -> str:
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(asdict(rows[0])), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(asdict(row) for row in rows)
+    return text.getvalue()

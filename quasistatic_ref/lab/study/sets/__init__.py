@@ -1,0 +1,1 @@
+"""Sets of problems with a name and a version: files with exact answers, verified by their hash."""

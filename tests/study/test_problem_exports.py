@@ -1,0 +1,88 @@
+"""A set in the formats of others: each read back by its own reader, and qpbenchmark's command."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import loadmat
+from scipy.sparse import csr_matrix
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.commands.study_problems import FORMATS
+from quasistatic_ref.lab.study.sets import exports
+
+FEW = ["--families", "wedge,infeasible,ellipsoid,sparse", "--every", "80"]
+
+
+def export(to, folder, *more):
+    command = ["study", "problems", "export", "--to", to, "--out", str(folder)]
+    assert main([*command, *(more or FEW)]) == 0
+
+
+@pytest.fixture
+def few(members):
+    names = FEW[1].split(",")
+    return [one for one in members if one.facts["family"] in names][::80]
+
+
+def test_the_formats_of_the_command_are_those_of_the_writer():
+    assert FORMATS == exports.FORMATS
+
+
+def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
+    export("npz", tmp_path)
+    with np.load(tmp_path / "contact-qp-1.npz") as bundle:
+        assert bundle["id"].tolist() == [one.id for one in few]
+        for k, one in enumerate(few):
+            if "sparse" in one.facts["tags"]:
+                parts = (bundle[f"{k}/A/{key}"] for key in ("values", "columns", "starts"))
+                A = csr_matrix(tuple(parts), one.A.shape).toarray()
+            else:
+                A = bundle[f"{k}/A"]
+            np.testing.assert_array_equal(A, one.A.toarray())
+            if not one.answer.farkas:
+                np.testing.assert_array_equal(bundle[f"{k}/x"], one.answer.x)
+
+
+def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
+    export("mat", tmp_path)
+    problems = loadmat(tmp_path / "contact-qp-1.mat", spmatrix=False)["problems"][0]
+    for row, one in zip(problems, few, strict=True):
+        assert row["id"][0] == one.id
+        A = row["A"].toarray() if "sparse" in one.facts["tags"] else row["A"]
+        np.testing.assert_array_equal(A, one.A.toarray())
+        np.testing.assert_array_equal(row["x"].ravel(), one.answer.x)
+
+
+def test_the_lines_of_json_have_every_number_of_the_problems(few, tmp_path):
+    export("json", tmp_path)
+    lines = (tmp_path / "contact-qp-1.jsonl").read_text().splitlines()
+    for line, one in zip(lines, few, strict=True):
+        said = json.loads(line)
+        assert said["g"] == one.g.tolist()
+        assert ("farkas" in said) == bool(one.answer.farkas)
+        if "sparse" not in one.facts["tags"]:
+            assert said["H"] == one.H.toarray().tolist()
+
+
+def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(tmp_path, capsys):
+    export("parquet", tmp_path, "--families", "condition,infeasible,wedge", "--every", "60",
+           "--units", "natural")  # fmt: skip
+    assert "left out 5 problems" in capsys.readouterr().err
+    program = Path(sys.executable).with_name("qpbenchmark")
+    module = "contact_qp_1_natural.py"
+    done = subprocess.run(
+        [program, "--results-path", "results.csv", module, "run", "--solver", "daqp",
+         "--author", "nobody"],
+        cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "results.csv").open() as file:
+        assert len({row["problem"] for row in csv.DictReader(file)}) == 10
+    graded = subprocess.run([sys.executable, module, "daqp"], cwd=tmp_path, capture_output=True,
+                            text=True, timeout=120, check=False)  # fmt: skip
+    assert graded.stdout.startswith("daqp: median ")

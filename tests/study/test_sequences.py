@@ -1,0 +1,137 @@
+"""Sequences asked in order: what each solver starts from, and modes that are not possible."""
+
+import csv
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.commands import study_sequences
+from quasistatic_ref.lab.study import sequences
+from quasistatic_ref.lab.study.sequences import asked_in_order, checked, in_one_unit, modes_of
+
+CALLABLES = """
+import numpy as np
+import quadprog
+
+STARTS = []
+
+def solved(P, q, G, h):
+    x, _, _, _, lam, _ = quadprog.solve_qp(P, -q, -G.T, -h)
+    return x, lam
+
+def warm(P, q, G, h, start=None):
+    x, lam = solved(P, q, G, h)
+    STARTS.append((start, x))
+    return x, lam
+
+def broken(P, q, G, h):
+    raise RuntimeError("no")
+"""
+
+
+@pytest.fixture
+def grasp(members):
+    """Two sequences, in order."""
+    own = [one for one in members if one.facts["sequence"]]
+    return {name: [one for one in own if one.facts["sequence"]["name"] == name]
+            for name in ("bunny_grasp/0", "stack/0")}  # fmt: skip
+
+
+@pytest.fixture
+def own(tmp_path, monkeypatch):
+    (tmp_path / "sequence_solvers.py").write_text(CALLABLES)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    yield "sequence_solvers"
+    sys.modules.pop("sequence_solvers", None)
+
+
+def test_every_mode_is_that_of_the_command():
+    assert study_sequences.MODES == sequences.MODES
+
+
+def test_what_a_solver_can_start_from_is_a_fact_of_its_interface(own):
+    assert modes_of("daqp") == ("cold", "updates", "active set")
+    assert modes_of("osqp") == ("cold", "updates", "primal-dual")
+    assert modes_of("clarabel") == modes_of("piqp") == ("cold", "updates")
+    assert modes_of("quadprog") == modes_of(f"{own}:solved") == ("cold",)
+    assert modes_of("qpsolvers:osqp") == ("cold", "primal")
+    assert modes_of(f"{own}:warm") == ("cold", "primal-dual")
+
+
+@pytest.mark.parametrize(("solver", "mode"), [
+    ("clarabel", "primal-dual"), ("quadprog", "updates"), ("daqp", "primal"),
+    ("sequence_solvers:solved", "primal-dual"),
+])  # fmt: skip
+def test_a_mode_that_is_asked_for_and_not_possible_is_an_error(solver, mode, own, capsys):
+    with pytest.raises(InputError, match=f"cannot be asked of {solver}"):
+        checked([solver], ["cold", mode])
+    assert main(["study", "sequences", solver, "--modes", mode]) == 2
+    assert "cannot be asked of" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("more", "words"), [
+    (["nobody"], "is none of"),
+    (["qpsolvers:nobody"], "is not a solver that qpsolvers reaches here"),
+    (["daqp", "--modes", "hot"], "is none of cold"),
+    (["daqp", "--scenario", "nowhere"], "have no such sequence"),
+    (["daqp", "--repetitions", "0"], "must be at least 1"),
+    (["daqp", "--accuracy", "2"], "must be between 0 and 1"),
+])  # fmt: skip
+def test_what_cannot_be_asked_is_refused(more, words, capsys):
+    assert main(["study", "sequences", *more]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_sequence_has_one_system_of_units_and_the_same_answers(grasp):
+    forms, answers = in_one_unit(grasp["bunny_grasp/0"])
+    for form, x in zip(forms, answers, strict=True):
+        slack, size = form.A @ x - form.b, np.abs(form.A) @ np.abs(x) + np.abs(form.b)
+        assert slack.min() >= -1e-14 * size.max()
+    H = [form.H for form in forms]
+    assert all(np.allclose(np.diag(one), np.diag(H[0]), rtol=0.1) for one in H)
+
+
+def test_solvers_keep_their_digits_in_every_mode_and_daqp_needs_fewer_iterations(grasp):
+    modes = checked(["daqp", "osqp", "clarabel", "qpsolvers:daqp"], None)
+    rows = list(asked_in_order(grasp, modes, 1e-9, 1))
+    assert len(rows) == 24 * sum(map(len, modes.values()))
+    assert all(row.solved and row.digits > 4 for row in rows if row.solver != "osqp")
+    assert sum(row.solved for row in rows if row.solver == "osqp") > 60
+    found = {
+        mode: sum(r.iterations for r in rows if (r.solver, r.mode) == ("daqp", mode) and r.place)
+        for mode in modes["daqp"]
+    }
+    assert found["active set"] < found["updates"] == found["cold"]
+
+
+def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
+    list(asked_in_order(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, 1))
+    starts = sys.modules[own].STARTS
+    assert len(starts) == 24
+    for place, (start, _) in enumerate(starts):
+        if place % 12 == 0:
+            assert start is None
+        else:
+            np.testing.assert_array_equal(start[0], starts[place - 1][1])
+
+
+def test_a_callable_that_raises_costs_itself_only(grasp, own):
+    modes = {f"{own}:broken": ("cold",), f"{own}:solved": ("cold",)}
+    rows = list(asked_in_order(grasp, modes, 1e-9, 1))
+    assert {row.solver: row.solved for row in rows} == {f"{own}:broken": False,
+                                                        f"{own}:solved": True}  # fmt: skip
+
+
+def test_the_command_writes_a_row_for_each_problem_and_mode(own, tmp_path, capsys):
+    command = ["study", "sequences", "daqp", f"{own}:warm", "--scenario", "door", "--stride", "4",
+               "--repetitions", "1", "--out", str(tmp_path)]  # fmt: skip
+    assert main(command) == 0
+    assert "active set" in capsys.readouterr().out
+    with (tmp_path / "sequences.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 12 * (3 + 2)
+    assert {row["said"] for row in rows} == {"optimal", "returned"}
