@@ -37,7 +37,9 @@ from tests.study.committed_rows import (
 )
 
 PAGE = of.DEFAULT.parents[2] / "docs" / "solver_study.md"
-CONSTANTS = re.compile(r"1e-\d+|\d digits|by 1 %|limit of 1 s|sqrt\(2 eps\)|up to 1e9")
+CONSTANTS = re.compile(
+    r"1e-\d+|\d digits|by 1 %|at most 40|200 problems|all 200|limit of 1 s|sqrt\(2 eps\)|up to 1e9"
+)
 """What the page says that is no result: accuracies, digits that count, what was asked."""
 
 
@@ -103,6 +105,13 @@ def false_claims():
     return *claims, int(high["wrong"].sum()), f"{int(high['said_optimal'].sum()):,}", *own
 
 
+def infeasible_claims():
+    said = columns()["said_infeasible"]
+    assert (columns()["false_infeasible"] == said).all()
+    proxqp = int((said & (columns()["solver"] == "proxqp")).sum())
+    return int(said.sum()), proxqp, int(said.sum()) - proxqp
+
+
 def osqp_iterations():
     found = warm_iterations("osqp")
     same = [setting for setting, (cold, warm) in found.items() if cold == warm]
@@ -125,7 +134,7 @@ def budgets():
 HELD = [
     ("{} contact problems whose answers are known (exactly but for {}), {} solvers directly and {} "
      "of them through CVXPY too, {} settings, {} systems of units, {} calls", extent),
-    ("Surest first; {} problems of all families", lambda: [size(shared("daqp", "tuned"))]),
+    ("Soonest first; {} problems of all families", lambda: [size(shared("daqp", "tuned"))]),
     ("delivers 6 digits on {} of the {} problems and 9 digits on {}, in {:.3f} ms. Do not leave "
      "it at its defaults: at its own `primal_tol=1e-6`, {} of {} answers have fewer than 3 digits "
      "and say optimal, {} of them of the family of mass ratios", small_daqp),
@@ -149,6 +158,10 @@ HELD = [
     ("OSQP solves all but {} % of the problems ({} of these {} are mass ratios)",
      lambda: honest("osqp")),
     ("ProxQP all but {} % ({} of {})", lambda: honest("proxqp")),
+    ("of which it calls {} infeasible",
+     lambda: [asked("proxqp", "high")["false_infeasible"].sum()]),
+    ("Of {} claims that there is no solution all are false: {} of ProxQP's, {} of others",
+     infeasible_claims),
     ("HiGHS has {} digits in the median at each of the {} settings",
      lambda: [highs_medians(), word(len(SETTINGS))]),
     ("it solves {:.1f} % at its defaults and {:.1f} % at 1e-9",
