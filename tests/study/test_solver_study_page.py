@@ -5,8 +5,10 @@ test lists the phrases as they ought to read; whether what the page concludes fr
 holds is for a reader. The first table of the page is held by test_committed_studies.py.
 """
 
+import json
 import math
 import re
+import tomllib
 
 import numpy as np
 
@@ -36,6 +38,7 @@ from tests.study.committed_rows import (
     warm_iterations,
 )
 
+VALIDATION = of.DEFAULT.parents[1]
 PAGE = of.DEFAULT.parents[2] / "docs" / "solver_study.md"
 CONSTANTS = re.compile(
     r"1e-\d+|\d digits|by 1 %|at most 40|200 problems|all 200|limit of 1 s|sqrt\(2 eps\)|up to 1e9"
@@ -238,6 +241,31 @@ def test_the_table_of_units_is_that_of_the_committed_rows():
     assert [line[2:] for line in lines] == [
         tuple(raw_and_natural(solver.lower(), setting)) for solver, setting, *_ in lines
     ]
+
+
+def finding_lines():
+    """A line of the table for each single change that the file of options names."""
+    spaces = tomllib.loads((VALIDATION / "option_search.toml").read_text("utf-8"))
+    text = (VALIDATION / "results" / "option_search.jsonl").read_text("utf-8")
+    every = [one for one in map(json.loads, text.splitlines()) if one["half"] == "all"]
+    names = {"highs": "HiGHS", "osqp": "OSQP", "proxqp": "ProxQP"}
+    for solver, space in spaces.items():
+        for finding in space["findings"]:
+            base, new = (
+                next(o for o in every if (o["solver"], o["options"]) == (solver, options))
+                for options in (finding["base"], finding["base"] | finding["change"])
+            )
+            start = "its defaults" if not finding["base"] else f"{finding['base']['eps_abs']:g}"
+            change = ", ".join(f"`{k}={v}`" for k, v in finding["change"].items())
+            cells = [f"{base[n]:.1f} to {new[n]:.1f}" for n in ("six", "nine", "median")]
+            cells.append(f"{base['false_infeasible']} to {new['false_infeasible']}")
+            yield f"| {names[solver]} | {start} | {change} | {' | '.join(cells)} |"
+
+
+def test_the_table_of_single_options_is_that_of_the_committed_log():
+    page = PAGE.read_text("utf-8")
+    missing = [line for line in finding_lines() if line not in page]
+    assert not missing, "ought to read:\n" + "\n".join(missing)
 
 
 def test_what_the_page_concludes_without_a_number_is_so():
