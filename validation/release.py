@@ -281,6 +281,11 @@ RESULTS = (
         ("validation.check_installs", "--out", "validation/results/installs.md"),
         ("validation/results/installs.md",),
     ),
+    Result(
+        "option_search",
+        ("validation.option_search",),
+        ("validation/results/option_search.jsonl",),
+    ),
     *(
         Result(
             f"study_{name}",

@@ -1,8 +1,8 @@
 """Through CVXPY: the step as the problem of the paper's page, and plain programs of studies."""
 
-import time
 import warnings
 from collections import OrderedDict
+from time import perf_counter
 
 import cvxpy as cp
 import numpy as np
@@ -86,13 +86,14 @@ def cvxpy_reply(
         Whether to start from the answer before.
     """
     problem = compiled.problem
-    begin = time.perf_counter()
+    begin = perf_counter()
     with warnings.catch_warnings():
         # "Solution may be inaccurate" is dealt with below, by the status.
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
         problem.solve(solver=name.upper(), warm_start=warm, canon_backend=CANON, **options)
-    seconds = time.perf_counter() - begin
+    seconds = perf_counter() - begin
     status, stats = str(problem.status), problem.solver_stats
+    own, setup = (None if t is None else float(t) for t in (stats.solve_time, stats.setup_time))
     known = all(x.value is not None for x in problem.variables() if x.size)
     return Reply(
         compiled.primal() if known else None,
@@ -100,8 +101,10 @@ def cvxpy_reply(
         status == cp.OPTIMAL,
         status,
         None if stats.num_iters is None else int(stats.num_iters),
-        None if stats.solve_time is None else float(stats.solve_time),
+        own,
         seconds,
+        own,
+        setup,
     )
 
 

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.store import rows_read, study_read
 
 DEFAULT = Path(__file__).parents[2] / "validation" / "studies" / "default"
 FIELDS = ("label", "solver", "interface", "setting", "units", "warm", "unit", "family", "problem",
-          "solved", "asked", "said_optimal", "wrong", "outcome", "digits", "seconds",
+          "solved", "asked", "said_optimal", "said_infeasible", "outcome", "digits", "seconds",
           "iterations")  # fmt: skip
 WIDEST = {"interface": "qpsolvers", "units": "natural", "warm": False}
 SETTINGS = ("default", "low", "mid", "high", "tuned")
@@ -31,11 +31,16 @@ def study():
 
 @cache
 def columns():
-    """The rows as the report has them, and what each took with starts, warm-ups and kills [s]."""
+    """The rows as the report has them, and what each took with starts, warm-ups and kills [s].
+
+    ``wrong`` is of claims of success here, ``false_infeasible`` of claims that there is none.
+    """
     rows = rows_read(DEFAULT)
     every = columns_of(rows, study()["time_limit"])
     spent = np.array([row["seconds"]["spent"] or 0.0 for row in rows])
-    return {name: every[name] for name in FIELDS} | {"spent": spent}
+    kept = {name: every[name] for name in FIELDS} | {"spent": spent}
+    said = {name: every["wrong"] & every[f"said_{name}"] for name in ("optimal", "infeasible")}
+    return kept | {"wrong": said["optimal"], "false_infeasible": said["infeasible"]}
 
 
 @cache

@@ -3,6 +3,8 @@
 import json
 import random
 
+from quasistatic_ref.lab.study.grade import CLOCKS
+
 SOLVERS = ("qpsolvers:ant", "qpsolvers:bee", "qpsolvers:cat", "cvxpy:ant")
 SETTINGS = {"default": (None, 3.0), "mid": (1e-6, 2.5), "high": (1e-9, 4.0)}
 FAMILIES = ("stack", "door")
@@ -10,7 +12,7 @@ OUTCOMES = ("solved",) * 8 + ("failed", "crashed", "timeout", "nan", "wrong_shap
 LIMIT = 0.5
 
 
-def measurement(chance, problem, solver, setting, units, warm):
+def measurement(chance, problem, solver, setting, units, warm, repetition=0):
     """One row; a budget ends for cat after problem 8."""
     interface, name = solver.split(":")
     late = name == "cat" and problem > 8
@@ -26,16 +28,24 @@ def measurement(chance, problem, solver, setting, units, warm):
         "setting": setting,
         "warm": warm,
         "units": units,
-        "repetition": 0,
+        "repetition": repetition,
         "outcome": outcome,
         "claimed": "fine" if solved else "sorry",
+        "feasible": True,
         "said_optimal": solved or outcome == "nan",
-        "wrong": outcome == "nan" or (solved and digits < SETTINGS[setting][1]),
-        "digits": {"delta_q": digits, "net_wrench": digits and digits * 0.9},
+        "said_infeasible": outcome == "failed" and problem % 4 == 0,
+        "wrong": outcome == "nan" or (solved and digits < SETTINGS[setting][1])
+        or (outcome == "failed" and problem % 4 == 0),
+        "wrong_multipliers": solved and digits * 0.8 < SETTINGS[setting][1],
+        "digits": {"delta_q": digits, "net_wrench": digits and digits * 0.9,
+                   "multipliers": digits and digits * 0.8},
         "residuals": {"primal": 1.23456e-9, "dual": None, "gap": 0.0},
-        "seconds": {"solver": None, "call": 10 ** chance.uniform(-5, -1), "spent": 1.0},
+        "seconds": dict.fromkeys(CLOCKS) | {"call": 10 ** chance.uniform(-5, -1), "spent": 1.0},
+        "calls": 5,
+        "clock_agrees": chance.random() < 0.99,
+        "memory": 1e8 * chance.random(),
         "iterations": chance.choice([None, 7, 12]),
-    }
+    }  # fmt: skip
 
 
 def written(folder, problems=12, seed=3):
@@ -49,7 +59,10 @@ def written(folder, problems=12, seed=3):
                     for warm in (False, True):
                         # Warm starts are asked on a part of the problems only.
                         if not warm or problem % 3 == 0:
-                            rows.append(measurement(chance, problem, solver, setting, units, warm))
+                            one = (problem, solver, setting, units, warm)
+                            rows.append(measurement(chance, *one))
+                            if problem % 5 == 0:  # asked again, for the noise
+                                rows.append(measurement(chance, *one, repetition=1))
     study = {
         "format": "quasistatic-ref/study-store",
         "version": 2,

@@ -37,13 +37,13 @@ def said(row, name):
 
 
 def shared(rows, names):
-    """Rows that were asked, on the problems on which everybody was, by the fields `names`."""
-    asked = [r for r in rows if r["outcome"] != "not_run_budget"]
-    everybody = {tuple(said(r, n) for n in names) for r in asked}
+    """Rows on the problems that everybody has, by `names`; what a budget cut off is not solved."""
+    everybody = {tuple(said(r, n) for n in names) for r in rows if r["outcome"] != "not_run_budget"}
+    kept = [r for r in rows if tuple(said(r, n) for n in names) in everybody]
     on = {}
-    for r in asked:
+    for r in kept:
         on.setdefault((r["problem"], r["repetition"]), set()).add(tuple(said(r, n) for n in names))
-    return [r for r in asked if on[r["problem"], r["repetition"]] == everybody]
+    return [r for r in kept if on[r["problem"], r["repetition"]] == everybody]
 
 
 def quantile(values, share):
@@ -67,8 +67,11 @@ def number(column, rows, limit):
     """What stands in a column of that name, made of these rows; None for a column of text."""
     if narrowed := re.fullmatch(r"(.*), (\w+ = \w+)", column):
         return number(narrowed[1], picked(rows, narrowed[2]), limit)
-    if least := re.match(r">= (\d) digits", column):
+    if least := re.match(r">= (\d+) digits", column):
         return 100 * sum(delivered(r) >= float(least[1]) for r in rows) / len(rows)
+    if least := re.match(r"time to (\d+) digits, shifted", column):
+        late = [seconds(r, limit) if delivered(r) >= float(least[1]) else limit for r in rows]
+        return 1e3 * (math.exp(sum(math.log(t + 1e-3) for t in late) / len(late)) - 1e-3)
     told = [r["iterations"] for r in rows if r["iterations"] is not None]
     times = [seconds(r, limit) for r in rows]
     logs = sum(math.log(t + 1e-3) for t in times) / len(times)
@@ -85,7 +88,8 @@ def number(column, rows, limit):
         "time, median [ms]": 1e3 * quantile(times, 0.5),
         "time, shifted geometric mean [ms]": 1e3 * (math.exp(logs) - 1e-3),
         "iterations, median": quantile(told, 0.5) if told else None,
-        "said optimal, was wrong": sum(r["wrong"] for r in rows),
+        "said optimal, was wrong": sum(r["wrong"] and r["said_optimal"] for r in rows),
+        "said infeasible, was wrong": sum(r["wrong"] and r["said_infeasible"] for r in rows),
     }
     if column in counts:
         return counts[column]
@@ -115,7 +119,7 @@ def rows_of_line(title, where, columns, line, rows):
     for name, cell in zip(columns, line, strict=True):
         if name == "solver":
             kept = [r for r in kept if cell in (said(r, "label"), r["solver"])]
-        elif name in ("setting", "family"):
+        elif name in ("setting", "family", "interface"):
             kept = [r for r in kept if r[name] == cell]
     if both := re.search(r"that both have, (\w+) aside", where):
         kept = shared(kept, [both[1]])

@@ -6,7 +6,7 @@ from quasistatic_ref.lab.scenes.slabs import slab_step
 from quasistatic_ref.lab.study.families.made import Made
 
 FAKES = '''
-import ctypes, os, signal
+import ctypes, gc, os, signal, subprocess, sys, time
 import numpy as np
 
 def honest(P, q, G, h):
@@ -57,6 +57,82 @@ def prints(P, q, G, h):
     os.write(1, b"noise " * 10000)
     print("noise", flush=True)
     return honest(P, q, G, h)
+
+def peeks(P, q, G, h):
+    """Looks for an answer in every frame above it and in everything that Python holds."""
+    frame, seen = sys._getframe(), []
+    while frame is not None:
+        seen += list(frame.f_locals.values())
+        frame = frame.f_back
+    for one in [*seen, *gc.get_objects()]:
+        if not type(one).__module__.startswith("quasistatic"):
+            continue
+        found = getattr(getattr(one, "answer", one), "delta_q", None)
+        if isinstance(found, np.ndarray) and found.shape == q.shape:
+            return found, np.zeros(len(h))
+    return np.zeros(len(q)), np.zeros(len(h))
+
+def stops_the_clock(P, q, G, h):
+    """Right, and slow by 3 ms of which its process is told nothing."""
+    for module in list(sys.modules.values()):
+        if getattr(module, "perf_counter", None) is not None:
+            module.perf_counter = lambda: 0.0
+    end = time.process_time() + 3e-3
+    while time.process_time() < end:
+        pass
+    return honest(P, q, G, h)
+
+def minus_one(P, q, G, h):
+    """The right answer with multipliers that are none."""
+    return honest(P, q, G, h)[0], np.full(len(h), -1.0)
+
+def detaches(P, q, G, h):
+    """Leaves a program behind, in a session of its own and orphaned, whose id it writes down."""
+    lines = ("import subprocess as s; no = s.DEVNULL; print(s.Popen(['sleep', '600'], stdout=no, "
+             "stderr=no, start_new_session=True).pid)")
+    child = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True)
+    with open(os.path.join(os.path.dirname(__file__), "detached"), "a") as file:
+        file.write(child.stdout)
+    return honest(P, q, G, h)
+
+def detaches_and_dies(P, q, G, h):
+    detaches(P, q, G, h)
+    os._exit(7)
+
+def eats(P, q, G, h):
+    held = []
+    while True:
+        held.append(np.ones(10**6))
+        time.sleep(1e-3)
+
+def scribbles(P, q, G, h):
+    """Writes into every pipe that it finds."""
+    for number in range(3, 300):
+        try:
+            os.write(number, b"\\0\\0\\0\\5nonsense")
+        except OSError:
+            pass
+    return honest(P, q, G, h)
+
+def second_thoughts(P, q, G, h, calls=[]):
+    """Right when it is warmed up and when it is graded, and never again."""
+    calls.append(1)
+    x, z = honest(P, q, G, h)
+    return (x, z) if len(calls) <= 2 else (0 * x, z)
+
+def slow(P, q, G, h):
+    time.sleep(5)
+    return honest(P, q, G, h)
+
+def compiles(P, q, G, h, shapes=set()):
+    """Slow at the first sight of a shape."""
+    if G.shape not in shapes:
+        time.sleep(1.0)
+        shapes.add(G.shape)
+    return honest(P, q, G, h)
+
+def says_there_is_none(P, q, G, h):
+    return "infeasible"
 
 def spoils(P, q, G, h):
     answer = honest(P, q, G, h)

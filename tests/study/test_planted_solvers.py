@@ -11,6 +11,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.measure import Limits, measured
 from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.worker import GRACE
 from tests.study.planted import FAKES
@@ -44,7 +45,7 @@ def folder(tmp_path_factory):
 
 def asked(solver, problem, folder, limit=30.0):
     with Keeper(solver, folder) as keeper:
-        return keeper.measured(problem, DEFAULT, "natural", False, limit)
+        return measured(keeper, problem, DEFAULT, "natural", False, Limits(limit, limit))
 
 
 def fake(name):
@@ -73,7 +74,7 @@ def test_a_looping_solver_is_killed_and_started_again(name, folder, problem):
     with Keeper(fake(name), folder) as keeper:
         for starts in (1, 2):
             begin = time.perf_counter()
-            row = keeper.measured(problem, DEFAULT, "natural", False, 0.2)
+            row = measured(keeper, problem, DEFAULT, "natural", False, Limits(0.2, 0.2))
             assert (row["outcome"], keeper.starts) == ("timeout", starts)
             assert time.perf_counter() - begin < 20
 
@@ -81,17 +82,17 @@ def test_a_looping_solver_is_killed_and_started_again(name, folder, problem):
 def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
     keeper = Keeper(fake("loops_in_c"), folder)
     with keeper:
-        keeper._started()
-        keeper._outbox.send(problem)
-        request = {"setting": DEFAULT, "units": "natural", "warm": False, "limit": 0.1}
-        keeper._outbox.send(request)
+        keeper.start()
+        keeper._outbox.send((1, problem.form))
+        request = {"setting": DEFAULT, "count": 1, "g": None, "start": None, "limit": 0.1}
+        keeper._outbox.send(request | {"form": 1, "patience": 0.1})
         assert keeper._process.wait(timeout=GRACE + 15) == -signal.SIGALRM
 
 
 def test_a_crash_does_not_cost_the_next_measurement(folder, problem):
     with Keeper(fake("exits"), folder) as keeper:
         outcomes = [
-            keeper.measured(problem, DEFAULT, units, False, 30.0)["outcome"]
+            measured(keeper, problem, DEFAULT, units, False, Limits(30.0))["outcome"]
             for units in ("raw", "natural")
         ]
     assert outcomes == ["crashed", "crashed"]
@@ -112,7 +113,7 @@ BODIES = {
     ),
     "says infeasible": (
         'print(json.dumps({"status": "infeasible"}))',
-        ("failed", "infeasible", False, False),
+        ("failed", "infeasible", False, True),
     ),
     "writes no JSON": ('print("hello")', ("failed", "no usable JSON", False, False)),
     "writes a list": ("print([])", ("failed", "no usable JSON", False, False)),
@@ -142,7 +143,7 @@ def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(tmp_path,
     path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
     with Keeper(Solver("mine", "executable", ("./solver",)), tmp_path) as keeper:
-        keeper.measured(problem, DEFAULT, "raw", False, 30.0)
+        measured(keeper, problem, DEFAULT, "raw", False, Limits(30.0))
     seen = json.loads((tmp_path / "seen.json").read_text())
     for name in ("H", "g", "A", "b"):
         assert seen[name] == (getattr(problem.form, name) + 0.0).tolist()

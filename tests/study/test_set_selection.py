@@ -51,10 +51,24 @@ def test_a_study_asks_the_problems_of_a_set_as_they_are(study, members, tmp_path
         problem_set(taken(study, "gaps = 2"), tmp_path / "store", progress=False)
 
 
-@pytest.mark.parametrize("family", ["sparse", "ellipsoid", "infeasible"])
+@pytest.mark.parametrize("family", ["sparse", "ellipsoid"])
 def test_families_that_studies_have_no_place_for_are_refused(study, family):
     with pytest.raises(InputError, match="studies ask dense rows"):
         problems_taken(taken(study, f"{family} = 2"))
+
+
+def test_problems_without_a_solution_come_with_their_farkas_vectors(study, tmp_path):
+    """Y >= 0 with b'y > 0 and A'y = 0, but for the rounding of y."""
+    test_set = taken(study, "infeasible = 3, gaps = 1")
+    made = problem_set(test_set, tmp_path / "store", progress=False)
+    read = problems_read(tmp_path / "store")
+    assert [p.facts.family for p in read] == ["gaps"] + ["infeasible"] * 3
+    for problem, again in zip(made[1:], read[1:], strict=True):
+        A, b, y = again.form.A, again.form.b, again.answer.farkas
+        np.testing.assert_array_equal(y, problem.answer.farkas)
+        assert y.min() >= 0 < b @ y
+        assert (abs(A.T @ y) <= 1e-15 * (abs(A).T @ y)).all()
+    assert read[0].answer.bound == 0.0
 
 
 @pytest.mark.parametrize(("text", "words"), [

@@ -5,8 +5,10 @@ test lists the phrases as they ought to read; whether what the page concludes fr
 holds is for a reader. The first table of the page is held by test_committed_studies.py.
 """
 
+import json
 import math
 import re
+import tomllib
 
 import numpy as np
 
@@ -36,8 +38,11 @@ from tests.study.committed_rows import (
     warm_iterations,
 )
 
+VALIDATION = of.DEFAULT.parents[1]
 PAGE = of.DEFAULT.parents[2] / "docs" / "solver_study.md"
-CONSTANTS = re.compile(r"1e-\d+|\d digits|by 1 %|limit of 1 s|sqrt\(2 eps\)|up to 1e9")
+CONSTANTS = re.compile(
+    r"1e-\d+|\d digits|by 1 %|at most 40|200 problems|all 200|limit of 1 s|sqrt\(2 eps\)|up to 1e9"
+)
 """What the page says that is no result: accuracies, digits that count, what was asked."""
 
 
@@ -103,6 +108,13 @@ def false_claims():
     return *claims, int(high["wrong"].sum()), f"{int(high['said_optimal'].sum()):,}", *own
 
 
+def infeasible_claims():
+    said = columns()["said_infeasible"]
+    assert (columns()["false_infeasible"] == said).all()
+    proxqp = int((said & (columns()["solver"] == "proxqp")).sum())
+    return int(said.sum()), proxqp, int(said.sum()) - proxqp
+
+
 def osqp_iterations():
     found = warm_iterations("osqp")
     same = [setting for setting, (cold, warm) in found.items() if cold == warm]
@@ -125,7 +137,7 @@ def budgets():
 HELD = [
     ("{} contact problems whose answers are known (exactly but for {}), {} solvers directly and {} "
      "of them through CVXPY too, {} settings, {} systems of units, {} calls", extent),
-    ("Surest first; {} problems of all families", lambda: [size(shared("daqp", "tuned"))]),
+    ("Soonest first; {} problems of all families", lambda: [size(shared("daqp", "tuned"))]),
     ("delivers 6 digits on {} of the {} problems and 9 digits on {}, in {:.3f} ms. Do not leave "
      "it at its defaults: at its own `primal_tol=1e-6`, {} of {} answers have fewer than 3 digits "
      "and say optimal, {} of them of the family of mass ratios", small_daqp),
@@ -149,6 +161,10 @@ HELD = [
     ("OSQP solves all but {} % of the problems ({} of these {} are mass ratios)",
      lambda: honest("osqp")),
     ("ProxQP all but {} % ({} of {})", lambda: honest("proxqp")),
+    ("of which it calls {} infeasible",
+     lambda: [asked("proxqp", "high")["false_infeasible"].sum()]),
+    ("Of {} claims that there is no solution all are false: {} of ProxQP's, {} of others",
+     infeasible_claims),
     ("HiGHS has {} digits in the median at each of the {} settings",
      lambda: [highs_medians(), word(len(SETTINGS))]),
     ("it solves {:.1f} % at its defaults and {:.1f} % at 1e-9",
@@ -225,6 +241,31 @@ def test_the_table_of_units_is_that_of_the_committed_rows():
     assert [line[2:] for line in lines] == [
         tuple(raw_and_natural(solver.lower(), setting)) for solver, setting, *_ in lines
     ]
+
+
+def finding_lines():
+    """A line of the table for each single change that the file of options names."""
+    spaces = tomllib.loads((VALIDATION / "option_search.toml").read_text("utf-8"))
+    text = (VALIDATION / "results" / "option_search.jsonl").read_text("utf-8")
+    every = [one for one in map(json.loads, text.splitlines()) if one["half"] == "all"]
+    names = {"highs": "HiGHS", "osqp": "OSQP", "proxqp": "ProxQP"}
+    for solver, space in spaces.items():
+        for finding in space["findings"]:
+            base, new = (
+                next(o for o in every if (o["solver"], o["options"]) == (solver, options))
+                for options in (finding["base"], finding["base"] | finding["change"])
+            )
+            start = "its defaults" if not finding["base"] else f"{finding['base']['eps_abs']:g}"
+            change = ", ".join(f"`{k}={v}`" for k, v in finding["change"].items())
+            cells = [f"{base[n]:.1f} to {new[n]:.1f}" for n in ("six", "nine", "median")]
+            cells.append(f"{base['false_infeasible']} to {new['false_infeasible']}")
+            yield f"| {names[solver]} | {start} | {change} | {' | '.join(cells)} |"
+
+
+def test_the_table_of_single_options_is_that_of_the_committed_log():
+    page = PAGE.read_text("utf-8")
+    missing = [line for line in finding_lines() if line not in page]
+    assert not missing, "ought to read:\n" + "\n".join(missing)
 
 
 def test_what_the_page_concludes_without_a_number_is_so():

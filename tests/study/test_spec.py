@@ -40,7 +40,9 @@ BAD = {
     ),
     "no tables of runs": ("runs = []", "runs: must not be empty"),
     "warm that is no choice": (RUN + "warm = [1]", "runs[0].warm: must be a list of true and"),
-    "no repetition": (RUN + "repetitions = 0", "runs[0].repetitions: must be at least 1"),
+    "no repetition": ("repetitions = 0", "repetitions: must be at least 1"),
+    "no memory": ("memory = 0", "memory: must be greater than 0"),
+    "less than nothing asked again": (RUN + "again = -1", "runs[0].again: must be at least 0"),
     "two interfaces": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
     "no interface": ("[solvers.mine]\n", "solvers.mine: must say one of"),
     "no function": ('[solvers.mine]\ncallable = "module"', "must read module:function"),
@@ -110,7 +112,7 @@ def test_a_tighter_accuracy_never_asks_for_less(name):
 def test_all_solvers_are_asked_on_a_problem_before_the_next_and_take_turns(study):
     spec = study(
         "[problems]\nfamilies.contacts = 6\n[[runs]]\n"
-        'solvers = ["qpsolvers:daqp", "qpsolvers:osqp", "qpsolvers:clarabel"]\nrepetitions = 2'
+        'solvers = ["qpsolvers:daqp", "qpsolvers:osqp", "qpsolvers:clarabel"]\nagain = 1'
     )
     problems = [(f"p{i}", "f") for i in range(6)]
     planned = plan(spec, problems)
@@ -118,20 +120,37 @@ def test_all_solvers_are_asked_on_a_problem_before_the_next_and_take_turns(study
     blocks = [planned[i : i + 3] for i in range(0, len(planned), 3)]
     assert all(len({(m.problem, m.repetition) for m in block}) == 1 for block in blocks)
     assert {block[0].solver.name for block in blocks} == {"daqp", "osqp", "clarabel"}
+    assert [b[0].repetition for b in blocks] == [0] * 6 + [1] * 6  # the noise, after all others
     assert [block[0].problem for block in blocks[:6]] != [p for p, _ in problems]  # scattered
 
 
+def test_settings_are_asked_in_an_order_that_is_drawn_anew_for_each_problem_and_the_same(study):
+    settings = ["default", "low", "mid", "high", "tuned"]
+    spec = study(
+        f"[problems]\nfamilies.contacts = 8\n{RUN}settings = {settings}\nagain = 0\n".replace(
+            "'", '"'
+        )
+    )
+    problems = [(f"p{i}", "f") for i in range(8)]
+    planned = plan(spec, problems)
+    orders = {tuple(m.setting.name for m in planned[i : i + 5]) for i in range(0, 40, 5)}
+    assert all(sorted(order) == sorted(settings) for order in orders)
+    assert len(orders) > 4
+    assert planned == plan(spec, problems)
+
+
 def test_a_measurement_that_two_tables_ask_for_is_made_once(study):
-    spec = study("[problems]\nfamilies.contacts = 4\n" + RUN + RUN + "every = 2\nunits = ['raw']")
+    once = RUN + "again = 0\n"
+    spec = study("[problems]\nfamilies.contacts = 4\n" + once + once + "every = 2\nunits = ['raw']")
     planned = plan(spec, [(f"p{i}", "f") for i in range(4)])
     assert sorted(m.units for m in planned) == ["natural"] * 4 + ["raw"] * 2
-    again = study("[problems]\nfamilies.contacts = 4\n" + RUN + RUN)
+    again = study("[problems]\nfamilies.contacts = 4\n" + once + once)
     assert len(plan(again, [(f"p{i}", "f") for i in range(4)])) == 4
 
 
 def test_only_solvers_that_take_a_start_are_asked_warm(study):
     spec = study(
-        "[problems]\nfamilies.contacts = 1\n[[runs]]\nwarm = [false, true]\n"
+        "[problems]\nfamilies.contacts = 1\n[[runs]]\nagain = 0\nwarm = [false, true]\n"
         'solvers = ["qpsolvers:daqp", "qpsolvers:piqp"]'
     )
     planned = plan(spec, [("p", "f")])

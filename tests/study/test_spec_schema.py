@@ -50,7 +50,8 @@ MISTAKES = {
     "unknown units": HEAD + '[[runs]]\nunits = ["si"]',
     "warm one": HEAD + "[[runs]]\nwarm = [1]",
     "cold and nothing": HEAD + "[[runs]]\nwarm = []",
-    "no repetition": HEAD + "[[runs]]\nrepetitions = 0",
+    "no repetition": HEAD + "repetitions = 0",
+    "less than nothing again": HEAD + "[[runs]]\nagain = -1",
     "every half": HEAD + "[[runs]]\nevery = 0.5",
     "no sweeps": HEAD + 'kind = "sweep"\nsweeps = []',
     "runs in a sweep": HEAD + 'kind = "sweep"\n[[runs]]\n',
@@ -85,6 +86,9 @@ def test_a_mistake_is_refused_by_the_loader_and_by_the_schema(name, validator, t
 
 FULL = f"""{HEAD}time_limit = 1
 budget = 90.0
+warm_up = 5
+memory = 2.5
+repetitions = 7
 problems = {{ seed = 0, scenarios = ["stack"], families = {{ scenarios = 1, contacts = 2 }} }}
 settings = {{ tight = {{ accuracy = 1e-11, promised = 5 }}, high = {{ tuned = true }} }}
 solvers.mine = {{ callable = "my_module:solve", options.tight = {{ a = [1, "b"] }} }}
@@ -94,8 +98,8 @@ solvers = ["qpsolvers:*", "cvxpy:clarabel", "mine", "other"]
 settings = ["default", "tight"]
 units = ["raw", "natural"]
 warm = [false, true]
-repetitions = 2
 every = 1
+again = 3
 """
 
 
@@ -121,7 +125,7 @@ def test_the_command_prints_the_schema_of_studies(capsys):
 
 @pytest.mark.parametrize(("name", "path"), [
     ("a word for a time", ["time_limit"]), ("a misspelt name", ["sweeps", 0]),
-    ("no repetition", ["runs", 0, "repetitions"]),
+    ("less than nothing again", ["runs", 0, "again"]),
 ])  # fmt: skip
 def test_the_schema_marks_what_is_wrong_and_not_the_whole_file(name, path, validator):
     errors = validator.iter_errors(tomllib.loads(MISTAKES[name]))

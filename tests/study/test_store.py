@@ -6,13 +6,13 @@ import resource
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.grade import ungraded
+from quasistatic_ref.lab.study.grade import CLOCKS, ungraded
 from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, study_read, table
 
 STUDY = {"format": "quasistatic-ref/study-store", "version": 2, "kind": "solvers"}
 
 
-SECONDS = {"solver": None, "call": 1.0, "spent": 1.0}
+SECONDS = dict.fromkeys(CLOCKS) | {"call": 1.0, "spent": 1.0}
 
 
 def row(problem, **changes):
@@ -102,7 +102,8 @@ def test_a_store_whose_rows_are_a_folder_is_refused_by_name(tmp_path):
 
 def test_a_table_leaves_out_times_and_nothing_else():
     (kept,) = table([row("a")])
-    assert kept == {k: v for k, v in row("a").items() if k != "seconds"}
+    measured = ("seconds", "calls", "clock_agrees", "memory")
+    assert kept == {k: v for k, v in row("a").items() if k not in measured}
 
 
 def test_a_store_is_plain_json_lines(tmp_path):
@@ -111,14 +112,48 @@ def test_a_store_is_plain_json_lines(tmp_path):
     assert json.loads((tmp_path / ROWS).read_text()) == row("a")
 
 
-def test_rows_of_version_1_are_read_with_the_interface_they_called_a_road(tmp_path):
-    old = {"road" if name == "interface" else name: value for name, value in row("a").items()}
-    (tmp_path / ROWS).write_text(json.dumps(old) + "\n")
-    solvers = [{"name": "s", "road": "callable", "options": {}}]
+OLD = {"problem": "a", "family": "f", "solver": "s", "road": "qpsolvers", "setting": "default",
+       "warm": False, "units": "raw", "repetition": 0, "outcome": "failed",
+       "claimed": "PROXQP_PRIMAL_INFEASIBLE", "said_optimal": False, "wrong": False,
+       "digits": {"delta_q": None, "net_wrench": None}, "residuals": {}, "iterations": None,
+       "seconds": {"solver": 0.1, "call": 1.0, "spent": 1.0}}  # fmt: skip
+
+
+def test_rows_of_version_1_are_read_with_what_they_did_not_measure_null(tmp_path):
+    """An interface was a road; a claim that there is no solution was no false claim."""
+    (tmp_path / ROWS).write_text(json.dumps(OLD) + "\n")
+    solvers = [{"name": "s", "road": "qpsolvers", "options": {}}]
     (tmp_path / "study.json").write_text(json.dumps(STUDY | {"version": 1, "solvers": solvers}))
-    assert rows_read(tmp_path) == [row("a")]
-    assert study_read(tmp_path)["solvers"] == [
-        {"name": "s", "interface": "callable", "options": {}}
-    ]
+    (read,) = rows_read(tmp_path)
+    assert (read["interface"], read["said_infeasible"], read["wrong"]) == ("qpsolvers", True, True)
+    assert (read["memory"], read["calls"], read["seconds"]["call"]) == (None, 1, 1.0)
+    assert read["seconds"]["solver"] is None  # it was qpsolvers' clock
+    (solver,) = study_read(tmp_path)["solvers"]
+    assert solver == {"name": "s", "interface": "qpsolvers", "options": {}}
     with pytest.raises(InputError, match="a store of version 1, which is read and reported but"):
         Store(tmp_path, STUDY)
+
+
+def asked(*names, eps=1e-3):
+    solvers = [
+        {"name": n, "interface": "callable", "target": "m:f", "options": {"high": {"eps": eps}}}
+        for n in names
+    ]
+    settings = [{"name": "high", "accuracy": 1e-9}]
+    return STUDY | {"solvers": solvers, "settings": settings, "runs": [list(names)],
+                    "versions": {}, "machine": {"cores": 2, "load": str(names)}}  # fmt: skip
+
+
+def test_solvers_come_and_go_while_a_study_goes_on(tmp_path):
+    for names, gone in (
+        (["a", "b"], []), (["b", "c"], ["callable:a"]), (["a", "b"], ["callable:c"])
+    ):  # fmt: skip
+        with Store(tmp_path, asked(*names)) as store:
+            if "a" in names and not store.rows:
+                store.add(row("x", solver="a"))
+            assert len(store.rows) == 1  # a's rows wait for it to come back
+        there = study_read(tmp_path)
+        assert [solver["name"] for solver in there["solvers"]] == names
+        assert there.get("removed", []) == gone
+    with pytest.raises(InputError, match=r"another 'solvers\.callable:a'"):
+        Store(tmp_path, asked("a", eps=1e-6))

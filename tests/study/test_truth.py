@@ -99,7 +99,7 @@ def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     assert row["digits"]["delta_q"] == pytest.approx(exponent, abs=1e-3)
     assert row["digits"]["net_wrench"] == pytest.approx(exponent, abs=1e-3)
     assert row["wrong"] == (exponent < 4.5)
-    assert row["seconds"] == {"solver": 0.5, "call": 1.0}
+    assert row["seconds"]["call"] == 1.0
     assert row["iterations"] == 7
 
 
@@ -120,7 +120,7 @@ def test_residuals_are_those_of_qpbenchmark(problem):
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
     row = grades(exam(problem), "raw", reply_of(problem.answer.delta_q, None, False), 3.0)
     assert (row["outcome"], row["wrong"]) == ("failed", False)
-    assert row["digits"] == {"delta_q": 16.0, "net_wrench": None}
+    assert row["digits"] == {"delta_q": 16.0, "net_wrench": None, "multipliers": None}
 
 
 def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):

@@ -11,7 +11,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_pack, run_report
-from quasistatic_ref.lab.study.store import ROWS, Row
+from quasistatic_ref.lab.study.grade import OUTCOMES
+from quasistatic_ref.lab.study.store import ROWS, Row, label_of, unreached_read
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
@@ -110,21 +111,29 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
         shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
         return 0
     shared.print_rows(_summary(rows))
+    for label, reason in unreached_read(options.out).items():
+        print(f"{label} was left out: it {reason}")
     print(f"wrote {options.out / ROWS}")
     return 0
 
 
 def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
-    """One line a solver: how many calls, how they ended, false claims."""
-    columns = ("solved", "failed", "crashed", "timeout", "nan", "wrong_shape", "not_run_budget")
+    """One line a solver: how many calls, how they ended, if any did so, false claims."""
+    ends = {row["outcome"] for row in rows}
+    columns = [outcome for outcome in OUTCOMES if outcome in ends]
+    names = (c.replace("_", " ") for c in columns)
     table: list[tuple[str, ...]] = [
-        ("solver", "calls", *(c.replace("_", " ") for c in columns), "said optimal, was wrong")
+        ("solver", "calls", *names, "said optimal, was wrong", "said infeasible, was wrong")
     ]
-    for label in sorted({f"{row['interface']}:{row['solver']}" for row in rows}):
-        own = [row for row in rows if f"{row['interface']}:{row['solver']}" == label]
+    for label in sorted({label_of(row) for row in rows}):
+        own = [row for row in rows if label_of(row) == label]
         counts = Counter(row["outcome"] for row in own)
-        wrong = sum(row["wrong"] for row in own)
-        table.append((label, str(len(own)), *(str(counts[c]) for c in columns), str(wrong)))
+        wrong = [
+            sum(row["wrong"] and row[f"said_{claim}"] for row in own)
+            for claim in ("optimal", "infeasible")
+        ]
+        cells = (str(counts[c]) for c in columns)
+        table.append((label, str(len(own)), *cells, *map(str, wrong)))
     return table
 
 

@@ -1,14 +1,14 @@
-"""Four ways to call a solver: CVXPY, qpsolvers, a Python callable, an executable."""
+"""Five interfaces to a solver: CVXPY, qpsolvers, its own, a Python callable, an executable."""
 
 import importlib
 import json
 import shutil
 import subprocess
 import sys
-import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -65,6 +66,8 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
         return _by_cvxpy(str(solver.target))
     if solver.interface == "qpsolvers":
         return _directly(str(solver.target))
+    if solver.interface == "native":
+        return _natively(str(solver.target))
     if solver.interface == "callable":
         return _calling(imported(str(solver.target)))
     return _running(_command(tuple(solver.target), folder), folder)
@@ -91,11 +94,11 @@ def imported(target: str) -> Callable[..., Any]:
 
 def tried(call: Callable[[], Reply]) -> Reply:
     """The reply of a call; of one that raises, what it raised and when."""
-    begin = time.perf_counter()
+    begin = perf_counter()
     try:
         return call()
     except Exception as error:  # whatever another package raises
-        return _failed(_words(error), time.perf_counter() - begin)
+        return _failed(_words(error), perf_counter() - begin)
 
 
 def _failed(words: str, seconds: float) -> Reply:
@@ -131,19 +134,46 @@ def _directly(name: str) -> Call:
     return call
 
 
+def _natively(name: str) -> Call:
+    adapter = getattr(
+        importlib.import_module(f"quasistatic_ref.solve.adapters.{name}"), BACKENDS[name].adapter
+    )
+
+    def reply(form: StandardForm, options: Options) -> Reply:
+        program = Program(
+            np.array(form.H, order=adapter.ORDER), -form.g, np.array(form.A, order=adapter.ORDER),
+            form.b.copy(),
+        )  # fmt: skip
+        begin = perf_counter()
+        solver = adapter(program, options)
+        ready = perf_counter()
+        said: Reply = solver.reply(True, False)
+        end = perf_counter()
+        said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
+        return said
+
+    def call(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        return tried(lambda: reply(form, options))
+
+    return call
+
+
 def _calling(function: Callable[..., Any]) -> Call:
     def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
-        begin = time.perf_counter()
+        begin = perf_counter()
         try:
             returned = function(P, q, G, h, **options)
         except Exception as error:  # whatever a user's solver raises
-            return _failed(_words(error), time.perf_counter() - begin)
-        seconds = time.perf_counter() - begin
-        if returned is None:
-            return _failed("returned None", seconds)
+            return _failed(_words(error), perf_counter() - begin)
+        seconds = perf_counter() - begin
+        if returned is None or isinstance(returned, str):
+            said = "returned None" if returned is None else returned
+            return _failed(" ".join(said.split())[:200], seconds)
         try:
             x, z = returned
         except (TypeError, ValueError):
@@ -166,7 +196,7 @@ def _running(command: tuple[str, ...], folder: str) -> Call:
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:
         text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
-        begin = time.perf_counter()
+        begin = perf_counter()
         done = subprocess.run(
             command,
             input=text.encode(),
@@ -175,7 +205,7 @@ def _running(command: tuple[str, ...], folder: str) -> Call:
             timeout=limit,
             cwd=folder,
         )
-        seconds = time.perf_counter() - begin
+        seconds = perf_counter() - begin
         if done.returncode < 0:
             raise Crashed(f"killed by signal {-done.returncode}", seconds)
         if done.returncode > 0:
@@ -207,7 +237,7 @@ def _written(output: bytes, seconds: float) -> Reply:
         return Reply(
             x, lam, status == "optimal" and x is not None, status,
             None if iterations is None else int(iterations),
-            None if own is None else float(own), seconds,
+            None if own is None else float(own), seconds, None if own is None else float(own),
         )  # fmt: skip
     except (ValueError, TypeError, AttributeError, RecursionError) as error:
         return _failed(f"no usable JSON: {_words(error)}", seconds)

@@ -7,8 +7,17 @@ from functools import partial
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.conduct import BLOCK, Answered, Block, Work, block_rows, conduct
+from quasistatic_ref.lab.study.conduct import (
+    BLOCK,
+    Answered,
+    Block,
+    Left,
+    Work,
+    block_rows,
+    conduct,
+)
 from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.measure import Limits
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.lab.study.store import Row
 
@@ -34,7 +43,7 @@ def conduct_on_cluster(work: Work, address: str) -> None:
     """
 
     def answered(solver: Solver) -> Answered:
-        return partial(_elsewhere, work.folder, solver)
+        return partial(_elsewhere, work.folder, work.memory, solver)
 
     with executor_of(address) as (executor, slots):
         conduct(work, executor, slots, answered, BLOCK)
@@ -60,10 +69,12 @@ def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
         client.close()
 
 
-def _elsewhere(folder: str, solver: Solver, block: Block, limit: float, left: float) -> list[Row]:
+def _elsewhere(
+    folder: str, memory: float, solver: Solver, block: Block, limits: Limits, left: Left
+) -> list[Row]:
     """The rows of one block, on a worker of the cluster, in a process of its own."""
-    with Keeper(solver, folder) as keeper:
-        return block_rows(keeper, block, limit, left)
+    with Keeper(solver, folder, memory) as keeper:
+        return block_rows(keeper, block, limits, left)
 
 
 def _client(address: str) -> Any:

@@ -7,8 +7,9 @@ import numpy as np
 from quasistatic_ref.lab.study.grade import NOT_RUN, SOLVED
 from quasistatic_ref.lab.study.store import Row
 
+FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers")
 Columns = Mapping[str, np.ndarray]
-Where = Mapping[str, str | bool]
+Where = Mapping[str, str | bool | int]
 
 TEXT = ("problem", "family", "interface", "solver", "setting", "units", "outcome", "claimed")
 
@@ -31,7 +32,7 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
         call, the time limit where it does not; ``net``; ``iterations``, NaN where not told.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
-    for name in ("warm", "said_optimal", "wrong"):
+    for name in FLAGS:
         columns[name] = np.array([row[name] for row in rows], dtype=bool)
     columns["repetition"] = np.array([row["repetition"] for row in rows], dtype=int)
     columns["label"] = np.array(
@@ -49,6 +50,9 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     columns["digits"] = np.where(solved & np.isfinite(digits), digits, 0.0)
     columns["net"] = np.where(solved & np.isfinite(net), net, 0.0)
     columns["seconds"] = np.where(solved & np.isfinite(call), call, limit)
+    columns["warm_up"] = _numbers([row["seconds"]["warm_up"] for row in rows])
+    columns["memory"] = _numbers([row["memory"] for row in rows])
+    columns["clock_agrees"] = np.array([row["clock_agrees"] for row in rows], dtype=bool)
     columns["iterations"] = _numbers([row["iterations"] for row in rows])
     return columns
 
@@ -73,9 +77,13 @@ def common(columns: Columns, by: Sequence[str] = ("label",)) -> Columns:
     ----------
     columns : mapping of str to ndarray
     by : sequence of str
-        What tells one from another. Those who were asked nothing at all are left out.
+        What tells one from another. Those who were asked nothing at all are left out; what a
+        budget did not reach is not solved, so that it costs its own solver and no other.
     """
-    columns = _kept(columns, columns["asked"])
+    if not size(columns):
+        return columns
+    one = _numbered(columns, by)
+    columns = _kept(columns, np.isin(one, one[columns["asked"]]))
     if not size(columns):
         return columns
     _, unit = np.unique(columns["unit"], return_inverse=True)

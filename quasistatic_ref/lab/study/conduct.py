@@ -4,28 +4,31 @@ The same loop serves the cores of this machine and a Dask cluster: both are exec
 blocks of measurements and give back rows. There is never more than one block of a solver under way.
 """
 
-import time
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.measure import Limits, measured
 from quasistatic_ref.lab.study.plan import Measurement
-from quasistatic_ref.lab.study.qp import Problem
+from quasistatic_ref.lab.study.qp import Problem, Truth
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.lab.study.store import Row, Store
 from quasistatic_ref.progress import progress_bar
 
 Block = list[tuple[Measurement, Problem]]
-Answered = Callable[[Block, float, float], list[Row]]
-"""(block, time limit of a problem [s], what is left of the budget [s]) -> rows."""
+Left = tuple[float, float]
+"""What is left of a solver's budget: for calls, and for starts and calls that warm up [s]."""
+Answered = Callable[[Block, Limits, Left], list[Row]]
+"""(block, what a call may take, what is left of the budget) -> rows."""
 BLOCK = 50
 """Measurements of a block that is sent to a cluster."""
 
 
-def block_rows(keeper: Keeper, block: Block, limit: float, left: float) -> list[Row]:
+def block_rows(keeper: Keeper, block: Block, limits: Limits, left: Left) -> list[Row]:
     """Measure one block; a measurement beyond the budget is a row that says so.
 
     Parameters
@@ -33,33 +36,43 @@ def block_rows(keeper: Keeper, block: Block, limit: float, left: float) -> list[
     keeper : Keeper
         Of the one solver of the block.
     block : list of (Measurement, Problem)
-    limit : float
-        Of one problem [s].
-    left : float
+    limits : Limits
+    left : (float, float)
         Of the solver's budget [s].
 
     Returns
     -------
     list of dict
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be imported.
     """
-    rows = []
+    rows: list[Row] = []
     for m, problem in block:
-        if left <= 0:
-            rows.append(unmeasured(m))
-            continue
-        begin = time.perf_counter()
-        found = keeper.measured(problem, m.setting, m.units, m.warm, limit)
-        spent = time.perf_counter() - begin
-        left -= spent
-        seconds = found["seconds"] | {"spent": spent}
-        rows.append(m.fields() | found | {"seconds": seconds})
+        if min(_less(left, rows)) <= 0:
+            rows.append(unmeasured(m, isinstance(problem.answer, Truth)))
+        else:
+            found = measured(keeper, problem, m.setting, m.units, m.warm, limits)
+            rows.append(m.fields() | found)
     return rows
 
 
-def unmeasured(m: Measurement) -> Row:
+def unmeasured(m: Measurement, feasible: bool) -> Row:
     """The row of a measurement that the budget did not reach."""
-    row = ungraded(NOT_RUN, "not run (budget)", 0.0)
+    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
     return m.fields() | row | {"seconds": row["seconds"] | {"spent": 0.0}}
+
+
+def _less(left: Left, rows: Iterable[Row]) -> Left:
+    """What rows leave of a budget."""
+    calls, warming = left
+    for row in rows:
+        seconds = row["seconds"]
+        calls -= seconds["spent"]
+        warming -= (seconds["start"] or 0.0) + (seconds["warm_up"] or 0.0)
+    return calls, warming
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,18 +88,26 @@ class Work:
     problems : mapping of str to Problem
     folder : str
         Where callables and executables are looked for.
-    limit, budget : float
-        Of a problem, and of a solver [s].
+    limits : Limits
+        Of a call.
+    budget : float
+        Of a solver [s], for its calls, and as much for its starts and its calls that warm up.
+    memory : float
+        Of a solver [bytes].
     progress : bool
+    unreached : dict of str to str
+        Solvers that could not be imported, with the reason; they are found out on the way.
     """
 
     store: Store
     todo: Sequence[Measurement]
     problems: Mapping[str, Problem]
     folder: str
-    limit: float
+    limits: Limits
     budget: float
+    memory: float = 4e9
     progress: bool = True
+    unreached: dict[str, str] = field(default_factory=dict)
 
 
 def conduct(
@@ -112,7 +133,7 @@ def conduct(
     queues: dict[str, deque[tuple[int, Measurement]]] = {}
     for place, m in enumerate(work.todo):
         queues.setdefault(m.solver.label, deque()).append((place, m))
-    left = {label: work.budget - spent for label, spent in _spent(work.store, queues).items()}
+    left = _left(work, queues)
     under_way: dict[Future[list[Row]], str] = {}
     total = len(work.todo)
     with progress_bar(total=total, unit="call", words="asked", shown=work.progress) as bar:
@@ -126,14 +147,20 @@ def conduct(
                         del queues[label]
                     items = [(m, work.problems[m.problem]) for m in taken]
                     call = answered(taken[0].solver)
-                    under_way[executor.submit(call, items, work.limit, left[label])] = label
+                    under_way[executor.submit(call, items, work.limits, left[label])] = label
                 done, _ = wait(under_way, return_when=FIRST_COMPLETED)
                 for future in done:
                     label = under_way.pop(future)
-                    for row in future.result():
+                    try:
+                        rows = future.result()
+                    except InputError as error:  # which costs this solver, and no other
+                        work.unreached[label] = error.problem
+                        bar.update(1 + len(queues.pop(label, ())))
+                        continue
+                    for row in rows:
                         work.store.add(row)
-                        left[label] -= row["seconds"]["spent"]
                         bar.update()
+                    left[label] = _less(left[label], rows)
         finally:
             for future in under_way:
                 future.cancel()
@@ -144,8 +171,8 @@ def conduct_here(work: Work, jobs: int) -> None:
     keepers: dict[str, Keeper] = {}
 
     def answered(solver: Solver) -> Answered:
-        keeper = keepers.setdefault(solver.label, Keeper(solver, work.folder))
-        return lambda block, limit, left: block_rows(keeper, block, limit, left)
+        keeper = keepers.setdefault(solver.label, Keeper(solver, work.folder, work.memory))
+        return lambda block, limits, left: block_rows(keeper, block, limits, left)
 
     try:
         with ThreadPoolExecutor(jobs) as executor:
@@ -167,11 +194,10 @@ def _taken(queue: deque[tuple[int, Measurement]], block: int) -> list[Measuremen
     return taken
 
 
-def _spent(store: Store, labels: Mapping[str, object]) -> dict[str, float]:
-    """Seconds that each solver has used, of the rows that are there."""
-    spent = dict.fromkeys(labels, 0.0)
-    for row in store.rows:
-        label = f"{row['interface']}:{row['solver']}"
-        if label in spent:
-            spent[label] += row["seconds"]["spent"]
-    return spent
+def _left(work: Work, labels: Iterable[str]) -> dict[str, Left]:
+    """What each solver has left of its budget after the rows that are there."""
+    own: dict[str, list[Row]] = {label: [] for label in labels}
+    for row in work.store.rows:
+        if (label := f"{row['interface']}:{row['solver']}") in own:
+            own[label].append(row)
+    return {label: _less((work.budget, work.budget), rows) for label, rows in own.items()}

@@ -8,14 +8,20 @@ from pathlib import Path
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.backends import BACKENDS
 
+CPU = Path("/sys/devices/system/cpu/cpu0")
+
 
 def machine() -> dict[str, object]:
-    """Processor, its cores, system and Python."""
+    """Processor, cores, caches, governor of its frequency, memory, system, Python, the load."""
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),
+        "caches": _caches(),
+        "governor": _read(CPU / "cpufreq" / "scaling_governor") or "not told",
+        "memory [GB]": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "system": f"{platform.system()} {platform.release()}",
         "python": platform.python_version(),
+        "load": " ".join(f"{one:.2f}" for one in os.getloadavg()),
     }
 
 
@@ -35,6 +41,22 @@ def _version(package: str) -> str:
 
             return __version__
         return "not known"
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text().strip()
+    except OSError:
+        return ""
+
+
+def _caches() -> str:
+    """Sizes by level and kind, such as ``L1 data 32K``."""
+    found = []
+    for folder in sorted((CPU / "cache").glob("index*")):
+        kind = _read(folder / "type").lower().replace("unified", "")
+        found.append(f"L{_read(folder / 'level')} {kind}".strip() + f" {_read(folder / 'size')}")
+    return ", ".join(found) or "not told"
 
 
 def _processor() -> str:

@@ -5,13 +5,15 @@ lossless, and digits, which are relative, do not notice.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.lab.study.qp import Problem, Truth, units_of
+from quasistatic_ref.lab.study.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.qp import NoSolution, Problem, Truth, units_of
 from quasistatic_ref.quoting import clipped
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.units import Units, natural_form
@@ -19,8 +21,12 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 SOLVED, FAILED, NAN, WRONG_SHAPE = "solved", "failed", "nan", "wrong_shape"
-CRASHED, TIMEOUT, NOT_RUN = "crashed", "timeout", "not_run_budget"
-OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, NAN, WRONG_SHAPE, NOT_RUN)
+CRASHED, TIMEOUT, MEMORY, NOT_RUN = "crashed", "timeout", "memory", "not_run_budget"
+OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
+CLOCKS = ("solver", "setup", "call", "low", "high", "first", "warm_up", "start", "spent")
+"""Times of a row [s]."""
+SLACK = 1e-13
+"""Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +38,7 @@ class Exam:
     forms : dict of str to StandardForm
         By units, ``"raw"`` and ``"natural"``.
     units : Units
-    answer : Truth
+    answer : Truth or NoSolution
         In natural units.
     norm : EnergyNorm
         Of the problem in natural units.
@@ -42,26 +48,26 @@ class Exam:
 
     forms: dict[str, StandardForm]
     units: Units
-    answer: Truth
+    answer: Truth | NoSolution
     norm: EnergyNorm
     free: float
 
 
+@lru_cache(maxsize=8)  # of the problem at which all solvers are
 def exam(problem: Problem) -> Exam:
     """A problem prepared: its natural units, and the norm that errors are measured in."""
     units = units_of(problem.form)
     natural = natural_form(problem.form, units)
-    norm = energy_norm(natural.H)
+    norm, answer = energy_norm(natural.H), problem.answer
     S, rho = units.coordinate, units.size
-    answer = Truth(
-        problem.answer.delta_q / (rho * S), problem.answer.net * S / rho, problem.answer.bound
-    )
+    if isinstance(answer, Truth):
+        answer = Truth(answer.delta_q / (rho * S), answer.net * S / rho, answer.bound)
     free = float(norm.impulses(natural.g[None])[0])
     return Exam({"raw": problem.form, "natural": natural}, units, answer, norm, free)
 
 
 def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[str, Any]:
-    """Outcome, claim, digits, residuals, times of one reply, as fields of a row.
+    """Outcome, claims, digits, residuals of one reply, as fields of a row.
 
     Parameters
     ----------
@@ -70,37 +76,51 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
         ``"raw"`` or ``"natural"``.
     reply : Reply
     promised : float
-        Digits [-] of delta_q below which "optimal" is a false claim.
+        Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
 
     Returns
     -------
     dict
     """
     outcome, x, lam = _usable(paper.forms[asked_in], reply)
-    row = ungraded(outcome, reply.status, reply.call_seconds)
+    row = ungraded(outcome, reply.status, reply.call_seconds, isinstance(paper.answer, Truth))
     with np.errstate(all="ignore"):
         if x is not None:
             row["residuals"] = _residuals(paper.forms[asked_in], x, lam)
             if asked_in == "raw":
                 x = x / (paper.units.size * paper.units.coordinate)
                 lam = None if lam is None else lam * (paper.units.length / paper.units.size)
-            row["digits"] = _digits(paper, x, lam)
-    found = row["digits"]["delta_q"]
-    row["wrong"] = reply.solved and (found is None or found < promised)
-    row["seconds"]["solver"] = _finite(reply.seconds)
+            if isinstance(paper.answer, Truth):
+                row["digits"] = _digits(paper, paper.answer, x, lam)
+    said = row["said_infeasible"] = not reply.solved and says_infeasible(reply.status)
+    found, dual = (row["digits"][name] for name in ("delta_q", "multipliers"))
+    if row["feasible"]:
+        row["wrong"] = said or (reply.solved and (found is None or found < promised))
+        row["wrong_multipliers"] = bool(reply.solved and dual is not None and dual < promised)
+    else:
+        row["wrong"] = reply.solved
+    row["seconds"] |= {"solver": _finite(reply.own), "setup": _finite(reply.setup)}
     return row | {"said_optimal": reply.solved, "iterations": reply.iterations}
 
 
-def ungraded(outcome: str, claimed: str, seconds: float) -> dict[str, Any]:
+def ungraded(
+    outcome: str, claimed: str, seconds: float | None, feasible: bool = True
+) -> dict[str, Any]:
     """The same fields of a call that never came back, after `seconds` [s], or never was made."""
     return {
         "outcome": outcome,
         "claimed": clipped(claimed),
+        "feasible": feasible,
         "said_optimal": False,
+        "said_infeasible": False,
         "wrong": False,
-        "digits": {"delta_q": None, "net_wrench": None},
+        "wrong_multipliers": False,
+        "digits": {"delta_q": None, "net_wrench": None, "multipliers": None},
         "residuals": {"primal": None, "dual": None, "gap": None},
-        "seconds": {"solver": None, "call": seconds},
+        "seconds": dict.fromkeys(CLOCKS) | {"call": seconds},
+        "calls": 0,
+        "clock_agrees": True,
+        "memory": None,
         "iterations": None,
     }
 
@@ -118,23 +138,33 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
 
 
-def _digits(paper: Exam, x: Array, lam: Array | None) -> dict[str, float | None]:
-    answer, form = paper.answer, paper.forms["natural"]
-    off = paper.norm.displacement(x - answer.delta_q)
-    net = None
-    if lam is not None:
-        net = float(paper.norm.impulses((form.A.T @ lam - answer.net)[None])[0])
-    return {
-        "delta_q": _digits_of(off, paper),
-        "net_wrench": None if net is None else _digits_of(net, paper),
+def _digits(paper: Exam, answer: Truth, x: Array, lam: Array | None) -> dict[str, float | None]:
+    digits: dict[str, float | None] = {
+        "delta_q": _digits_of(paper.norm.displacement(x - answer.delta_q), paper, answer.bound),
+        "net_wrench": None,
+        "multipliers": None,
     }
+    if lam is not None:
+        form = paper.forms["natural"]
+        A, bound = form.A, answer.bound
+        net, negative = A.T @ lam - answer.net, A.T @ np.minimum(lam, 0.0)
+        off, below = paper.norm.impulses(np.array([net, negative]))
+        digits["net_wrench"] = _digits_of(float(off), paper, bound)
+        # Slacks of the exact answer that rounding alone may have made are none. What multipliers
+        # of others add to the dual's gap bounds an error by strong convexity, as a gap does.
+        slack = A @ answer.delta_q - form.b
+        slack[slack < SLACK * (abs(A) @ abs(answer.delta_q) + abs(form.b))] = 0.0
+        gap = float(np.maximum(lam, 0.0) @ slack)
+        worst = max(float(off), float(below), float(np.sqrt(2 * gap)))
+        digits["multipliers"] = _digits_of(worst, paper, bound)
+    return digits
 
 
-def _digits_of(size: float, paper: Exam) -> float:
+def _digits_of(size: float, paper: Exam, bound: float) -> float:
     if paper.free == 0:
         return MOST if size == 0 else 0.0
     # Of an enclosure no more digits are reported than are known.
-    return digits_of_error(max(size / paper.free, paper.answer.bound))
+    return digits_of_error(max(size / paper.free, bound))
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:

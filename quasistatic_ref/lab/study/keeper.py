@@ -1,20 +1,25 @@
-"""The keeper of one solver's process: start, question, kill when it hangs, start again."""
+"""The keeper of one solver's process: start, question, kill when it hangs or eats, start again."""
 
 import contextlib
 import os
 import signal
 import subprocess
 import sys
-import time
+import uuid
+from collections import deque
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from time import perf_counter, sleep
 
 import quasistatic_ref
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.grade import CRASHED, TIMEOUT, ungraded
-from quasistatic_ref.lab.study.qp import Problem
+from quasistatic_ref.lab.study import processes
+from quasistatic_ref.lab.study.grade import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.study.solvers import Setting, Solver
+from quasistatic_ref.lab.study.wire import HEAD, Told, Unreadable, from_bytes
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
 
 WORKER = "quasistatic_ref.lab.study.worker"
 """The module that runs in a solver's process."""
@@ -25,11 +30,51 @@ START = 120.0
 EXTRA = 0.5
 """What a process may take beyond the time limit, for solvers that stop themselves [s]."""
 
+LOOK = 0.02
+"""How often the memory of a process is looked at while it computes [s]."""
+
+KEPT = 2
+"""Programs that a process keeps: one in raw and in natural units."""
+
+PINGS = 9
+"""Exchanges without a call, whose median is what an exchange takes."""
+
 ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS",
      "VECLIB_MAXIMUM_THREADS", "NUMEXPR_NUM_THREADS"), "1",
 )  # fmt: skip
 """Each solver has one core, or times could not be compared."""
+
+
+class Ended(Exception):
+    """The process was ended, or ended itself: `outcome`, `words`, and `seconds` until then [s]."""
+
+    def __init__(self, outcome: str, words: str, seconds: float) -> None:
+        self.outcome, self.words, self.seconds = outcome, words, seconds
+        super().__init__(words)
+
+
+@dataclass(frozen=True)
+class Request:
+    """Calls that a process makes before it answers.
+
+    Parameters
+    ----------
+    setting : Setting
+    limit : float
+        Seconds that each call may take.
+    count : int
+    g : ndarray, shape (n,), or None
+        In place of the program's own, for a call that warms up.
+    start : ndarray, shape (n,), or None
+        The g of the program whose answer a warm start comes from [N s, N m s].
+    """
+
+    setting: Setting
+    limit: float
+    count: int = 1
+    g: Array | None = None
+    start: Array | None = None
 
 
 class Keeper:
@@ -40,60 +85,93 @@ class Keeper:
     solver : Solver
     folder : str or Path
         Where a callable's module is looked for, besides the usual places.
+    memory : float
+        Most that it may hold, with its children [bytes].
     """
 
-    def __init__(self, solver: Solver, folder: str | Path = ".") -> None:
-        self.solver, self.folder = solver, str(Path(folder).resolve())
+    def __init__(self, solver: Solver, folder: str | Path = ".", memory: float = 4e9) -> None:
+        self.solver, self.folder, self.memory = solver, str(Path(folder).resolve()), memory
         self._process: subprocess.Popen[bytes] | None = None
-        self._problem: str | None = None
+        self._sent: deque[StandardForm] = deque(maxlen=KEPT)
         self.starts = 0
+        self.exchange = 0.0
+        """What an exchange without a call takes [s]."""
+        self.seen: set[object] = set()
+        """What has been warmed up since the process started."""
 
-    def measured(
-        self, problem: Problem, setting: Setting, units: str, warm: bool, limit: float
-    ) -> dict[str, Any]:
-        """Ask once; whatever the solver does, fields of a row come back.
+    def answer(self, form: StandardForm, request: Request) -> tuple[Told, float]:
+        """What the process says, and the seconds until it did by the clock of this one.
 
-        Parameters
-        ----------
-        problem : Problem
-        setting : Setting
-        units : str
-        warm : bool
-        limit : float
-            Seconds after which the process is killed; a warm start may take as long before.
-
-        Returns
-        -------
-        dict
+        Without those that either of the two waited for a core, if the system tells, but never
+        less than the process was on one.
 
         Raises
         ------
+        Ended
+            If it was killed, crashed, or said what no worker says.
         InputError
             If the solver cannot be imported.
         """
-        self._started()
-        request = {"setting": setting, "units": units, "warm": warm, "limit": limit}
-        begin = time.perf_counter()
+        self.start()
+        assert self._process is not None
+        calls = request.count * (1 + (request.start is not None))
+        patience = calls * request.limit + EXTRA
+        message = {**vars(request), "patience": patience, "form": id(form)}
+        begin = perf_counter()
         try:
-            if self._problem != problem.id:
-                self._outbox.send(problem)
-                self._problem = problem.id
-            self._outbox.send(request)
-            if self._inbox.poll((1 + warm) * limit + EXTRA):
-                reply: dict[str, Any] = self._inbox.recv()
-                return reply
+            if not any(form is one for one in self._sent):
+                self._outbox.send((id(form), form))
+                self._sent.append(form)
+            before = processes.computed_and_waited(self._process.pid)
+            begin = perf_counter()
+            self._outbox.send(message)
+            while not self._inbox.poll(LOOK):
+                self._watched(perf_counter() - begin, patience, request.limit)
+            sizes = len(form.g), len(form.b)
+            message_ = self._inbox.recv_bytes(HEAD + 8 * sum(sizes) + 1)
+            seconds = perf_counter() - begin
+            after = processes.computed_and_waited(self._process.pid)
+            computed, waited = (b - a for a, b in zip(before, after, strict=True))
+            return from_bytes(message_, sizes), max(seconds - waited, computed)
         except (EOFError, OSError):
-            return ungraded(CRASHED, self._ended(), time.perf_counter() - begin)
-        self.close()
-        return ungraded(TIMEOUT, f"killed after {limit:g} s", time.perf_counter() - begin)
+            raise Ended(CRASHED, self._ended(), perf_counter() - begin) from None
+        except Unreadable:
+            self.close()
+            words = "its process wrote what is no reply"
+            raise Ended(CRASHED, words, perf_counter() - begin) from None
+
+    def _watched(self, seconds: float, patience: float, limit: float) -> None:
+        assert self._process is not None
+        if processes.resident(self._process.pid) > self.memory:
+            self.close()
+            words = f"killed beyond {self.memory / 1e9:g} GB of memory"
+            raise Ended(MEMORY, words, seconds)
+        if seconds > patience:
+            self.close()
+            raise Ended(TIMEOUT, f"killed after {limit:g} s", seconds)
+
+    @property
+    def pid(self) -> int | None:
+        """Of the process, if there is one."""
+        return None if self._process is None else self._process.pid
+
+    def tidy(self) -> None:
+        """End what has detached itself from the process since it was last tidied."""
+        if self._process is not None:
+            processes.end(processes.detached(self._process.pid))
 
     def close(self) -> None:
-        """End the process."""
+        """End the process, its children, and what they left behind."""
         if self._process is None:
             return
+        pid = self._process.pid
         with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+            os.kill(pid, signal.SIGSTOP)  # it starts no more of them
+        processes.end(processes.descendants(pid))
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(pid, signal.SIGKILL)
         self._process.wait()
+        processes.end(processes.marked(self._token))
         self._inbox.close()
         self._outbox.close()
         self._process = None
@@ -104,44 +182,67 @@ class Keeper:
     def __exit__(self, *exception: object) -> None:
         self.close()
 
-    def _started(self) -> None:
+    def start(self) -> None:
+        """Start the process and let it import its solver, if it is not there.
+
+        Raises
+        ------
+        InputError
+            If the solver cannot be imported.
+        """
         if self._process is not None:
             return
         theirs_in, ours_out = os.pipe()
         ours_in, theirs_out = os.pipe()
         root = str(Path(quasistatic_ref.__file__).parents[1])
         path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
+        self._token = uuid.uuid4().hex
+        mark = {"PYTHONPATH": path, processes.TOKEN: self._token}
         self._process = subprocess.Popen(
             [sys.executable, "-m", WORKER, str(theirs_in), str(theirs_out)],
             pass_fds=(theirs_in, theirs_out),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,  # solvers print
             stderr=subprocess.DEVNULL,
-            env=os.environ | ONE_THREAD | {"PYTHONPATH": path},
+            env=os.environ | ONE_THREAD | mark,
             start_new_session=True,  # an executable that it runs is killed with it
         )
         os.close(theirs_in)
         os.close(theirs_out)
         self._inbox = Connection(ours_in, writable=False)
         self._outbox = Connection(ours_out, readable=False)
-        self._problem, self.starts = None, self.starts + 1
-        trouble: str | None = "its process did not start"
+        self.starts += 1
+        self._sent.clear()
+        self.seen.clear()
+        self.exchange = 0.0
+        trouble = "its process did not start"
         with contextlib.suppress(EOFError, OSError):
             self._outbox.send((self.solver, self.folder))
             if self._inbox.poll(START):
-                trouble = self._inbox.recv()
-        if trouble is not None:
+                trouble = self._inbox.recv_bytes(HEAD).decode(errors="replace")
+        if trouble:
             self.close()
             raise InputError(trouble, field=f"solvers.{self.solver.name}")
 
     def _ended(self) -> str:
         """How the process came to its end; it is cleared away."""
         assert self._process is not None
-        process = self._process
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(1.0)
-        code = process.poll()
+        process, code = self._process, self._process.poll()
+        for _ in range(100):
+            if code is not None:
+                break
+            sleep(0.01)
+            code = process.poll()
         self.close()
         if code is None:
             return "its process closed its pipe"
         return f"killed by signal {-code}" if code < 0 else f"its process ended with status {code}"
+
+
+def exchange(keeper: Keeper, form: StandardForm, setting: Setting) -> float:
+    """Median time of an exchange without a call [s], measured once for each process."""
+    if not keeper.exchange:
+        nothing = Request(setting, START, 0)
+        times = sorted(keeper.answer(form, nothing)[1] for _ in range(PINGS))
+        keeper.exchange = times[PINGS // 2]
+    return keeper.exchange

@@ -14,7 +14,15 @@ from quasistatic_ref.files import (
     writable_folder,
 )
 from quasistatic_ref.lab.study.problems import FACTS
-from quasistatic_ref.lab.study.store import PACKED, STUDY, Row, rows_read, study_checked
+from quasistatic_ref.lab.study.store import (
+    PACKED,
+    STUDY,
+    UNREACHED,
+    Row,
+    rows_read,
+    study_checked,
+    unreached_read,
+)
 
 FIGURES = 3
 """Significant figures of times and residuals: their noise is larger."""
@@ -44,6 +52,8 @@ def packed(folder: str | Path, out: str | Path) -> list[Path]:
         text_written(out / STUDY, json_text(study) + "\n"),
         bytes_written(out / PACKED, content),
     ]
+    if reasons := unreached_read(folder):
+        written.append(text_written(out / UNREACHED, json_text(reasons) + "\n"))
     if study["kind"] == "solvers":
         written.append(text_written(out / FACTS, bytes_read(folder / FACTS).decode()))
     return written

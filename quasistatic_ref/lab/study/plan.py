@@ -1,17 +1,19 @@
 """Every measurement of a study, in an order in which times can be compared.
 
 Problems come in one scattered order, the same for all solvers, so that what a budget cuts off is
-no family but a part of all; on each problem all solvers are asked before the next one.
+no family but a part of all; on each problem all solvers are asked before the next one, they and
+their settings in an order that is drawn anew: whoever comes first finds cold caches.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.lab.study.solvers import Setting, Solver
-from quasistatic_ref.lab.study.spec import Study
+from quasistatic_ref.lab.study.spec import Part, Study
 
 
 @dataclass(frozen=True)
@@ -63,28 +65,34 @@ def plan(study: Study, problems: Sequence[tuple[str, str]]) -> list[Measurement]
     Returns
     -------
     list of Measurement
-        None twice, though several parts may ask for it.
+        None twice, though several parts may ask for it. After all problems some are asked again,
+        as repetition 1: how much these differ from the first is the noise of the study.
     """
-    order = np.random.default_rng(study.problems.seed).permutation(len(problems))
-    most = max(part.repetitions for part in study.parts)
+    rng = np.random.default_rng(study.problems.seed)
+    order = rng.permutation(len(problems))
     planned: dict[tuple[object, ...], Measurement] = {}
-    for repetition in range(most):
+    for repetition in (0, 1):
         for place, p in enumerate(order):
-            problem, family = problems[int(p)]
-            here: list[Measurement] = []
+            here: dict[tuple[object, ...], Measurement] = {}
             for part in study.parts:
-                if repetition >= part.repetitions or place % part.every:
+                stride = part.every * (part.again if repetition else 1)
+                if not stride or place % stride:
                     continue
-                turn = place % len(part.solvers)  # nobody always comes first
-                for solver in (*part.solvers[turn:], *part.solvers[:turn]):
-                    for setting in part.settings:
-                        here += [
-                            Measurement(problem, family, solver, setting, units, warm, repetition)
-                            for units in part.units
-                            for warm in part.warm
-                            if solver.takes(setting) and (solver.warm or not warm)
-                        ]
-            for m in here:
-                key = (problem, m.solver.label, m.setting.name, m.units, m.warm, repetition)
-                planned.setdefault(key, m)
+                here |= {_key(m): m for m in _asked(part, *problems[int(p)], repetition)}
+            solvers = list(dict.fromkeys(m.solver.label for m in here.values()))
+            turn = {label: i for i, label in enumerate(rng.permutation(solvers).tolist())}
+            scattered = [list(here.values())[i] for i in rng.permutation(len(here))]
+            for m in sorted(scattered, key=lambda m: turn[m.solver.label]):
+                planned.setdefault(_key(m), m)
     return list(planned.values())
+
+
+def _asked(part: Part, problem: str, family: str, repetition: int) -> Iterator[Measurement]:
+    """What a part asks of one problem."""
+    for solver, setting, units, warm in product(part.solvers, part.settings, part.units, part.warm):
+        if solver.takes(setting) and (solver.warm or not warm):
+            yield Measurement(problem, family, solver, setting, units, warm, repetition)
+
+
+def _key(m: Measurement) -> tuple[object, ...]:
+    return m.problem, m.solver.label, m.setting.name, m.units, m.warm, m.repetition

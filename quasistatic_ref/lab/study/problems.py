@@ -24,7 +24,16 @@ from quasistatic_ref.lab.study.families.harvest import (
 )
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
-from quasistatic_ref.lab.study.qp import Facts, Problem, Truth, condition, units_of
+from quasistatic_ref.lab.study.qp import (
+    INFEASIBLE,
+    Facts,
+    NoSolution,
+    Problem,
+    Truth,
+    condition,
+    kind_of,
+    units_of,
+)
 from quasistatic_ref.lab.study.schema import FACT
 from quasistatic_ref.lab.study.sets.selection import problems_taken, set_identity
 from quasistatic_ref.lab.study.spec import TestSet
@@ -37,11 +46,12 @@ from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 FORMAT, VERSION = "quasistatic-ref/study-problems", 2
-"""Version 1 of the problems came from other scenes, and its rows were rounded in another order."""
+"""Version 1 came from other scenes, and its rows were rounded in another order."""
 HEADER, FACTS, NUMBERS = "problems.json", "problems.jsonl", "problems.npz"
 BEGUN = "begun"
 """The folder within a store that has the problems of a test set that is not yet whole."""
 NAMES: Final = ("H", "g", "A", "b", "delta_q", "net")
+FARKAS: Final = "farkas"  # one array more, where some problems have no solution
 AGAIN = "bunny_grasp"
 """The scenario that is asked again at other h and k: the paper's own."""
 CLOSEST = (1, 2, 3, 5, 8, 13, 20, 32, 50)
@@ -185,32 +195,36 @@ def problems_read(folder: str | Path) -> list[Problem]:
     folder = Path(folder)
     head, lines = _head(folder), lines_read(folder / FACTS, FACT)
     arrays = npz_arrays(folder / NUMBERS, "the numbers of a test set")
-    sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in NAMES}
+    names = [*NAMES, *{FARKAS for said in lines if said["kind"] == INFEASIBLE}]
+    sizes = {n: (sum(math.prod(_shapes(said)[n]) for said in lines),) for n in names}
     if (
         head.get("format") != FORMAT
         or {name: array.shape for name, array in arrays.items()} != sizes
         or head.get("sha256") != _digest(arrays)
     ):
         raise InputError("is no test set, or was changed; remove the folder", file=folder)
-    at = dict.fromkeys(NAMES, 0)
+    at = dict.fromkeys(names, 0)
     problems = []
     for said in lines:
         numbers = {}
-        for name, shape in _shapes(said).items():
+        for name in names:
+            shape = _shapes(said)[name]
             size = math.prod(shape)
             numbers[name] = arrays[name][at[name] : at[name] + size].reshape(shape)
             at[name] += size
         facts = Facts(**{key: said[key] for key in Facts.__dataclass_fields__})
         form = StandardForm(*(numbers[name] for name in NAMES[:4]))
-        problems.append(
-            Problem(facts, form, Truth(numbers["delta_q"], numbers["net"], said["bound"]))
-        )
+        answer = (NoSolution(numbers[FARKAS]) if said["kind"] == INFEASIBLE else
+                  Truth(numbers["delta_q"], numbers["net"], said["bound"]))  # fmt: skip
+        problems.append(Problem(facts, form, answer))
     return problems
 
 
 def _shapes(said: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
-    n, m = said["n"], said["m"]
-    return {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": (n,), "net": (n,)}
+    n, m, none = said["n"], said["m"], said["kind"] == INFEASIBLE
+    known = (0,) if none else (n,)
+    return {"H": (n, n), "g": (n,), "A": (m, n), "b": (m,), "delta_q": known, "net": known,
+            FARKAS: (m,) if none else (0,)}  # fmt: skip
 
 
 def _head(folder: Path) -> dict[str, Any]:
@@ -227,7 +241,7 @@ def set_record(problems: Sequence[Problem]) -> dict[str, Any]:
         families[problem.facts.family] = families.get(problem.facts.family, 0) + 1
     return {
         "count": len(problems),
-        "exact": sum(problem.answer.bound == 0 for problem in problems),
+        "exact": sum(kind_of(problem.answer) == "exact" for problem in problems),
         "families": families,
         "sha256": _digest(_flat(problems)),
     }
@@ -250,7 +264,6 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
     lines = []
     for problem in problems:
         form = problem.form
-        natural = natural_form(form, units_of(form))
         lines.append(
             json_text(
                 asdict(problem.facts)
@@ -258,9 +271,9 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
                     "n": len(form.g),
                     "m": len(form.b),
                     "condition": condition(form),
-                    "condition_natural": condition(natural),
-                    "kind": "exact" if problem.answer.bound == 0 else "enclosure",
-                    "bound": problem.answer.bound,
+                    "condition_natural": condition(natural_form(form, units_of(form))),
+                    "kind": kind_of(problem.answer),
+                    "bound": getattr(problem.answer, "bound", 0.0),
                 }
             )
         )
@@ -274,14 +287,14 @@ def _flat(problems: Sequence[Problem]) -> dict[str, np.ndarray]:
     """Arrays of one kind after one another."""
     parts: dict[str, list[np.ndarray]] = {name: [np.zeros(0)] for name in NAMES}
     for problem in problems:
-        for name in NAMES:
-            owner = problem.form if name in ("H", "g", "A", "b") else problem.answer
-            parts[name].append(np.ravel(getattr(owner, name)))
+        for owner in (problem.form, problem.answer):
+            for name in (n for n in (*NAMES, FARKAS) if hasattr(owner, n)):
+                parts.setdefault(name, []).append(np.ravel(getattr(owner, name)))
     return {name: np.concatenate(arrays) for name, arrays in parts.items()}
 
 
 def _digest(arrays: dict[str, np.ndarray]) -> str:
     digest = hashlib.sha256()
-    for name in NAMES:
+    for name in (*NAMES, *({FARKAS} & set(arrays))):
         digest.update(np.ascontiguousarray(arrays[name]).tobytes())
     return digest.hexdigest()

@@ -13,6 +13,8 @@ from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 
 UNITS = ("raw", "natural")
+INFEASIBLE = "infeasible"
+"""The kind of answer that is a Farkas vector."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +63,29 @@ class Truth:
 
 
 @dataclass(frozen=True, eq=False)
+class NoSolution:
+    """The answer to a problem that has none.
+
+    Parameters
+    ----------
+    farkas : ndarray, shape (m,)
+        y >= 0 with A'y = 0 and b'y > 0, correctly rounded [-]: 0 = y'A x >= y'b > 0.
+    """
+
+    farkas: Array
+
+
+Answer = Truth | NoSolution
+
+
+def kind_of(answer: Answer) -> str:
+    """What ``problems.jsonl`` calls an answer: exact, an enclosure, or infeasible."""
+    if isinstance(answer, NoSolution):
+        return INFEASIBLE
+    return "enclosure" if answer.bound else "exact"
+
+
+@dataclass(frozen=True, eq=False)
 class Problem:
     """A quadratic program min 1/2 x'Hx - g'x, A x >= b in SI units, and its answer.
 
@@ -68,12 +93,12 @@ class Problem:
     ----------
     facts : Facts
     form : StandardForm
-    answer : Truth
+    answer : Truth or NoSolution
     """
 
     facts: Facts
     form: StandardForm
-    answer: Truth
+    answer: Answer
 
     @property
     def id(self) -> str:

@@ -7,7 +7,13 @@ from quasistatic_ref.lab.page.parts import Report
 from quasistatic_ref.lab.study.problems import FACTS
 from quasistatic_ref.lab.study.schema import FACT, check_solver_rows, check_sweep_rows
 from quasistatic_ref.lab.study.solver_report import solver_report
-from quasistatic_ref.lab.study.store import lines_read, rows_read, study_checked
+from quasistatic_ref.lab.study.store import (
+    label_of,
+    lines_read,
+    rows_read,
+    study_checked,
+    unreached_read,
+)
 from quasistatic_ref.lab.study.sweep_report import sweep_report
 
 
@@ -38,8 +44,10 @@ def study_report(folder: str | Path) -> Report:
         if name == "sweep":
             check_sweep_rows(study, rows)
             return sweep_report(study, rows)
+        gone = set(study.get("removed", []))
+        rows = [row for row in rows if label_of(row) not in gone]
         facts = lines_read(folder / FACTS, FACT)
         check_solver_rows(study, facts, rows)
     except InputError as error:
         raise error.in_file(folder) from None
-    return solver_report(study, facts, rows)
+    return solver_report(study, facts, rows, unreached_read(folder))

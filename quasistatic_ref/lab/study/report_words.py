@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.lab.page.parts import Table
+from quasistatic_ref.lab.study.page import options_words
 from quasistatic_ref.lab.study.statistics import SHIFT
 
 
@@ -39,6 +40,22 @@ def place_tables(study: Mapping[str, Any]) -> tuple[Table, Table]:
         Table("Machine.", "study.json, machine", ("what", "which"), machine, left=2),
         Table("Versions.", "study.json, versions", ("package", "version"), packages, left=2),
     )
+
+
+def old_times(study: Mapping[str, Any]) -> list[str]:
+    """What must be said of the times of a store of version 1."""
+    return _words()["old"] if study.get("version") == 1 else []
+
+
+def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
+    """Every solver's options at every setting."""
+    rows = tuple(
+        (s["name"], s["interface"], setting, f"`{options_words(options)}`")
+        for s in solvers
+        for setting, options in s["options"].items()
+    )
+    names = ("solver", "interface", "setting", "its own options")
+    return Table("Options.", "study.json, solvers", names, rows, left=4)
 
 
 def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:

@@ -9,11 +9,19 @@ from typing import Any
 from quasistatic_ref.files import writable_folder
 from quasistatic_ref.lab.study.conduct import Work, conduct_here
 from quasistatic_ref.lab.study.environment import machine, versions
+from quasistatic_ref.lab.study.measure import Limits
 from quasistatic_ref.lab.study.plan import plan
 from quasistatic_ref.lab.study.problems import problem_set, set_record
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.spec import Study
-from quasistatic_ref.lab.study.store import VERSION, Row, Store, key_of
+from quasistatic_ref.lab.study.store import (
+    VERSION,
+    Row,
+    Store,
+    key_of,
+    label_of,
+    unreached_written,
+)
 
 
 def run_study(
@@ -55,14 +63,17 @@ def run_study(
     with Store(folder, study_record(study, problems)) as store:
         done = store.keys
         todo = [m for m in planned if key_of(m.fields()) not in done]
-        work = Work(store, todo, by_id, place, study.time_limit, study.budget, progress)
+        limits = Limits(study.time_limit, study.warm_up, study.repetitions)
+        work = Work(store, todo, by_id, place, limits, study.budget, study.memory, progress)
         if scheduler is None:
             conduct_here(work, jobs or os.cpu_count() or 1)
         else:
             from quasistatic_ref.lab.study.cluster import conduct_on_cluster
 
             conduct_on_cluster(work, scheduler)
-        return store.rows
+        unreached_written(folder, work.unreached)
+        labels = {solver.label for solver in study.solvers}
+        return [row for row in store.rows if label_of(row) in labels]
 
 
 def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
@@ -91,6 +102,9 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
         "kind": "solvers",
         "time_limit": study.time_limit,
         "budget": study.budget,
+        "warm_up": study.warm_up,
+        "memory": study.memory,
+        "repetitions": study.repetitions,
         "runs": parts,
         "settings": [asdict(s) for s in study.settings],
         "solvers": solvers,

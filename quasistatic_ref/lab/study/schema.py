@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.grade import OUTCOMES
+from quasistatic_ref.lab.study.grade import CLOCKS, OUTCOMES
 from quasistatic_ref.lab.study.qp import UNITS
 
 Kind = tuple[str, Callable[[Any], bool]]
@@ -58,11 +58,13 @@ ANYTHING: Kind = ("anything", lambda value: True)
 
 SOLVER_ROW: Shape = {
     "problem": TEXT, "family": TEXT, "solver": TEXT, "interface": TEXT, "setting": TEXT,
-    "warm": FLAG, "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES), "claimed": TEXT,
-    "said_optimal": FLAG, "wrong": FLAG, "digits": {"delta_q": MAYBE, "net_wrench": MAYBE},
+    "warm": FLAG, "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES),
+    "claimed": TEXT, "feasible": FLAG, "said_optimal": FLAG, "said_infeasible": FLAG,
+    "wrong": FLAG, "wrong_multipliers": FLAG,
+    "digits": {"delta_q": MAYBE, "net_wrench": MAYBE, "multipliers": MAYBE},
     "residuals": _table_of(MAYBE),
-    "seconds": {"solver": _or_null(TIME), "call": _or_null(TIME), "spent": TIME},
-    "iterations": MAYBE,
+    "seconds": {**dict.fromkeys(CLOCKS, _or_null(TIME)), "spent": TIME},
+    "calls": COUNT, "clock_agrees": FLAG, "memory": MAYBE, "iterations": MAYBE,
 }  # fmt: skip
 SWEEP_ROW: Shape = {
     "sweep": TEXT, "scenario": TEXT, "values": _table_of(VALUE), "outcome": TEXT,

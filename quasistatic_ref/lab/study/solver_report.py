@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
-from quasistatic_ref.lab.study.advice import advice, advice_table, options_table
 from quasistatic_ref.lab.study.columns import (
     Columns,
     Where,
@@ -18,10 +17,15 @@ from quasistatic_ref.lab.study.columns import (
     matrix,
     size,
 )
+from quasistatic_ref.lab.study.headline import WANTED, Soonest, soonest, soonest_table
+from quasistatic_ref.lab.study.judged_tables import claims_sentence, detection, failing_clocks
+from quasistatic_ref.lab.study.noise import Noise, noise_of, noise_words
 from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
     limitations,
     method,
+    old_times,
+    options_table,
     place_tables,
     settings_table,
 )
@@ -40,8 +44,8 @@ from quasistatic_ref.lab.study.solver_tables import (
 from quasistatic_ref.lab.study.statistics import performance_ratios, success
 from quasistatic_ref.lab.study.store import Row
 
-NEEDED = {"default": 3.0, "low": 1.0, "mid": 3.0, "high": 6.0, "tuned": 9.0}
-"""Digits that count as right in a profile, by setting."""
+PROFILED = (6.0, 9.0)
+"""Digits that count as right in a profile."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,13 +60,24 @@ class _Asked:
     settings : list of str
         Each solver's own first, then from loose to tight.
     base : mapping
-        The interface, units and warmth that most calls were made with.
+        The units and warmth that most solvers were asked in.
+    noise : Noise
     """
 
     study: Mapping[str, Any]
     columns: Columns
     settings: list[str]
     base: Where
+    noise: Noise
+
+    def soonest(self, least: float) -> list[Soonest]:
+        """Each solver at the setting that delivers so many digits soonest."""
+        return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
+
+    def best(self) -> list[str]:
+        """Of the interfaces to one solver the one with the fastest 6 digits, for figures."""
+        found = [one.label for one in self.soonest(WANTED[0])]
+        return list({label.partition(":")[2]: label for label in reversed(found)}.values())[::-1]
 
     def at(self, setting: str) -> Where:
         """The calls at one setting, of those that are compared first."""
@@ -77,7 +92,10 @@ class _Asked:
 
 
 def solver_report(
-    study: Mapping[str, Any], facts: Sequence[Mapping[str, Any]], rows: Sequence[Row]
+    study: Mapping[str, Any],
+    facts: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
+    unreached: Mapping[str, str] | None = None,
 ) -> Report:
     """The report on a store of solvers.
 
@@ -88,26 +106,33 @@ def solver_report(
     facts : sequence of mapping
         ``problems.jsonl``.
     rows : sequence of dict
+    unreached : mapping of str to str, optional
+        Solvers that could not be imported, with the reason.
 
     Returns
     -------
     Report
     """
-    columns = columns_of(rows, study["time_limit"])
-    asked = _Asked(study, columns, _settings(study, columns), _widest(columns))
+    every = columns_of(rows, study["time_limit"])
+    first = chosen(every, {"repetition": 0})
+    columns = chosen(first, {"feasible": True})
+    columns = columns if size(columns) else first
+    noise = noise_of(every)
+    asked = _Asked(study, columns, _settings(study, columns), _widest(columns), noise)
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
         f"{len(facts):,} problems, {len(set(columns['label'])):,} pairs of solver and interface, "
         f"{len(rows):,} measurements."
     )
+    heads = [head, *old_times(study), noise_words(noise)]
     options = options_table(study["solvers"])
     sections: dict[str, Sequence[Block]] = {
-        "Which settings to use": [head, *_advised(asked)],
+        "Time to so many digits": [*heads, *_headline(asked, unreached or {})],
         "Accuracy and time": _compared(asked),
-        "Said optimal, was wrong": _claims(asked),
+        "False claims": [*_claims(asked), *detection(first)],
         "By problem family": _by_family(asked, families),
         "Units, warm starts, interfaces": _contrasts(asked),
-        "How calls ended": [outcome_table(columns)],
+        "How calls ended": [outcome_table(first), *failing_clocks(first)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
         "Limitations": limitations(),
         "Problems": [problem_table(facts)],
@@ -125,41 +150,60 @@ def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
 
 
 def _widest(columns: Columns) -> Where:
-    """The interface, units and warmth that most calls were made with: what is compared first."""
-    most = max(groups(columns, ["interface", "units", "warm"]), key=lambda one: size(one[1]))
-    interface, units, warm = most[0]
-    return {"interface": interface, "units": units, "warm": warm == "True"}
+    """The units and warmth that most solvers were asked in: what is compared first."""
+    every = groups(columns, ["units", "warm"])
+    (units, warm), _ = max(every, key=lambda one: (len(set(one[1]["label"])), size(one[1])))
+    return {"units": units, "warm": warm == "True"}
 
 
-def _advised(asked: _Asked) -> list[Block]:
-    found, more = advice(asked.columns, asked.settings, asked.base)
-    return [
-        "For each solver the setting that delivers 6 digits most often; of settings within 1 % of "
-        "that, the one with the least shifted geometric mean of times. Surest first.",
-        advice_table(found, asked.study["solvers"], asked.base, more),
-    ]
+def _headline(asked: _Asked, unreached: Mapping[str, str]) -> list[Block]:
+    options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
+    tables = []
+    for least in WANTED:
+        told = options if least == WANTED[0] else None
+        tables.append(soonest_table(asked.soonest(least), asked.base, asked.noise, told))
+    there = set(chosen(asked.columns, asked.base)["label"])
+    words = [f"{label} was left out: it {reason}." for label, reason in unreached.items()]
+    if missing := sorted(set(asked.columns["label"]) - there):
+        names = f"{', '.join(missing)} {'was' if len(missing) == 1 else 'were'}"
+        words.append(
+            f"{names} never asked with {filter_words(asked.base)}, and cannot be compared."
+        )
+    return [*words, *tables]
 
 
 def _compared(asked: _Asked) -> list[Block]:
-    panels, shares, said = [], [], []
+    panels, shares, said, best = [], [], [], asked.best()
+    for least in PROFILED:
+        found = {one.label: one for one in asked.soonest(least)}
+        lines = [found[label] for label in best if label in found]
+        if not lines:
+            continue
+        order = [np.argsort(one.rows["unit"]) for one in lines]
+        times = np.array([one.rows["seconds"][at] for one, at in zip(lines, order, strict=True)])
+        good = np.array([one.rows["digits"][at] for one, at in zip(lines, order, strict=True)])
+        ratios = performance_ratios(times, good >= least)
+        title = f"right to {least:g} digits"
+        panels.append({"title": title, "labels": [one.label for one in lines], "ratios": ratios})
+        said.append(f"{title}{same_problems(lines[0].rows)}")
+    settings = "; ".join(said) + "; each at the setting of the table of that time"
+    profiles = f"{filter_words(asked.base)}; {settings}"
+    said = []
     for setting in asked.main:
         own = common(chosen(asked.columns, asked.at(setting)))
-        labels = [label for (label,), _ in groups(own, ["label"])]
-        if not labels:
-            continue
-        good, needed = matrix(own, "digits", labels), NEEDED.get(setting, 6)
-        ratios = performance_ratios(matrix(own, "seconds", labels), good >= needed)
-        title = f"{setting}: right to {needed:g} digits"
-        panels.append({"title": title, "labels": labels, "ratios": ratios})
-        found = np.array([[success(d, least) for least in LEVELS] for d in good])
-        shares.append({"title": setting, "labels": labels, "shares": found})
-        said.append(f"setting = {setting}{same_problems(own)}")
+        labels = [label for (label,), _ in groups(own, ["label"]) if label in best]
+        if labels:
+            right = matrix(own, "digits", labels)
+            of = np.array([[success(d, level) for level in LEVELS] for d in right])
+            shares.append({"title": setting, "labels": labels, "shares": of})
+            said.append(f"setting = {setting}{same_problems(own)}")
     rows = f"{filter_words(asked.base)}; {'; '.join(said)}"
     words, levels = "Problems solved to 3, 6 and 9 correct digits.", {"levels": LEVELS}
+    caption = "Performance profiles. Of each solver the interface with the fastest 6 digits."
     return [
-        _picture("profiles", panels, "Performance profiles.", rows),
+        _picture("profiles", panels, caption, profiles),
         _picture("success", shares, words, rows, **levels),
-        _against_time(asked),
+        _against_time(asked, best),
         *(solver_table(asked.columns, asked.at(setting)) for setting in asked.settings),
     ]
 
@@ -171,7 +215,7 @@ def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any
     return Picture(name, name, {"panels": panels, **more}, caption, where)
 
 
-def _against_time(asked: _Asked) -> Block:
+def _against_time(asked: _Asked, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
     own_ = {s["name"]: s["accuracy"] is None for s in asked.study["settings"]}
     panels, said = [], []
@@ -184,6 +228,7 @@ def _against_time(asked: _Asked) -> Block:
                 if size(at := chosen(part, {"setting": s}))
             ]
             for (label,), part in groups(own, ["label"])
+            if label in best
         }
         if lines:
             panels.append({"title": f"{units} units", "lines": lines})
@@ -203,8 +248,7 @@ def _claims(asked: _Asked) -> list[Block]:
         false_claims(columns, asked.settings, {"units": units, "warm": warm == "True"})
         for (units, warm), _ in sorted(groups(columns, ["units", "warm"]), key=lambda one: one[0])
     ]
-    words = f"{int(columns['wrong'].sum()):,} of {int(columns['said_optimal'].sum()):,} claims"
-    return [f"{words} of success are false.", *tables, worst_claims(columns, promised)]
+    return [*claims_sentence(columns), *tables, worst_claims(columns, promised)]
 
 
 def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
@@ -225,12 +269,14 @@ def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
 
 
 def _contrasts(asked: _Asked) -> list[Block]:
-    interface, units = {"interface": asked.base["interface"]}, {"units": asked.base["units"]}
-    cold, columns = {"warm": False}, (asked.columns, asked.settings)
-    directly, raw = ("qpsolvers", "cvxpy"), ("raw", "natural")
-    tables = (
-        contrast(*columns, "Raw units and natural units.", "units", raw, interface | cold),
-        contrast(*columns, "Cold and warm starts.", "warm", (False, True), interface | units, True),
-        contrast(*columns, "Directly and through CVXPY.", "interface", directly, units | cold),
-    )
+    units, cold = {"units": asked.base["units"]}, {"warm": False}
+    columns, ways = (asked.columns, asked.settings), ["label", "setting"]
+    raw = ("raw", "natural")
+    tables = [
+        contrast(*columns, "Raw units and natural units.", "units", raw, cold, ways),
+        contrast(*columns, "Cold and warm starts.", "warm", (False, True), units, ways, True),
+    ]
+    for one, other in (("qpsolvers", "cvxpy"), ("native", "qpsolvers")):
+        title = f"{one} and {other}."
+        tables.append(contrast(*columns, title, "interface", (one, other), units | cold))
     return [table for table in tables if table.rows]

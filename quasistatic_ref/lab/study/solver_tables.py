@@ -23,7 +23,8 @@ def solver_table(columns: Columns, where: Where) -> Table:
     own = common(chosen(columns, where))
     rows = [
         (
-            label,
+            label.partition(":")[2],
+            label.partition(":")[0],
             str(size(part)),
             percent(100 * float(part["solved"].mean())),
             *(percent(success(part["digits"], least)) for least in LEVELS),
@@ -38,10 +39,10 @@ def solver_table(columns: Columns, where: Where) -> Table:
     return Table(
         f"Setting {where['setting']}, {where['units']} units.",
         filter_words(where, same_problems(own)),
-        ("solver", "calls", "solved [%]", *(f">= {d:g} digits [%]" for d in LEVELS),
+        ("solver", "interface", "calls", "solved [%]", *(f">= {d:g} digits [%]" for d in LEVELS),
          "digits, 1st percentile", "digits, median", "digits of the net wrench, median",
          "time, median [ms]", "time, shifted geometric mean [ms]"),
-        tuple(rows),
+        tuple(rows), left=2,
     )  # fmt: skip
 
 
@@ -58,22 +59,27 @@ def outcome_table(columns: Columns) -> Table:
     ]
     words = {NOT_RUN: "not run (budget)"}
     names = tuple(words.get(o, o.replace("_", " ")) for o in OUTCOMES)
-    return Table("How the calls ended.", "all rows", ("solver", "calls", *names), tuple(rows))
+    return Table("How the calls ended.", "repetition = 0", ("solver", "calls", *names), tuple(rows))
 
 
 def false_claims(columns: Columns, settings: Sequence[str], where: Where) -> Table:
-    """Said optimal, was wrong: how many calls, of how many that said optimal."""
+    """What was claimed wrongly: optimal, infeasible, multipliers; of how many claims of success."""
     rows = []
     for (label,), part in groups(chosen(columns, where), ["label"]):
         cells = []
         for setting in settings:
-            own = chosen(part, {"setting": setting, "said_optimal": True})
-            cells.append(f"{int(own['wrong'].sum())} / {size(own)}" if size(own) else "-")
+            own = chosen(part, {"setting": setting})
+            said = own["said_optimal"]
+            counts = (own["wrong"] & said, own["wrong"] & own["said_infeasible"],
+                      own["wrong_multipliers"])  # fmt: skip
+            words = " + ".join(str(int(count.sum())) for count in counts)
+            cells.append(f"{words} / {int(said.sum())}" if size(own) else "-")
         rows.append((label, *cells))
     units, way = where["units"], "warm" if where["warm"] else "cold"
     return Table(
-        f"Said optimal, was wrong / said optimal: {units} units, {way}.",
-        filter_words(where, ", said_optimal = true"),
+        "Said optimal, was wrong + said infeasible, was wrong + wrong multipliers / said optimal: "
+        f"{units} units, {way}.",
+        filter_words(where),
         ("solver", *settings),
         tuple(rows),
     )
@@ -115,6 +121,7 @@ def contrast(
     by: str,
     values: Sequence[Any],
     where: Where,
+    ways: Sequence[str] = ("solver", "setting"),
     iterations: bool = False,
 ) -> Table:
     """One field at two or more values, each solver and setting on the same problems.
@@ -128,11 +135,13 @@ def contrast(
         The field; ``interface`` compares a solver with itself, too.
     values : sequence
     where : mapping
+    ways : sequence of str
+        What a line is about: a solver, or a solver with its interface (``label``), and a setting.
     iterations : bool
         Whether to tell their median.
     """
     rows = []
-    every = dict(groups(chosen(columns, where), ["solver", "setting"]))
+    every = dict(groups(chosen(columns, where), ways))
     solvers = dict.fromkeys(solver for solver, _ in every)
     for key in ((solver, setting) for solver in solvers for setting in settings):
         if key not in every:

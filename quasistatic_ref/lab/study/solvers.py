@@ -6,7 +6,7 @@ from typing import Any
 
 from quasistatic_ref.solve.backends import BACKENDS, Backend
 
-INTERFACES = ("cvxpy", "qpsolvers", "callable", "executable")
+INTERFACES = ("cvxpy", "qpsolvers", "native", "callable", "executable")
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Solver:
     @property
     def known(self) -> bool:
         """Whether its options are in our table."""
-        return self.interface in ("cvxpy", "qpsolvers")
+        return self.interface in ("cvxpy", "qpsolvers", "native")
 
     @property
     def entry(self) -> Backend:

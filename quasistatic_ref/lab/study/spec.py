@@ -34,6 +34,8 @@ TURNED = ("contacts", "mass_ratio", "bodies")
 """Those of them whose dial a study file may end elsewhere."""
 LARGEST = 2**20
 """Largest study file [bytes]."""
+GB = 1e9
+"""[bytes]"""
 QUICK = 20
 """By how much ``--quick`` divides the number of problems."""
 
@@ -74,17 +76,18 @@ class Part:
     settings : tuple of Setting
     units : tuple of str
     warm : tuple of bool
-    repetitions : int
     every : int
         3 asks every third problem, in a random order of all families.
+    again : int
+        10 asks every tenth of these once more, after all others; 0 none.
     """
 
     solvers: tuple[Solver, ...]
     settings: tuple[Setting, ...]
     units: tuple[str, ...]
     warm: tuple[bool, ...]
-    repetitions: int
     every: int
+    again: int
 
 
 @dataclass(frozen=True)
@@ -99,6 +102,12 @@ class Study:
         Of one problem [s].
     budget : float
         Of one solver, all its calls together [s].
+    warm_up : float
+        Of the first call of a shape, which is not counted [s].
+    memory : float
+        Of one solver [bytes].
+    repetitions : int
+        Calls of a measurement that are timed.
     parts : tuple of Part
     """
 
@@ -106,6 +115,9 @@ class Study:
     problems: TestSet
     time_limit: float
     budget: float
+    warm_up: float
+    memory: float
+    repetitions: int
     parts: tuple[Part, ...]
 
     @property
@@ -191,7 +203,10 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         parts = tuple(
             _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
         )
-        return Study(path, problems, top["time_limit"], top["budget"], parts)
+        return Study(
+            path, problems, top["time_limit"], top["budget"], top["warm_up"],
+            top["memory"] * GB, top["repetitions"], parts,
+        )  # fmt: skip
     except InputError as error:
         raise error.in_file(path) from None
 
@@ -254,8 +269,8 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
         tuple(settings[name] for name in dict.fromkeys(names)),
         tuple(dict.fromkeys(given["units"])),
         tuple(dict.fromkeys(given["warm"])),
-        given["repetitions"],
         given["every"],
+        given["again"],
     )
 
 

@@ -14,6 +14,7 @@ from quasistatic_ref.solve.backends import BACKENDS, installed
 BY_INTERFACE = {
     "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
     "qpsolvers": list(BACKENDS),
+    "native": [b.name for b in BACKENDS.values() if b.adapter],
 }
 
 
@@ -31,7 +32,7 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
         given = TABLES.all_values(table, SOLVER)
         interfaces = [interface for interface in INTERFACES if given[interface] is not None]
         if len(interfaces) != 1:
-            words = "must say one of cvxpy, qpsolvers, callable and executable"
+            words = "must say one of cvxpy, qpsolvers, native, callable and executable"
             raise tables.fail(name, words, interfaces or None)
         (interface,) = interfaces
         target, options = (

@@ -60,6 +60,11 @@ TABLES = Tables({
                             2.0, above=0.0, most=LONGEST_LIMIT),
         "budget": Field("number", "of one solver, all its calls together", "s", 600.0, above=0.0,
                         most=LARGE),
+        "warm_up": Field("number", "of the first call of a shape at a setting, in which a solver "
+                         "may compile; not counted", "s", 10.0, above=0.0, most=LONGEST_LIMIT),
+        "memory": Field("number", "of one solver's processes", "GB", 4.0, above=0.0, most=LARGE),
+        "repetitions": Field("integer", "calls whose times are taken, of each measurement; more "
+                             "where they are short", default=5, least=1, most=1000),
         "problems": Field("table", "on what solvers are compared", default={}, of=PROBLEMS),
         "settings": Field("tables by name", default={}, of=SETTING, says="settings of your own, "
                           f"or others in place of {', '.join(s.name for s in SETTINGS)}"),
@@ -104,23 +109,27 @@ TABLES = Tables({
                        default=None),
         "qpsolvers": Field("text", "a solver's name, for options of its own without CVXPY",
                            default=None),
+        "native": Field("text", "a solver's name, for options of its own in its own interface",
+                        default=None),
         "callable": Field("text", "module:function", default=None, schema={"pattern": MODULE}),
         "executable": Field("list of words", "a program and its arguments", default=None, least=1),
         "options": Field("tables by name", "options at each setting, in place of ours",
                          default={}),
     },
     RUN: {
-        "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, * for every one that is "
-                         "installed, or names of [solvers.NAME]", default=["qpsolvers:*"], least=1),
+        "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, native:NAME, * for every "
+                         "one that is installed, or names of [solvers.NAME]",
+                         default=["qpsolvers:*"], least=1),
         "settings": Field("list of words", "names of settings", default=["default"], least=1),
         "units": Field("list of words", f"of {', '.join(UNITS)}", default=["natural"], least=1,
                        schema={"items": {"enum": list(UNITS)}}),
         "warm": Field("list of true and false", "whether from the answer to a neighbour",
                       default=[False], least=1,
                       schema={"type": "array", "items": {"type": "boolean"}}),
-        "repetitions": Field("integer", "of each call", default=1, least=1, most=1000),
         "every": Field("integer", "take the first problem of every so many", default=1, least=1,
                        most=MOST_PROBLEMS),
+        "again": Field("integer", "ask one of so many of these problems again, after all, which "
+                       "measures the noise; 0: none", default=10, least=0, most=MOST_PROBLEMS),
     },
     SWEEPS: {
         **_head("sweep"),

@@ -7,6 +7,8 @@ SHIFT = 1e-3
 
 TICK = 1e-9
 """Shortest time that a clock tells apart [s]: a call of no time at all took that long."""
+SAMPLES = 400
+"""Of a bootstrap."""
 LOW = 1.0
 """The percentile that stands for "nearly the worst"."""
 
@@ -53,3 +55,31 @@ def performance_ratios(seconds: np.ndarray, good: np.ndarray) -> np.ndarray:
     ratios = np.full(times.shape, np.inf)
     np.divide(times, fastest, out=ratios, where=np.isfinite(times))
     return ratios
+
+
+def resampled(values: np.ndarray, strata: np.ndarray) -> np.ndarray:
+    """Means of values over problems that are drawn again, with replacement, within each stratum.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        In any unit [any].
+    strata : ndarray of str, shape (n,)
+        The family of each problem [-].
+
+    Returns
+    -------
+    ndarray, shape (SAMPLES,)
+        In the same unit; the same for the same arguments.
+    """
+    rng, total = np.random.default_rng(0), np.zeros(SAMPLES)
+    for stratum in np.unique(strata):
+        own = values[strata == stratum]
+        total += own[rng.integers(len(own), size=(SAMPLES, len(own)))].sum(axis=1)
+    return np.asarray(total / len(values))
+
+
+def interval(samples: np.ndarray) -> tuple[float, float]:
+    """The interval that holds 95 % of bootstrap samples, shape (SAMPLES,) [any]."""
+    low, high = np.percentile(samples, [2.5, 97.5])
+    return float(low), float(high)

@@ -8,19 +8,22 @@ goes on. Order in the file is the order of time; readers sort.
 import fcntl
 import json
 import lzma
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.lab.study.claim import continued
 from quasistatic_ref.lab.study.old_rows import today_row, today_study
 from quasistatic_ref.lab.study.schema import SOLVER_ROW, STUDIES, SWEEP_ROW, Shape, checked
 
 ROWS, STUDY = "rows.jsonl", "study.json"
 VERSION = 2
 """Of a store of solvers; rows of version 1 are read by :mod:`.old_rows`."""
+UNREACHED = "unreached.json"
+"""Solvers that could not be imported."""
 PACKED = "rows.jsonl.xz"
 """The rows of a store that was packed to be kept, not to be continued."""
 LARGEST_UNPACKED = 256 * 2**20
@@ -30,7 +33,7 @@ MEMORY = 128 * 2**20
 KEY = ("problem", "solver", "interface", "setting", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 SWEEP_KEY = ("sweep", "values")
-MACHINE_DEPENDENT = ("seconds",)
+MACHINE_DEPENDENT = ("seconds", "calls", "clock_agrees", "memory")
 """Fields that differ from run to run."""
 
 Row = dict[str, Any]
@@ -40,6 +43,11 @@ def key_of(row: Row) -> str:
     """The key of a row as text: equal for equal measurements, and sortable."""
     names = KEY if "problem" in row else SWEEP_KEY
     return json.dumps([row[name] for name in names], sort_keys=True)
+
+
+def label_of(row: Row) -> str:
+    """A row's solver with its interface, ``interface:solver``."""
+    return f"{row['interface']}:{row['solver']}"
 
 
 class Store:
@@ -60,7 +68,7 @@ class Store:
 
     def __init__(self, folder: str | Path, study: dict[str, Any]) -> None:
         self.folder = Path(folder)
-        self._claim(study)
+        claimed = self._claimed(study)
         path = self.folder / ROWS
         try:
             self._file = path.open("ab", buffering=0)
@@ -74,6 +82,7 @@ class Store:
                 None
             )
         try:
+            text_written(self.folder / STUDY, json_text(claimed) + "\n")
             self.rows, whole = _parsed(path)
             self._file.truncate(whole)
         except OSError as error:
@@ -83,12 +92,10 @@ class Store:
             self.close()
             raise
 
-    def _claim(self, study: dict[str, Any]) -> None:
-        path = self.folder / STUDY
-        text = json_text(study)
-        if not path.exists():
-            text_written(path, text + "\n")
-            return
+    def _claimed(self, study: dict[str, Any]) -> dict[str, Any]:
+        """What ``study.json`` is to hold, where the folder has none or one that can go on."""
+        if not (self.folder / STUDY).exists():
+            return study
         there = study_read(self.folder)
         if there.get("version") != study["version"]:
             problem = (
@@ -96,13 +103,10 @@ class Store:
                 "but not continued; choose another folder with --out"
             )
             raise InputError(problem, file=self.folder)
-        for name, value in json.loads(text).items():
-            if there.get(name) != value:
-                raise InputError(
-                    f"holds a study that was begun with another {name!r}; choose another folder "
-                    "with --out, or remove this one",
-                    file=self.folder,
-                )
+        try:
+            return continued(there, json.loads(json_text(study)))
+        except InputError as error:
+            raise error.in_file(self.folder) from None
 
     @property
     def keys(self) -> set[str]:
@@ -139,6 +143,30 @@ class Store:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+
+def unreached_written(folder: Path, reasons: Mapping[str, str]) -> None:
+    """Write which solvers could not be imported, and why; a later run asks them again."""
+    path = folder / UNREACHED
+    if reasons:
+        text_written(path, json_text(reasons) + "\n")
+    else:
+        path.unlink(missing_ok=True)
+
+
+def unreached_read(folder: Path) -> dict[str, str]:
+    """Solvers that could not be imported, with the reason.
+
+    Raises
+    ------
+    InputError
+        If the file holds anything else.
+    """
+    path = folder / UNREACHED
+    reasons = json_read(path) if path.exists() else {}
+    if not isinstance(reasons, dict) or not all(isinstance(v, str) for v in reasons.values()):
+        raise InputError("must be a table of reasons by solver", file=path)
+    return reasons
 
 
 def rows_read(folder: str | Path) -> list[Row]:

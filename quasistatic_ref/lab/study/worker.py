@@ -1,38 +1,44 @@
 """The process in which one solver lives: it may loop, crash or print, and nothing else suffers.
 
 ``python -m quasistatic_ref.lab.study.worker READ WRITE`` is started by
-:mod:`~quasistatic_ref.lab.study.keeper` with two pipes. It receives a solver, then problems and
-requests, and sends the graded reply to each request.
+:mod:`~quasistatic_ref.lab.study.keeper` with two pipes. It receives a solver, then programs and
+requests, and sends each reply as it is. It is never told an answer: who grades is elsewhere.
 """
 
 import signal
 import subprocess
 import sys
-import time
+from collections import OrderedDict
 from multiprocessing.connection import Connection
+from time import perf_counter
 from typing import Any
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.study.calls import Call, Crashed, call_of, neighbour, on_path
-from quasistatic_ref.lab.study.grade import CRASHED, TIMEOUT, Exam, exam, grades, ungraded
-from quasistatic_ref.lab.study.qp import Problem
-from quasistatic_ref.lab.study.solvers import Setting, Solver
+from quasistatic_ref.lab.study.calls import Call, Crashed, call_of, on_path
+from quasistatic_ref.lab.study.processes import adopt_orphans
+from quasistatic_ref.lab.study.solvers import Solver
+from quasistatic_ref.lab.study.wire import NOTHING, Told, to_bytes
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.step.standard_form import StandardForm
 
+KEPT = 2
+"""Programs that are kept, as :class:`~.keeper.Keeper` knows."""
 GRACE = 2
 """Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
 
 
 def main(read: int, write: int) -> None:
     """Serve requests until the keeper goes away."""
+    adopt_orphans()
     inbox, outbox = Connection(read, writable=False), Connection(write, readable=False)
     try:
         solver, folder = inbox.recv()
         on_path(folder)
         try:
             call = call_of(solver, folder)
-            outbox.send(None)
+            outbox.send_bytes(b"")
         except QuasistaticError as error:
-            outbox.send(str(error))
+            outbox.send_bytes(str(error).encode())
             return
         _serve(inbox, outbox, solver, call)
     except (EOFError, BrokenPipeError):
@@ -40,36 +46,43 @@ def main(read: int, write: int) -> None:
 
 
 def _serve(inbox: Connection, outbox: Connection, solver: Solver, call: Call) -> None:
-    problem: Problem | None = None
-    paper: Exam | None = None
+    forms: OrderedDict[int, StandardForm] = OrderedDict()
     while True:
         message = inbox.recv()
-        if isinstance(message, Problem):
-            problem, paper = message, exam(message)
+        if isinstance(message, tuple):
+            key, forms[message[0]] = message
+            forms.move_to_end(key)
+            while len(forms) > KEPT:
+                forms.popitem(last=False)
             continue
-        assert problem is not None  # the keeper sends it first
-        assert paper is not None
+        form = forms[message["form"]]
         # A looping solver holds the interpreter; this signal's default action ends the process.
-        signal.setitimer(signal.ITIMER_REAL, (1 + message["warm"]) * message["limit"] + GRACE)
-        outbox.send(_answered(problem, paper, solver, call, message))
+        signal.setitimer(signal.ITIMER_REAL, message["patience"] + GRACE)
+        told = _answered(form, solver, call, message)
+        outbox.send_bytes(to_bytes(told, (len(form.g), len(form.b))))
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
-def _answered(
-    problem: Problem, paper: Exam, solver: Solver, call: Call, request: dict[str, Any]
-) -> dict[str, Any]:
-    setting: Setting = request["setting"]
-    form, limit = paper.forms[request["units"]], float(request["limit"])
-    options = solver.settings_of(setting, limit)
-    start = neighbour(form, problem.id) if request["warm"] else None
-    begin = time.perf_counter()
+def _answered(form: StandardForm, solver: Solver, call: Call, request: dict[str, Any]) -> Told:
+    limit, start = float(request["limit"]), None
+    # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
+    if request["g"] is not None:
+        form = StandardForm(form.H, request["g"], form.A, form.b)
+    if request["start"] is not None:
+        start = StandardForm(form.H, request["start"], form.A, form.b)
+    options = solver.settings_of(request["setting"], limit)
+    reply, times, begin = NOTHING, [], perf_counter()
     try:
-        reply = call(form, options, start, limit)
+        for _ in range(request["count"]):
+            begin = perf_counter()
+            reply = call(form, options, start, limit)
+            times.append(reply.call_seconds)
     except subprocess.TimeoutExpired:
-        return ungraded(TIMEOUT, f"no answer in {limit:g} s", time.perf_counter() - begin)
+        late = Reply(None, None, False, f"no answer in {limit:g} s")
+        return Told(late, (perf_counter() - begin,), "timeout")
     except Crashed as crash:
-        return ungraded(CRASHED, str(crash), crash.seconds)
-    return grades(paper, request["units"], reply, setting.promised)
+        return Told(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
+    return Told(reply, tuple(times))
 
 
 if __name__ == "__main__":

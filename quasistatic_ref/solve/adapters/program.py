@@ -124,6 +124,8 @@ class Reply:
         Inside the solver [s], where it says so.
     call_seconds : float
         Of the whole call [s], in a study.
+    own, setup : float or None
+        Of solving and of setting up [s], by the solver's own account, in a study.
     """
 
     x: Array | None
@@ -133,6 +135,8 @@ class Reply:
     iterations: int | None = None
     seconds: float | None = None
     call_seconds: float = 0.0
+    own: float | None = None
+    setup: float | None = None
 
 
 class Adapter(Protocol):

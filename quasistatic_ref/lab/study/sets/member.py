@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.lab.study.qp import Facts, Problem, Truth
+from quasistatic_ref.lab.study.qp import Facts, NoSolution, Problem, Truth
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -116,5 +117,10 @@ class Member:
     def problem(self) -> Problem:
         """The same as a problem of a study, of dense rows."""
         names = ("id", "family", "contacts", "mass_ratio", "h", "k")
-        answer = Truth(self.answer.x, self.answer.net, self.answer.error)
+        answer: Truth | NoSolution = Truth(self.answer.x, self.answer.net, self.answer.error)
+        if self.answer.farkas:
+            y = np.zeros(len(self.b))
+            for row, value in self.answer.farkas.items():
+                y[row] = float(Fraction(value))
+            answer = NoSolution(y)
         return Problem(Facts(**{name: self.facts[name] for name in names}), self.form, answer)

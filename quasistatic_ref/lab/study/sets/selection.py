@@ -58,8 +58,7 @@ def problems_taken(test_set: TestSet) -> list[Problem]:
     Raises
     ------
     InputError
-        If a family is not there, or has cones, sparse matrices or no solutions, for which studies
-        have no place.
+        If a family is not there, or has cones or sparse matrices, for which studies have no place.
     """
     folder = set_folder(test_set.source)
     wanted = {name: count for name, count in test_set.families.items() if count}
@@ -68,8 +67,8 @@ def problems_taken(test_set: TestSet) -> list[Problem]:
     for family, count in wanted.items():
         own = [one for one in members if one.facts["family"] == family]
         for one in own:
-            if one.facts["kind"] != QP or SPARSE in one.facts["tags"] or one.answer.farkas:
-                words = "has cones, sparse matrices or no solutions; studies ask dense rows that do"
+            if one.facts["kind"] != QP or SPARSE in one.facts["tags"]:
+                words = "has cones or sparse matrices; studies ask dense rows"
                 raise InputError(words, field="problems.families", value=family)
         found += chosen(own, family, count, test_set.most.get(family))
     return [one.problem for one in found]

@@ -1,0 +1,151 @@
+"""Solvers that fool or hurt a study, planted: each is found out, and costs nobody else."""
+
+import os
+import time
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.measure import Limits, measured
+from quasistatic_ref.lab.study.qp import Facts, NoSolution, Problem
+from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.store import unreached_read
+from quasistatic_ref.step.standard_form import StandardForm
+from tests.study.planted import FAKES
+
+DEFAULT = SETTINGS[0]
+LIMITS = Limits(20.0, 20.0, 2)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "planted_solvers.py").write_text(FAKES)
+    return tmp_path
+
+
+def asked(name, problem, folder, limits=LIMITS, **options):
+    with Keeper(Solver(name, "callable", f"planted_solvers:{name}"), folder, **options) as keeper:
+        return measured(keeper, problem, DEFAULT, "natural", False, limits)
+
+
+def test_no_answer_is_to_be_found_in_the_process_of_a_solver(folder, problem):
+    row = asked("peeks", problem, folder)
+    assert row["digits"]["delta_q"] < 1
+    assert row["wrong"]
+
+
+def test_a_clock_that_was_stopped_is_not_believed(folder, problem):
+    """It works for 3 ms; its process says 0."""
+    row = asked("stops_the_clock", problem, folder)
+    assert not row["clock_agrees"]
+    assert row["seconds"]["call"] > 1e-3
+    honest = asked("honest", problem, folder)
+    assert honest["clock_agrees"]
+    assert 0 < honest["seconds"]["low"] <= honest["seconds"]["call"] <= honest["seconds"]["high"]
+    assert honest["calls"] >= LIMITS.repetitions
+
+
+def test_multipliers_that_are_none_are_found_beside_a_right_answer(folder, problem):
+    row, honest = (asked(name, problem, folder) for name in ("minus_one", "honest"))
+    assert row["digits"]["delta_q"] == honest["digits"]["delta_q"] > 12
+    assert row["wrong_multipliers"]
+    assert row["digits"]["multipliers"] < 1
+    assert not honest["wrong_multipliers"]
+
+
+def alive(folder):
+    pids = [int(line) for line in (folder / "detached").read_text().split()]
+    assert pids
+    return [pid for pid in pids if os.path.exists(f"/proc/{pid}") and not zombie(pid)]
+
+
+def zombie(pid):
+    with open(f"/proc/{pid}/stat") as file:
+        return file.read().rpartition(")")[2].split()[0] == "Z"
+
+
+@pytest.mark.parametrize("name", ["detaches", "detaches_and_dies"])
+def test_what_a_solver_leaves_behind_is_ended(name, folder, problem):
+    asked(name, problem, folder)
+    end = time.monotonic() + 10
+    while alive(folder) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert alive(folder) == []
+
+
+def test_a_solver_that_eats_memory_is_ended_and_its_memory_told(folder, problem):
+    row = asked("eats", problem, folder, memory=3e8)
+    assert row["outcome"] == "memory"
+    assert "0.3 GB" in row["claimed"]
+    assert 1e7 < asked("honest", problem, folder)["memory"] < 3e8
+
+
+def test_what_is_no_reply_is_a_crash_and_nothing_is_unpickled(folder, problem):
+    assert asked("scribbles", problem, folder)["outcome"] == "crashed"
+
+
+def test_the_worst_of_repeated_answers_is_graded(folder, problem):
+    row = asked("second_thoughts", problem, folder)
+    assert row["wrong"]
+
+
+def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem):
+    """It takes 1 s where 0.5 s are allowed, once."""
+    row = asked("compiles", problem, folder, Limits(0.5, 10.0, 2))
+    assert row["outcome"] == "solved"
+    assert row["seconds"]["warm_up"] >= 1.0 > row["seconds"]["first"]
+
+
+def none_to_find():
+    """X >= 1 and -x >= 0: y = (1, 1) has A'y = 0 and b'y = 1."""
+    form = StandardForm(np.eye(1), np.ones(1), np.array([[1.0], [-1.0]]), np.array([1.0, 0.0]))
+    y = np.ones(2)
+    assert (form.A.T @ y == 0).all()
+    assert form.b @ y > 0
+    return Problem(Facts("none/0", "none", 0, 1.0, 1.0, 0), form, NoSolution(y))
+
+
+JUDGED = {  # on a problem with a solution, and on one without: (says there is none, wrong)
+    "says_there_is_none": ((True, True), (True, False)),
+    "liar": ((False, True), (False, True)),
+    "gives_up": ((False, False), (False, False)),
+}
+
+
+@pytest.mark.parametrize("name", JUDGED)
+def test_a_claim_that_there_is_no_solution_is_judged(name, folder, problem):
+    for asked_of, (said, wrong) in zip((problem, none_to_find()), JUDGED[name], strict=True):
+        row = asked(name, asked_of, folder)
+        assert (row["said_infeasible"], row["wrong"]) == (said, wrong)
+
+
+MIXED = """
+time_limit = 0.3
+warm_up = 2.0
+budget = 8.0
+repetitions = 2
+[problems]
+families = { contacts = 4 }
+[solvers.slow]
+callable = "planted_solvers:slow"
+[solvers.missing]
+callable = "no_such_module:solve"
+[solvers.honest]
+callable = "planted_solvers:honest"
+[[runs]]
+solvers = ["slow", "missing", "honest", "qpsolvers:daqp"]
+again = 0
+"""
+
+
+def test_bad_solvers_cost_themselves_only(run, tmp_path):
+    """One that is always too late, 2.5 s a problem and its starts; one that is not there."""
+    rows = run(MIXED)
+    by_name = {name: [r["outcome"] for r in rows if r["solver"] == name]
+               for name in ("slow", "missing", "honest", "daqp")}  # fmt: skip
+    assert by_name["honest"] == by_name["daqp"] == 4 * ["solved"]
+    assert by_name["missing"] == []
+    assert set(by_name["slow"]) == {"not_run_budget", "timeout"}
+    (reason,) = unreached_read(tmp_path / "store").values()
+    assert "cannot be imported" in reason
