@@ -70,6 +70,7 @@ version = 1
 kind = "solvers"
 time_limit = 2.0
 budget = 10.0
+repetitions = 2
 [problems]
 seed = 3
 scenarios = ["sphere_spin", "stack"]
@@ -82,7 +83,6 @@ solvers = ["qpsolvers:clarabel", "cvxpy:osqp"]
 settings = ["default", "high"]
 units = ["natural", "raw"]
 warm = [false, true]
-repetitions = 2
 every = 3
 """
 SWEEP = """format = "quasistatic-ref/study"
