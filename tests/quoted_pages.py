@@ -41,8 +41,7 @@ QUOTED = {
         ("pivots about the points by which the fingers hold it (by {:.1f} degrees while it is "
          "lifted); with torsional friction it does not ({:.1f} degrees)", of.both_turns),
         ("({:.0f} points, as in the paper)", lambda: [claim("structure", "points of the cloud")]),
-        ("{:,} contact problems with known answers (exact for all but {})",
-         lambda: [of.problems(), solver_study.of.enclosed()]),
+        ("{:,} contact problems with proved answers in {} families", of.problem_set),
         ("and {} gigabyte of disk: {} of it is Boost, whose libraries pinocchio and coal load, "
          "then {} (through CVXPY), {} and {}", of.base),
         ("measures {} claims", lambda: [len(BY_NAME)]),

@@ -131,6 +131,13 @@ def sweep_of(section, column):
     return {next(iter(r.values())): float(r[column]) for r in rows}
 
 
+def problem_set():
+    """Problems of the set that comes along, and its families."""
+    manifest = json.loads((ROOT / "validation/contact_qp_1/manifest.json").read_text())
+    return [sum(family["count"] for family in manifest["families"].values()),
+            len(manifest["families"])]  # fmt: skip
+
+
 def problems():
     study = json.loads((ROOT / "validation/studies/default/study.json").read_text())
     return study["problems"]["count"]

@@ -16,11 +16,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.figures import figure_style
+from quasistatic_ref.figures.style import PAGE
+from quasistatic_ref.lab.figures.study_pens import pens
 from quasistatic_ref.lab.study.calls import tried
 from quasistatic_ref.lab.study.sequences import Native
 from quasistatic_ref.lab.study.sets.folder import manifest, set_read
@@ -41,7 +45,7 @@ OF_SPARSE = ("piqp", "clarabel", "osqp")
 OF_CONES = ("clarabel",)
 ACCURACY = 1e-9
 NARROW = 1e3
-"""Ratio of a dial's ends below which its values are written out."""
+"""Ratio of a dial's ends below which powers of ten are too few ticks."""
 PARTS = 5
 """Of a dial, with equally many problems each."""
 
@@ -137,44 +141,49 @@ def table(lines: Sequence[dict[str, Any]], families: dict[str, Any]) -> str:
 
 
 def figure(lines: Sequence[dict[str, Any]], families: dict[str, Any], path: Path) -> None:
-    """Digits against the dial, a small picture for each family."""
+    """Digits against the dial, or false solutions of infeasible problems: a picture a family."""
     shown = list(dict.fromkeys(line["family"] for line in lines))
-    columns = 3
+    columns, drawn = 3, pens(SOLVERS)
     down = -(-len(shown) // columns)
-    fig, axes = plt.subplots(
-        down, columns, figsize=(7.2, 1.7 * down), sharey=True, layout="constrained"
-    )
-    for ax, family in zip(axes.flat, shown, strict=False):
-        dial = families[family]["dial"]
-        for colour, solver in enumerate(SOLVERS):
-            own = [one for one in lines if (one["family"], one["solver"]) == (family, solver)]
-            if not own:
-                continue
-            said = family == "infeasible"
-            heights = [16 * (1 - float(one["solved"]) / 100) if said
-                       else float(one["digits_of_nine_in_ten"]) for one in own]  # fmt: skip
-            at = [float(one["dial"]) for one in own]
-            ax.plot(at, heights, "o-", ms=3, lw=1, color=f"C{colour}", label=solver)
-        ax.set_xscale("log")
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        if len(at) > 2 and max(at) < NARROW * min(at):
-            ax.set_xticks(at[::2], [f"{v:.3g}" for v in at[::2]])
-        if dial["first"] > dial["most"]:
-            ax.invert_xaxis()
-        unit = f" [{dial['unit']}]" if dial["unit"] != "-" else ""
-        ax.set_title(family, fontsize=8)
-        ax.set_xlabel(f"{dial['name']}{unit}", fontsize=7)
-        ax.tick_params(labelsize=7)
+    with figure_style("paper"):
+        fig, axes = plt.subplots(down, columns, figsize=(PAGE, 1.6 * down), layout="constrained")
+        for ax, family in zip(axes.flat, shown, strict=False):
+            for solver in SOLVERS:
+                own = [one for one in lines if (one["family"], one["solver"]) == (family, solver)]
+                name = "solved" if family == "infeasible" else "digits_of_nine_in_ten"
+                heights = [float(one[name]) for one in own]
+                ax.plot([float(one["dial"]) for one in own], heights, **drawn[solver])
+            _axes(ax, family, families[family]["dial"])
+        for ax in list(axes.flat)[len(shown) :]:
+            ax.axis("off")
+        handles, labels = axes.flat[0].get_legend_handles_labels()
+        fig.legend(handles, labels, loc="lower right", title="asked for 1e-9")
+        fig.savefig(path, dpi=160)
+        plt.close(fig)
+
+
+def _axes(ax: Axes, family: str, dial: dict[str, Any]) -> None:
+    """The dial along the bottom, easy problems left; what is measured along the side."""
+    low, high = sorted((dial["first"], dial["most"]))
+    ax.set_xscale("log")
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    if high < NARROW * low:  # no two powers of ten inside
+        ticks = [m * 10.0**e for e in range(-6, 7) for m in (1, 2, 5)]
+        inside = [v for v in ticks if low <= v <= high]
+        ax.set_xticks(inside[:: -(-len(inside) // 4)], minor=False)
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.minorticks_off()
+    if dial["first"] > dial["most"]:
+        ax.invert_xaxis()
+    unit = f" [{dial['unit']}]"
+    ax.set_title(family)
+    ax.set_xlabel(f"{dial['name']}{unit}")
+    if family == "infeasible":
+        ax.set_ylim(-4, 104)
+        ax.set_ylabel("said solved [%]")
+    else:
         ax.set_ylim(-0.7, 16.7)
-        if family == "infeasible":
-            ax.text(0.03, 0.06, "16: none is said to be solved", fontsize=6, transform=ax.transAxes)
-    for ax in list(axes.flat)[len(shown) :]:
-        ax.axis("off")
-    for ax in axes[:, 0]:
-        ax.set_ylabel("digits", fontsize=7)
-    axes.flat[1].legend(fontsize=6, loc="lower left", ncols=2)
-    fig.savefig(path, dpi=160)
-    plt.close(fig)
+        ax.set_ylabel("digits [-]")
 
 
 def main() -> int:

@@ -60,6 +60,9 @@ STUDY: Final = (
     "quasistatic-ref study report study --out report",
     "quasistatic-ref study pack study",
     "quasistatic-ref study export study --every 20 --out qpbenchmark",
+    "quasistatic-ref study problems check",
+    "quasistatic-ref study problems export --to npz --families wedge --every 20 --out problems",
+    "quasistatic-ref study sequences daqp --scenario sphere_spin --repetitions 1 --out sequences",
 )
 
 COMMANDS: Final[dict[str, tuple[str, ...]]] = {
