@@ -10,6 +10,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.derivative_kinks import kink_cases
 from quasistatic_ref.lab.vectors.families.derivative_pairs import pair_cases, pair_kinds, pressed
+from quasistatic_ref.lab.vectors.families.derivative_squeezed import squeezed_cases
 from quasistatic_ref.lab.vectors.families.mechanisms import few_digits
 from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
 from quasistatic_ref.lab.vectors.families.step import step_cases
@@ -79,7 +80,7 @@ def derivative_at_random(rng: Rng, level: int) -> Json:
         wrench = {"body": "ball", "force": [*spun[:2], -1.0], "torque": [0.0, 0.0, spun[2] / 10]}
         return ball_scene([0.0, 0.0, 0.05], wrenches=[wrench])
     if level == 2 and kind:
-        kinks = list(kink_cases())
+        kinks = [*kink_cases(), *squeezed_cases()]
         return kinks[int(rng.integers(len(kinks)))][2]
     if kind == 0:
         return random_scene(rng, hard=level == 2)

@@ -2,6 +2,8 @@
 
 One more quotient is taken along a direction in which everything changes at once, with another eps.
 Where q+ has a derivative it is the sum of the columns: whatever a column were wrong by would show.
+Columns along which q+ is smooth need not add up where rows depend on each other: that is asked of
+the rows.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,6 +18,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
 from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.whole import along
+from quasistatic_ref.lab.vectors.whole.dependent import dependence_breaks
 from quasistatic_ref.lab.vectors.whole.differences import Base, Quotient, quotient
 from quasistatic_ref.lab.vectors.whole.grid import OTHER_STEP
 from quasistatic_ref.lab.vectors.whole.reasons import BEND, reasons, switches
@@ -24,6 +27,8 @@ PROVED: Final = fmpq(1, 10**16)
 """Difference, relative to the largest number of the sum, at which 15 digits are proved."""
 WEIGHTS: Final = (7, 3, 1, 19)
 """Of coordinate i the direction has ((7 i i + 3 i + 1) mod 19 - 9) / 10."""
+MOVE_ROWS: Final = ("q", "mu_v", "mu_omega")
+"""Of what the rows A are functions."""
 
 Move = Callable[[Json, fmpq], Json]
 """A case with one coordinate or parameter changed by a number."""
@@ -117,7 +122,8 @@ def derivatives(one: Base) -> Derivatives:
         for name in listed
     }
     smooth = all(q.bend < BEND for each in found.values() for q in each)
-    if not smooth:
+    of_rows = [q for name in MOVE_ROWS for q in found.get(name, [])]
+    if not smooth or dependence_breaks(one, of_rows):
         return Derivatives({}, reasons(one, found["q"]), True, fmpq(0))
     columns = {name: [q.column for q in each] for name, each in found.items()}
     off = max((_off(one, listed, columns, turn) for turn in (0, 5)), default=fmpq(0))

@@ -1,8 +1,9 @@
 """Why q+ has no derivative: which of its parts changes its branch at the configuration.
 
-Whether there is a derivative is decided by differences of q+ alone. The reasons are then looked
-for in the parts: an exact tie of distances, a closest point or normal whose second difference does
-not vanish, tangents that jump and turn the cone with them, a row without slack that need not press.
+Whether there is a derivative is decided by differences of q+, and by those of rows that depend on
+each other. The reasons are then looked for in the parts: an exact tie of distances, a closest point
+or normal whose second difference does not vanish, tangents that jump and turn the cone with them, a
+row without slack that need not press.
 Only contacts that touch, with a row without slack, can be the reason.
 """
 
@@ -60,22 +61,22 @@ def _touching(one: Base) -> list[int]:
     """Numbers of the contacts that have a row without slack."""
     signs = iter(one.step.optimum.slack_signs)
     found = []
-    for k, count in enumerate(_counts(one)):
+    for k, count in enumerate(row_counts(one.at.case, one.contacts)):
         own = [next(signs) for _ in range(count)]
         found += [k] if 0 in own else []
     return found
 
 
-def _counts(one: Base) -> list[int]:
+def row_counts(case: Json, contacts: Iterable[Contact]) -> list[int]:
     """Numbers of rows of each contact."""
-    case = one.at.case
-    return [row_count(case["cone"], case["pairs"][c.near.pair]["rows"]) for c in one.contacts]
+    return [row_count(case["cone"], case["pairs"][c.near.pair]["rows"]) for c in contacts]
 
 
 def _rows(one: Base) -> list[Json]:
     """Weakly active rows, contact by contact."""
     weak, first, found = weak_rows(one), 0, []
-    for contact, count in zip(one.contacts, _counts(one), strict=True):
+    counts = row_counts(one.at.case, one.contacts)
+    for contact, count in zip(one.contacts, counts, strict=True):
         own = [i - first for i in weak if first <= i < first + count]
         if own:
             found.append({**_reason("row", one, contact), "rows": own})
@@ -135,7 +136,7 @@ def _turns(one: Base, k: int, found: Quotient) -> bool:
         for contacts in (one.contacts, found.sides[0][1], found.sides[1][1])
     )
     for row in own:
-        ahead, behind = (_nearest(row, side) for side in sides)
+        ahead, behind = (nearest(row, side) for side in sides)
         if any(
             abs(x + y - 2 * z) > BEND * STEP for z, x, y in zip(row, ahead, behind, strict=True)
         ):
@@ -143,5 +144,6 @@ def _turns(one: Base, k: int, found: Quotient) -> bool:
     return False
 
 
-def _nearest(row: Vector, others: Matrix) -> Vector:
+def nearest(row: Vector, others: Matrix) -> Vector:
+    """That of other rows whose numbers differ least from a row's."""
     return min(others, key=lambda other: max(abs(x - y) for x, y in zip(row, other, strict=True)))

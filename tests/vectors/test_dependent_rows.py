@@ -1,0 +1,155 @@
+"""Layer `derivative` where rows depend on each other: kinks that no single coordinate shows.
+
+A ball of radius 1/4 and 1/2 kg is held between fixed balls of radius 1/2 at x = -3/4 and 3/4, h is
+1/8 s. Moved by y = eps the normals are (+-3/4, eps) / (3/4) and both gaps are eps^2 / (3/2). Both
+rows together say dy >= -eps / 2. A force c eps across moves it by h^2 c eps / m = c eps / 32 if
+nothing holds it; the ball that bears a push p adds p (4/3) eps to that force. Hence, by eps > 0,
+
+    q+_y = eps (1 + max(c / 32 + |p| / 24, -1/2)).
+"""
+
+from dataclasses import replace
+
+import pytest
+from flint import fmpq, fmpz_mat
+
+from quasistatic_ref.lab.vectors.challenge.fresh import record_of
+from quasistatic_ref.lab.vectors.exact.algebra import add, dot, scaled
+from quasistatic_ref.lab.vectors.families import derivative_kinks as kinks
+from quasistatic_ref.lab.vectors.families.derivative_squeezed import squeezed, squeezed_cases
+from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
+from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.whole.along import with_force, with_held_wrenches, with_q
+from quasistatic_ref.lab.vectors.whole.dependent import CLOSE, dependence_breaks, turned
+from quasistatic_ref.lab.vectors.whole.derivatives import PROVED, derivatives
+from quasistatic_ref.lab.vectors.whole.differences import base, quotient
+from quasistatic_ref.lab.vectors.whole.grid import STEP
+from quasistatic_ref.lab.vectors.whole.reasons import BEND
+
+Y = 1
+"""Of delta_q of the ball."""
+CONES = ("frictionless", "pyramid", "product", "facets-6")
+
+
+def along(one, way, force):
+    """The quotient of q+ as q moves along one vector and the force along another."""
+
+    def inputs(by):
+        case = with_q(one.at.tree, one.at.case, scaled(way, by))
+        return with_force(case, scaled(force, by))
+
+    return quotient(one, inputs, moved=True)
+
+
+def way(j, size=1):
+    return [fmpq(size) if i == j else fmpq(0) for i in range(6)]
+
+
+def step_of(case):
+    return base(with_held_wrenches(case))
+
+
+@pytest.mark.parametrize("push", [1, 0])
+def test_between_two_balls_the_slope_is_no_sum_of_two_slopes(push):
+    one = step_of(squeezed(0.25, 0.5, float(push)))
+    still = [fmpq(0)] * 6
+    for c in (-32, 32, 0):
+        found = along(one, way(Y), way(Y, c))
+        held = 1 + max(fmpq(c, 32) + fmpq(push, 24), fmpq(-1, 2))
+        assert abs(found.column[Y] - held) < BEND
+        assert found.bend < BEND
+        alone = [along(one, way(Y), still), along(one, still, way(Y, c))]
+        assert all(each.bend < BEND for each in alone)
+        total = sum(each.column[Y] for each in alone)
+        assert abs(total - (1 + fmpq(c, 32) + fmpq(push, 24))) < BEND
+        assert (abs(total - held) > fmpq(1, 4)) == (c == -32)
+
+
+@pytest.mark.parametrize("push", [1.0, 0.0])
+def test_a_squeezed_ball_has_no_derivative_and_both_contacts_are_named(push):
+    case = squeezed(0.25, 0.5, push)
+    output = layer("derivative").expected(case).output
+    named = [(reason["kind"], reason["pair"]) for reason in output["reasons"]]
+    assert output["differentiable"] is False
+    assert named == [("multipliers", "below"), ("multipliers", "above")]
+    assert layer("derivative").own(case) == {"differentiable": False}
+
+
+def test_every_fresh_squeezed_ball_is_valid_and_the_package_agrees():
+    for name, _, case in squeezed_cases():
+        record = record_of("derivative", case)
+        assert {reason["kind"] for reason in record["output"]["reasons"]} == {"multipliers"}, name
+        assert layer("derivative").own(case) == {"differentiable": False}, name
+
+
+def box(cone, push=0.5):
+    """A box on the floor, on its four corners, of 8 N with what presses it."""
+    table = kinks.free(kinks.SQUARE, [0.0, 0.0, 0.0625], cone=cone)
+    return kinks.pushed(kinks.onto(table, "floor", FLOOR, k=4), [push, 0.25, -4.0])
+
+
+def sliding(cone):
+    """The same pushed with 6 N, two more than friction holds."""
+    return box(cone, 6.0)
+
+
+def walled(cone):
+    """A ball between two walls."""
+    table = kinks.free({"kind": "sphere", "radius": 0.25}, [0.0] * 3, cone=cone)
+    for name, side in (("left", 1.0), ("right", -1.0)):
+        wall = {"kind": "halfspace", "normal": [side, 0.0, 0.0], "offset": -0.25}
+        table = kinks.onto(table, name, wall, rows=4)
+    return kinks.pushed(table, [1.0, 0.5, 0.0])
+
+
+def stuck(cone):
+    """A ball between two balls on which it cannot slide, however it is pushed."""
+    return squeezed(0.25, 0.5, 1.0, cone=cone)
+
+
+SMOOTH = [(scene, cone) for scene in (box, sliding, walled) for cone in CONES]
+SMOOTH += [(stuck, cone) for cone in CONES[1:]]
+
+
+@pytest.mark.parametrize(("scene", "cone"), SMOOTH)
+def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, cone):
+    one = step_of(scene(cone))
+    tight = [i for i, sign in enumerate(one.step.optimum.slack_signs) if sign == 0]
+    own = [one.step.form.row(i) for i in tight]
+    assert len(own) > fmpz_mat(own).rank()
+    found = derivatives(one)
+    assert found.reasons == []
+    # Along q and, for each coordinate, a force many times what takes the motion back.
+    for c in (-64, 64):
+        ways, forces = [fmpq(i + 1, 8) for i in range(6)], [fmpq(c * (3 - i)) for i in range(6)]
+        whole = along(one, ways, forces)
+        total = [fmpq(0)] * 6
+        for i in range(6):
+            total = add(total, scaled(found.columns["q"][i], ways[i]))
+            total = add(total, scaled(found.columns["tau"][i], forces[i]))
+        size = max(map(abs, total))
+        assert whole.bend < BEND
+        assert max(abs(x - y) for x, y in zip(whole.column, total, strict=True)) < PROVED * size
+
+
+def test_tangents_that_jump_are_turned_back_to_a_contact_s_own():
+    one = step_of(stuck("facets-6"))
+    found = along(one, way(Y), [fmpq(0)] * 6)
+    for _, beside in found.sides:
+        for own, other in zip(one.contacts, beside, strict=True):
+            assert abs(dot(own.d1, other.d1)) < CLOSE
+            back = turned(own, other).motion
+            for row, was in zip(back, own.motion, strict=True):
+                assert max(abs(x - y) for x, y in zip(row, was, strict=True)) < 2 * STEP
+
+
+def test_a_contact_that_another_candidate_replaces_is_compared_with_nothing():
+    one = step_of(squeezed(0.25, 0.5, 1.0))
+    found = along(one, way(Y), [fmpq(0)] * 6)
+    assert dependence_breaks(one, [found])
+    sides = [(step, [_another(contact) for contact in beside]) for step, beside in found.sides]
+    assert not dependence_breaks(one, [replace(found, sides=tuple(sides))])
+
+
+def _another(contact):
+    return replace(contact, near=replace(contact.near, index=contact.near.index + 1))
