@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
+from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.simulate.step_jax import jax_package, smoothed_jax
 from quasistatic_ref.step.data import Array
@@ -103,10 +103,10 @@ def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> 
         _block(axes, np.array([0, 0, *GOAL, 0, 1, 0]), ":", "black", "goal")
         axes.plot(*(1e3 * (push.q[:, :2] + OFFSET)).T, "k.", markersize=scaled(2), label="finger")
         axes.set(aspect="equal", xlim=(-80, 220), ylim=(-120, 120))
-        labelled(axes, "x [mm]", "y [mm]", name, key=mu_omega > 0)
+        labelled(axes, "x [mm]", "y [mm]", name, key=False)
         grid[2].semilogy(1e3 * np.array(push.misses), style, label=name)
     labelled(grid[2], "descent [steps]", "miss [mm]")
-    note_below(list(grid), caption(H))
+    legend_below(list(grid), grid[0].get_legend_handles_labels()[0], caption(H))
     return page
 
 
