@@ -18,6 +18,7 @@ def says_infeasible(status: str) -> bool:
 
     Examples
     --------
+    >>> from quasistatic_ref.lab.study.infeasibility import says_infeasible
     >>> says_infeasible("PROXQP_PRIMAL_INFEASIBLE"), says_infeasible("infeasible_inaccurate")
     (True, False)
     """
