@@ -16,10 +16,10 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
-from quasistatic_ref import __version__  # noqa: E402 the same
-from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the same
-from quasistatic_ref.lab.study.spec_table import TABLES as STUDY  # noqa: E402 the same
-from quasistatic_ref.simulate.scenario_table import TABLES as SCENARIO  # noqa: E402 the same
+from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
+from quasistatic_ref.lab.study.spec_table import TABLES as STUDY  # noqa: E402 the path has to be there first
+from quasistatic_ref.simulate.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"

@@ -84,7 +84,7 @@ class Fields:
         """Return a finite number, above `above`, from `least` to `most` [the field's unit]."""
         value = self._typed(field, int | float, "a number", default)
         if value is None:
-            return None  # type: ignore[return-value]  # the caller's own default
+            return None  # type: ignore[return-value]  # only where the caller's default is None
         try:
             number = float(value)
         except OverflowError:

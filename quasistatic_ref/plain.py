@@ -3,7 +3,7 @@
 import hashlib
 import struct
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
+from dataclasses import Field, fields
 from typing import Any
 
 import numpy as np
@@ -44,9 +44,14 @@ class Plain:
             values[name].setflags(write=False)
 
 
+def _declared(data: Any) -> tuple[Field[Any], ...]:
+    """The fields of plain data, every class of which is a dataclass."""
+    return fields(data)
+
+
 def field_values(data: Plain) -> dict[str, Any]:
     """All fields of plain data by name."""
-    return {f.name: getattr(data, f.name) for f in fields(data)}  # type: ignore[arg-type]  # each heir is a dataclass
+    return {f.name: getattr(data, f.name) for f in _declared(data)}
 
 
 def bits(value: Any) -> Any:
@@ -59,7 +64,7 @@ def bits(value: Any) -> Any:
         compares itself.
     """
     if isinstance(value, Plain):
-        own = [f.name for f in fields(value) if f.compare]  # type: ignore[arg-type]  # as above
+        own = [f.name for f in _declared(value) if f.compare]
         return value.compared_as(), tuple(bits(getattr(value, name)) for name in own)
     if isinstance(value, np.ndarray):
         numbers = value + 0.0 if value.dtype.kind == "f" else value

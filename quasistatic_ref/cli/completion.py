@@ -38,10 +38,10 @@ def _prepare(parser: argparse.ArgumentParser) -> None:
         elif (declared := getattr(action, COMPLETED, None)) is not None:
             words, files = declared
             complete = _words_and_files(f"{parser.prog} {action.dest}", list(words()), files)
-            action.complete = complete  # type: ignore[attr-defined]  # shtab's own
+            action.complete = complete  # type: ignore[attr-defined]  # read by shtab, unknown to argparse
         elif action.type is Path:
-            folder = action.metavar in FOLDERS
-            action.complete = shtab.DIRECTORY if folder else shtab.FILE  # type: ignore[attr-defined]  # shtab's own
+            complete = shtab.DIRECTORY if action.metavar in FOLDERS else shtab.FILE
+            action.complete = complete  # type: ignore[attr-defined]  # read by shtab, unknown to argparse
 
 
 def _words_and_files(argument: str, words: list[str], files: tuple[str, ...]) -> dict[str, Any]:

@@ -56,7 +56,7 @@ class Parser(argparse.ArgumentParser):
             hint = f"; did you mean '--set {unknown[1]}'?"
         super().error(f"{said}{hint}")
 
-    def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # overloads
+    def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # one method for all of typeshed's overloads
         """Nothing is left over: the command or action that was given it prints its own usage."""
         found, unknown = super().parse_known_args(*arguments)
         if unknown:
@@ -86,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else list(arguments)
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed, as by >&-: what is printed goes nowhere
-            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 open to the end
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 open until the process ends
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
             stream.reconfigure(errors="backslashreplace")

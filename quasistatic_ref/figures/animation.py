@@ -1,6 +1,7 @@
 """A trajectory as a film: an animated GIF, or MP4 where ffmpeg is there."""
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -21,7 +22,10 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 VIEW = Camera(azimuth=-62, elevation=12)
 FRAMES_PER_SECOND = 20
 DOTS_PER_INCH = 110
-WRITERS: dict[str, type[AbstractMovieWriter]] = {".gif": PillowWriter, ".mp4": FFMpegWriter}
+WRITERS: dict[str, Callable[..., AbstractMovieWriter]] = {
+    ".gif": PillowWriter,
+    ".mp4": FFMpegWriter,
+}
 
 
 def animate(
@@ -73,7 +77,7 @@ def animate(
         "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
         "metres_per_newton": force_scale(moments, view, half),
     } | options  # fmt: skip
-    writer: Any = WRITERS[path.suffix](fps=speed * shown)  # type: ignore[arg-type]  # of any number
+    writer: Any = WRITERS[path.suffix](fps=speed * shown)
     pace = "" if speed == 1 else f", speed {speed:g}"
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
         figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")

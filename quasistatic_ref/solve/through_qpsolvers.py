@@ -103,8 +103,12 @@ def _account(solution: qpsolvers.Solution) -> tuple[float | None, float | None]:
     told: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
     package = type(info).__module__
     unit = 1e-3 if "setup_time" in extras else 1e-6 if "proxsuite" in package else 1.0  # SCS: ms
-    own, setup = (told(name) for name in ("solve_time", "setup_time"))
-    return tuple(None if t is None or not t > 0 else unit * float(t) for t in (own, setup))  # type: ignore[return-value]  # a pair
+
+    def seconds(name: str) -> float | None:
+        time = told(name)
+        return unit * float(time) if time is not None and time > 0 else None
+
+    return seconds("solve_time"), seconds("setup_time")
 
 
 def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:

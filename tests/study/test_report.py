@@ -202,17 +202,20 @@ class Page(HTMLParser):
         self.cells, self.links, self.tags, self._open = [], [], set(), None
         self.feed(text)
 
-    def handle_starttag(self, tag, attrs):  # noqa: D102 as the parser calls it
+    def handle_starttag(self, tag, attrs):
+        """Called by the parser, as those below."""
         self.tags.add(tag)
         self.links += [value for name, value in attrs if name in ("src", "href")]
         if tag in ("td", "th"):
             self._open = ""
 
-    def handle_data(self, data):  # noqa: D102 the same
+    def handle_data(self, data):
+        """Gather the text of a cell."""
         if self._open is not None:
             self._open += data
 
-    def handle_endtag(self, tag):  # noqa: D102 the same
+    def handle_endtag(self, tag):
+        """Keep the cell."""
         if tag in ("td", "th"):
             self.cells.append(self._open)
             self._open = None

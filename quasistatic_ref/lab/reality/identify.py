@@ -176,14 +176,18 @@ def limit_surface(cone: str) -> tuple[Callable[[Array], Array], Callable[[Array]
     on the surface, and their product is at least w . v, equal where v is normal to the surface.
     """
     if cone == ELLIPSOID:
-        length: Callable[[Array], Array] = lambda x: np.linalg.norm(x, axis=-1)  # noqa: E731
-        return length, length
+        return _length, _length
     from scipy.spatial import ConvexHull
 
     corners = cone_matrix(cone)[:, 1:]
     faces = ConvexHull(corners).equations
     normals = faces[:, :3] / -faces[:, 3:]
     return (lambda w: (w @ normals.T).max(-1)), (lambda v: (v @ corners.T).max(-1))
+
+
+def _length(rows: Array) -> Array:
+    """Euclidean lengths, shape (n,): gauge and support of the ball are the same."""
+    return np.asarray(np.linalg.norm(rows, axis=-1))
 
 
 def lost_share(

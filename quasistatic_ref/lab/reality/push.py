@@ -6,7 +6,7 @@ an upright post that is smooth along its length, and touches at the height of th
 do not load one side of the body more than the other.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -78,10 +78,6 @@ class Pushed:
     def quasi_dynamic_number(self) -> float:
         """Pi = v / (mu_v g h) of a body that goes as fast as the finger [-]."""
         return self.advance / (self.mu_v * GRAVITY * self.h**2)
-
-    def but(self, **changes: object) -> "Pushed":
-        """The same with some fields changed."""
-        return replace(self, **changes)  # type: ignore[arg-type]
 
     def step(self, finger: Array, body: Array, target: Array) -> StepData:
         """The step in which the finger is sent to a target.

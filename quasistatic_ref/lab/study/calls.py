@@ -83,13 +83,13 @@ def imported(target: str) -> Callable[..., Any]:
     """
     module, _, name = target.partition(":")
     try:
-        function = getattr(importlib.import_module(module), name)
+        function: Callable[..., Any] = getattr(importlib.import_module(module), name)
     except Exception as error:  # a module may raise anything when it is imported
         words = f"cannot be imported: {type(error).__name__}: {error}"
         raise InputError(f"{words}; write module:function", value=target) from None
     if not callable(function):
         raise InputError("is not a function", value=target)
-    return function  # type: ignore[no-any-return]  # getattr's result
+    return function
 
 
 def tried(call: Callable[[], Reply]) -> Reply:

@@ -277,9 +277,9 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
                 }
             )
         )
-    arrays = _flat(problems)
+    arrays: dict[str, Any] = _flat(problems)
     text_written(folder / FACTS, "\n".join(lines) + "\n")
-    written_whole(folder / NUMBERS, lambda file: np.savez_compressed(file, **arrays))  # type: ignore[arg-type]  # savez's stub takes no mapping of arrays
+    written_whole(folder / NUMBERS, lambda file: np.savez_compressed(file, **arrays))
     text_written(folder / HEADER, json_text(asked | set_record(problems)) + "\n")
 
 

@@ -227,8 +227,9 @@ class Native:
 
 def _calling(function: Callable[..., Any], warm: bool) -> Session:
     def call(form: StandardForm, before: Reply | None) -> Reply:
-        known = before is not None and before.x is not None and before.lam is not None
-        start = {"start": (before.x.copy(), before.lam.copy())} if warm and known else {}  # type: ignore[union-attr]  # known says what they are
+        start = {}
+        if warm and before is not None and before.x is not None and before.lam is not None:
+            start = {"start": (before.x.copy(), before.lam.copy())}
         try:
             returned = function(form.H.copy(), -form.g, -form.A, -form.b, **start)
             if returned is None:

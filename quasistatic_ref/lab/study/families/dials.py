@@ -3,6 +3,7 @@
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TypedDict
 
 import numpy as np
 
@@ -119,8 +120,17 @@ HARVESTED = {
 """Families whose problems are steps of runs: name, unit, easy and hard end of their dials."""
 
 
-def ends(family: str) -> dict[str, str | float] | None:
-    """Name, unit, ``first`` and ``most`` of a family's dial; None if it has none."""
+class Ends(TypedDict):
+    """Where a dial begins and ends, in its unit; the hard end is `most`, whichever is larger."""
+
+    name: str
+    unit: str
+    first: float
+    most: float
+
+
+def ends(family: str) -> Ends | None:
+    """The dial of a family; None if it has none."""
     if family in DIALS:
         own = DIALS[family]
         found = (own.name, own.unit, own.first, own.most)
@@ -128,7 +138,8 @@ def ends(family: str) -> dict[str, str | float] | None:
         return None
     else:
         found = harvested
-    return dict(zip(("name", "unit", "first", "most"), found, strict=True))
+    name, unit, first, most = found
+    return Ends(name=name, unit=unit, first=first, most=most)
 
 
 def turned(family: str, count: int, seed: int, most: float | None = None) -> Iterator[Made]:

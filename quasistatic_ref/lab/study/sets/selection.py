@@ -91,7 +91,7 @@ def chosen(
     """
     dial = ends(family)
     if most is not None and dial is not None:
-        up = dial["first"] < dial["most"]  # type: ignore[operator]  # both are numbers
+        up = dial["first"] < dial["most"]
         own = [one for one in own if (one.facts["dial"] <= most) == up or one.facts["dial"] == most]
     if own and own[0].facts["sequence"] is not None:
         names = list(dict.fromkeys(one.facts["sequence"]["name"] for one in own))

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
+from functools import partial
 from multiprocessing import get_context
 from typing import Final
 
@@ -75,7 +76,7 @@ def challenge(
         if jobs > 1:
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
-            makers = lambda tasks: pool.map(_made, tasks)  # noqa: E731 one line, used once
+            makers = partial(pool.map, _made)
         hunt = Hunt(asked, digits, makers)
         began = time.monotonic()
         limit = 1000 if cases is None and seconds is None else cases

@@ -14,9 +14,7 @@ def side_by_side(expected: Json, given: Json) -> list[tuple[str, ...]]:
     rows = [("place", "expected", "given", "difference")]
     other = [at for at in {**ours, **theirs} if _text(ours, at) != _text(theirs, at)]
     for at in other[:LINES]:
-        pair = ours.get(at), theirs.get(at)
-        numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in pair)
-        change = f"{float(pair[1]) - float(pair[0]):.3g}" if numbers else ""  # type: ignore[arg-type]
+        change = _change(ours.get(at), theirs.get(at))
         rows.append((at, _text(ours, at), _text(theirs, at), change))
     more = f"{len(other) - LINES} more that differ, " if len(other) > LINES else ""
     return [*rows, (f"{more}{len(ours) - len(set(other) & set(ours))} the same", "", "", "")]
@@ -24,6 +22,13 @@ def side_by_side(expected: Json, given: Json) -> list[tuple[str, ...]]:
 
 def _place(path: str) -> str:
     return path.removeprefix(".") or "output"
+
+
+def _change(expected: Json, given: Json) -> str:
+    """The given number less the expected one; nothing of what are no two numbers."""
+    if any(isinstance(v, bool) or not isinstance(v, int | float) for v in (expected, given)):
+        return ""
+    return f"{float(given) - float(expected):.3g}"
 
 
 def _text(values: dict[str, Json], place: str) -> str:
