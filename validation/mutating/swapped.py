@@ -63,8 +63,9 @@ def forget_results() -> None:
                     value.cache_clear()
 
 
-def _place(code: CodeType) -> tuple[str, int]:
-    return code.co_qualname, code.co_firstlineno
+def _place(code: CodeType) -> tuple[str, int, bytes]:
+    """The name and the place in the text: two lambdas may stand in one line, in other columns."""
+    return code.co_qualname, code.co_firstlineno, code.co_linetable
 
 
 def _pairs(path: str, old: str, new: str) -> Iterator[tuple[CodeType, CodeType]]:
