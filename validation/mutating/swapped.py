@@ -70,8 +70,8 @@ def _place(code: CodeType) -> tuple[str, int, bytes]:
 
 def _pairs(path: str, old: str, new: str) -> Iterator[tuple[CodeType, CodeType]]:
     """Every code object of a file with that of another version of it, in the order of the text."""
-    left = [compile(old, path, "exec")]
-    right = [compile(new, path, "exec")]
+    left = [compile(old, path, "exec", dont_inherit=True)]
+    right = [compile(new, path, "exec", dont_inherit=True)]
     while left:
         first, second = left.pop(), right.pop()
         yield first, second
