@@ -59,7 +59,9 @@ def all_mutants(files: Iterable[str] = TESTS) -> list[Mutant]:
     return [m for file in files for m in mutants(file, (PACKAGE / file).read_text())]
 
 
-def outcomes(chosen: Iterable[Mutant], heard: Callable[[Mutant, str], None]) -> None:
+def outcomes(
+    chosen: Iterable[Mutant], heard: Callable[[Mutant, str], None], traced: Path | None = None
+) -> None:
     """Try mutants, and report each as soon as the tests have said something of it.
 
     They say ``"killed"``, ``"broken"`` (it cannot be imported, or crashes) or ``"hangs"``: all of
@@ -80,7 +82,7 @@ def outcomes(chosen: Iterable[Mutant], heard: Callable[[Mutant, str], None]) -> 
         else:
             heard(mutant, said)
 
-    trials = Trials(PACKAGE, mutants_now, TESTS.__getitem__, one)
+    trials = Trials(PACKAGE, mutants_now, TESTS.__getitem__, one, traced)
     paths = [str(ROOT / "tests" / file) for file in sorted(files)]
     options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", f"--rootdir={ROOT}"]
     status = pytest.main([*options, "--deselect", LEFT_OUT, *paths], plugins=[trials])
@@ -166,7 +168,7 @@ def main() -> int:
         if said == "survived":
             tqdm.write(f"line {mutant.line}: {mutant.key}", file=sys.stderr)
 
-    outcomes(left, heard)
+    outcomes(left, heard, log.with_suffix(".traces.json") if log is not None else None)
     table_written(found)
     known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")

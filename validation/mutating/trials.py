@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import gc
+import json
 import signal
 import sys
 import threading
@@ -16,6 +17,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -23,6 +25,7 @@ from typing import Any
 import pytest
 from tqdm import tqdm
 
+from quasistatic_ref.files import text_written
 from validation.mutating.forks import Job, forked, more_time
 from validation.mutating.mutants import Mutant
 from validation.mutating.swapped import (
@@ -35,8 +38,9 @@ from validation.mutating.swapped import (
 
 PATIENCE = 4.0
 """A test hangs that takes so many times as long as without the mutant, and three seconds more."""
-BUDGET = 20.0
-"""Seconds that tests of other files may take, for one mutant."""
+OWN, OTHERS = 20.0, 5.0
+"""Seconds of tests that one mutant meets, of its own files and of others, as long as they take when
+they are traced: about three times as long as otherwise. The slowest are left out."""
 NOTICED = {int(signal.SIGXCPU): "hangs", int(signal.SIGALRM): "hangs"}
 """What a signal that ended the tests says of the mutant; any other signal: it is broken."""
 
@@ -49,6 +53,14 @@ class Touch:
     seconds: float
     passed: bool
 
+    @classmethod
+    def of(cls, said: dict[str, Any] | int) -> Touch:
+        """What a fork says, which a signal may have ended."""
+        if isinstance(said, int):
+            return cls(frozenset(), 0.0, passed=False)
+        functions = frozenset((path, name) for path, name in said["functions"])
+        return cls(functions, said["seconds"], said["passed"])
+
 
 class Trials:
     """A plugin of pytest that tries mutants where pytest would run its tests.
@@ -60,6 +72,7 @@ class Trials:
     own : for each file of the package, the tests that are to notice its mutants
     heard : called with each mutant and what the tests say of it, or None if it changes more than
         functions
+    traced : file that keeps what each test runs, for the same command to go on from
     workers : how many processes at a time
     """
 
@@ -69,10 +82,11 @@ class Trials:
         chosen: Iterable[Mutant],
         own: Callable[[str], tuple[str, ...]],
         heard: Callable[[Mutant, str | None], None],
+        traced: Path | None = None,
         workers: int = 2,
     ) -> None:
         self.package, self.chosen, self.own = package, list(chosen), own
-        self.heard, self.workers = heard, workers
+        self.heard, self.traced, self.workers = heard, traced, workers
         self.sources: dict[str, str] = {}
         self.noticed: defaultdict[tuple[str, str], list[str]] = defaultdict(list)
         self.touches: dict[str, Touch] = {}
@@ -91,7 +105,7 @@ class Trials:
         session.config.pluginmanager.unregister(reporter)  # of thousands of runs
         self.items = {item.nodeid: item for item in session.items}
         self._make_plain()
-        self.touches = dict(self._touches())
+        self.touches = {test: Touch.of(said) for test, said in self._traces().items()}
         failing = [test for test, touch in self.touches.items() if not touch.passed]
         if failing:
             raise session.Interrupted(f"{', '.join(failing)} fail without a mutant")
@@ -117,15 +131,20 @@ class Trials:
             swap(self.living[path], path, source, self.sources[file])
         gc.freeze()  # or each fork copies every page that its collector visits
 
-    def _touches(self) -> Iterator[tuple[str, Touch]]:
-        """Each test run once, in a fork of its own, so that no other has filled a cache for it."""
+    def _traces(self) -> dict[str, Any]:
+        """Each test run once, in a fork of its own, so that no other has filled a cache for it.
+
+        What stands in the file `traced` is taken from there, if it is of the same tests.
+        """
+        if self.traced is not None and self.traced.exists():
+            kept: dict[str, Any] = json.loads(self.traced.read_text())
+            if kept.keys() == self.items.keys():
+                return kept
         jobs = [(test, self._touching(test)) for test in self.items]
-        for test, said in tqdm(forked(jobs, self.workers), "tests", len(jobs)):
-            if isinstance(said, int):
-                yield test, Touch(frozenset(), 0.0, passed=False)
-            else:
-                functions = frozenset((path, name) for path, name in said["functions"])
-                yield test, Touch(functions, said["seconds"], said["passed"])
+        said = dict(tqdm(forked(jobs, self.workers), "tests", len(jobs)))
+        if self.traced is not None:
+            text_written(self.traced, json.dumps(said))
+        return said
 
     def _touching(self, test: str) -> Job:
         def job() -> dict[str, Any]:
@@ -162,13 +181,14 @@ class Trials:
         by_time = sorted(meets, key=lambda test: self.touches[test].seconds)
         own = tuple(f"tests/{test}::" for test in self.own(mutant.file))
         before = [t for f in functions for t in self.noticed[f] if t in meets][:3]
-        mine = [test for test in by_time if test.startswith(own)]
-        others, left = [], BUDGET
-        for test in by_time:
-            left -= self.touches[test].seconds
-            if left > 0 and not test.startswith(own):
-                others.append(test)
+        mine = self._quickest([test for test in by_time if test.startswith(own)], OWN)
+        others = self._quickest([test for test in by_time if not test.startswith(own)], OTHERS)
         return list(dict.fromkeys([*before, *mine, *others]))
+
+    def _quickest(self, tests: list[str], seconds: float) -> list[str]:
+        """As many tests, from the first on, as take so long."""
+        ends = accumulate(self.touches[test].seconds for test in tests)
+        return [test for test, end in zip(tests, ends, strict=True) if end < seconds]
 
     def _trying(self, mutant: Mutant, path: str, tests: list[str]) -> Job:
         def job() -> str:
