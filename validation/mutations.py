@@ -5,7 +5,7 @@ theirs, or ``--sample 100``). The tests of the files (validation/mutating/mutate
 once. Each mutant is then put into a fork of that process, and meets the tests that run the function
 it changes: killed, or survived. Mutants of a constant are imported instead. Survivors are listed in
 validation/mutation_survivors.md with a reason each; the exit status is 1 if one has none. What came
-of each file stands in validation/results/mutations.md, with the file's hash: ``--stale`` tries the
+of each file stands in validation/results/mutations.md, with a hash of its code: ``--stale`` tries the
 files that have changed since, or were never tried. The tests run a fixed sample of the mutants, all
 of which they must kill.
 """
@@ -13,6 +13,7 @@ of which they must kill.
 from __future__ import annotations
 
 import argparse
+import ast
 import hashlib
 import json
 import os
@@ -42,7 +43,7 @@ KINDS = ("killed", "broken", "hangs", "survived")
 HEAD = """# Mutants by file
 
 Written by `python -m validation.mutations`: of each file of the package the SHA-256 (its first
-digits) at which its mutants were tried, how many there are, and what the tests say of them. Files
+digits) of the code whose mutants were tried, how many there are, and what the tests say of them. Files
 that have changed since, or are not here, are tried by `--stale`. Why the survivors survive stands
 in `validation/mutation_survivors.md`.
 
@@ -115,9 +116,18 @@ def reasons() -> dict[str, str]:
     return dict(re.findall(r"^- `(.+?)`: (.+)$", SURVIVORS.read_text(), re.MULTILINE))
 
 
-def source_hash(file: str) -> str:
-    """The first digits of the SHA-256 of a file of the package."""
-    return hashlib.sha256((PACKAGE / file).read_bytes()).hexdigest()[:12]
+def code_hash(file: str) -> str:
+    """The first digits of the SHA-256 of a file's code, without comments and docstrings."""
+    tree = ast.parse((PACKAGE / file).read_text())
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        if isinstance(body, list):  # of a lambda it is an expression
+            node.body = [part for part in body if not _is_text(part)] or [ast.Pass()]
+    return hashlib.sha256(ast.unparse(tree).encode()).hexdigest()[:12]
+
+
+def _is_text(part: ast.stmt) -> bool:
+    return isinstance(part, ast.Expr) and isinstance(part.value, ast.Constant)
 
 
 def tried_files() -> dict[str, tuple[str, ...]]:
@@ -135,7 +145,7 @@ def table_written(found: Mapping[str, str]) -> None:
         said = [found.get(mutant.key) for mutant in all_mutants([file])]
         if None not in said:
             counts = (str(said.count(kind)) for kind in KINDS)
-            rows[file] = (source_hash(file), str(len(said)), *counts)
+            rows[file] = (code_hash(file), str(len(said)), *counts)
     lines = [f"| `{file}` | {' | '.join(rows[file])} |" for file in TESTS if file in rows]
     text_written(RESULTS, HEAD + "\n".join(lines) + "\n")
 
@@ -149,7 +159,7 @@ def main() -> int:
     parser.add_argument("--log", type=Path, help="outcomes, from which the same command goes on")
     options = parser.parse_args()
     known_rows = tried_files() if options.stale else {}
-    files = [f for f in options.files if known_rows.get(f, ("",))[0] != source_hash(f)]
+    files = [f for f in options.files if known_rows.get(f, ("",))[0] != code_hash(f)]
     chosen = all_mutants(files)
     if options.sample is not None:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
