@@ -5,9 +5,9 @@ theirs, or ``--sample 100``). The tests of the files (validation/mutating/mutate
 once. Each mutant is then put into a fork of that process, and meets the tests that run the function
 it changes: killed, or survived. Mutants of a constant are imported instead. Survivors are listed in
 validation/mutation_survivors.md with a reason each; the exit status is 1 if one has none. What came
-of each file stands in validation/results/mutations.md, with a hash of its code: ``--stale`` tries the
-files that have changed since, or were never tried. The tests run a fixed sample of the mutants, all
-of which they must kill.
+of each file stands in validation/results/mutations.md, with a hash of its code: ``--stale`` tries
+the files that have changed since, or were never tried. The tests run a fixed sample of the mutants,
+all of which they must kill.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ KINDS = ("killed", "broken", "hangs", "survived")
 HEAD = """# Mutants by file
 
 Written by `python -m validation.mutations`: of each file of the package the SHA-256 (its first
-digits) of the code whose mutants were tried, how many there are, and what the tests say of them. Files
-that have changed since, or are not here, are tried by `--stale`. Why the survivors survive stands
-in `validation/mutation_survivors.md`.
+digits) of the code whose mutants were tried, how many there are, and what the tests say of them.
+Files that have changed since, or are not here, are tried by `--stale`. Why the survivors survive
+stands in `validation/mutation_survivors.md`.
 
 | file | SHA-256 | mutants | killed | broken | hangs | survived |
 |-|-|-|-|-|-|-|
