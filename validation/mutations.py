@@ -178,7 +178,8 @@ def main() -> int:
         if said == "survived":
             tqdm.write(f"line {mutant.line}: {mutant.key}", file=sys.stderr)
 
-    outcomes(left, heard, log.with_suffix(".traces.json") if log is not None else None)
+    if left:
+        outcomes(left, heard, log.with_suffix(".traces.json") if log is not None else None)
     table_written(found)
     known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")
