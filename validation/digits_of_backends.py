@@ -27,7 +27,7 @@ from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver, cvxpy_reply
 from quasistatic_ref.solve.units import from_natural
 from quasistatic_ref.step.data import Array, StepData
@@ -69,7 +69,7 @@ class AsItIs:
 
 def answered(solver: CvxpySolver, step: StepData, units: str, accuracy: str) -> Array | None:
     """The delta_q that a backend gives [m, rad]; None if it gives none."""
-    scaled = AsItIs(step) if units == RAW else Scaled(step)
+    scaled = AsItIs(step) if units == RAW else DenseStep(step)
     if accuracy == DEFAULT:
         solver.write(scaled)
         with warnings.catch_warnings():

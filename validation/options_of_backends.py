@@ -20,7 +20,7 @@ from tqdm import tqdm
 from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.units import from_natural, within_reach
 from quasistatic_ref.step.data import Array, StepData
@@ -88,7 +88,7 @@ def answered(step: StepData, units: str, backend: str, options: Options) -> Arra
     if units == RAW:
         reply = qpsolvers_reply(standard_form(step), backend, options)
         return reply.x if reply.solved else None
-    scaled = Scaled(step)
+    scaled = DenseStep(step)
     reply = qpsolvers_reply(standard_form(within_reach(scaled.natural)), backend, options)
     if reply.x is None or not reply.solved:
         return None

@@ -18,7 +18,7 @@ from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
-from quasistatic_ref.solve.scaled import NaturalStep, Scaled
+from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -164,7 +164,7 @@ class Solver(ABC):
         self, step: StepData, form: StandardForm | None = None, units: Units | None = None
     ) -> NaturalStep:
         """The step in natural units; with its matrices and units, where these are known."""
-        return Scaled(step, form=form)
+        return DenseStep(step, form=form)
 
     def kept_hessian(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -221,7 +221,7 @@ class Solver(ABC):
             not return and the rows of the step are unlike each other.
         """
         unsafe = self.name.removeprefix(QPSOLVERS) in UNSAFE
-        if unsafe and isinstance(scaled, Scaled) and not scaled.unlike <= ALIKE:
+        if unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
             status = f"not asked: its rows differ by {scaled.unlike:.0e} in natural units"
             raise StepNotSolved(self.name, status, scaled.step, accuracy)
         idle = self.write(scaled)

@@ -10,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend, cone_backend
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import cone
@@ -45,13 +45,13 @@ class QpsolversSolver(Solver):
             cone_backend(name, f"the {like.cone}")
         super().__init__(like, name)
 
-    def write(self, scaled: Scaled) -> Mask:
+    def write(self, scaled: DenseStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
         self.form = standard_form(within_reach(natural))
         return np.repeat(out_of_reach(natural), natural.counts)
 
-    def reply(self, attempt: Attempt, scaled: Scaled) -> Reply:
+    def reply(self, attempt: Attempt, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         reply = qpsolvers_reply(self.form, name, attempt.options)

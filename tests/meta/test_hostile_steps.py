@@ -5,7 +5,7 @@ import numpy as np
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.solve.backends import NONE, UNSAFE
 from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import ALIKE
 from tests.tolerances import ROUNDING
@@ -34,7 +34,7 @@ def unlike_step(ratio):
 
 def test_how_unlike_rows_are_is_the_ratio_of_their_lengths():
     for ratio in (1.0, 100.0, 1e6):
-        np.testing.assert_allclose(Scaled(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
+        np.testing.assert_allclose(DenseStep(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
 
 
 def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():

@@ -220,6 +220,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/cone_problem.py": ("unit/step/test_standard_form.py", *SOLVERS),
     "solve/engines.py": ("unit/solve/test_defaults.py", *SOLVERS),
     "solve/extended.py": SOLVERS,
+    "solve/judged.py": (*SOLVED, "unit/certify/test_rounded_bound.py"),
     "solve/native.py": ("unit/solve/test_native.py", "unit/solve/test_units.py"),
     "solve/scaled.py": SOLVERS,
     "solve/second_order.py": ("unit/solve/test_native.py", "unit/step/test_cones.py"),

@@ -16,7 +16,7 @@ from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
@@ -81,11 +81,11 @@ def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_include
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
     # Written anew, it holds nothing of the step before.
     solver = NativeSolver(random_step(rng), backend)
-    solver.answer(Scaled(random_step(rng)), 1e-9)
+    solver.answer(DenseStep(random_step(rng)), 1e-9)
     step = random_step(rng)
     if far:
         step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
-    solver.answer(Scaled(step), 1e-9)
+    solver.answer(DenseStep(step), 1e-9)
     natural = to_natural(step, natural_units(step))
     expected = standard_form(within_reach(natural) if solver.adapter.NEAR else natural)
     program = solver.program
@@ -184,7 +184,7 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
     if own:
         step = with_rows(step, extension_rows(step, Extension(lambda s: [s.delta_q_a <= 1e-2])))
     solver = solver_for(step, "clarabel", "native")
-    solver.write(Scaled(step))
+    solver.write(DenseStep(step))
     natural = within_reach(to_natural(step, natural_units(step)))
     problem = cone_problem(natural)
     problem.fill(natural)
