@@ -120,8 +120,8 @@ QUOTED = {
         ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
          "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),
         ("tau_n over the vertical force is {:.0f} mm", lambda: [of.levers()[4]]),
-        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model asks "
-         "m v / h = {:.2f} N besides the {:.2f} N of the weight",
+        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model "
+         "needs m v / h = {:.2f} N in addition to the {:.2f} N of the weight",
          lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
         ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
         ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
@@ -132,7 +132,7 @@ QUOTED = {
     "docs/artifacts.md": [
         ("h = 10 ms: {:.0f} mm a step, a terminal velocity of {:.0f} mm/s",
          lambda: [1e3 * H**2 * G, 1e3 * H * G]),
-        ("0.2 kg at 50 mm/s, h = 10 ms: {:.1f} N beside {:.2f} N of friction at",
+        ("0.2 kg at 50 mm/s, h = 10 ms: {:.1f} N against {:.2f} N of friction at",
          lambda: [0.2 * 0.05 / H, 0.5 * 0.2 * G]),
         ("A warning is given above {:g}", lambda: [SLOW]),
         ("for the same velocity {:.0f} % less turn",
@@ -213,7 +213,7 @@ QUOTED = {
         ("the can's {:.0f} N stretch by {:.0f} mm", lambda: [0.2 * G, 1e3 * 0.2 * G / 2000]),
     ],
     "docs/guides/choose_a_backend.md": [
-        ("where it does [not solve {} of the grasp's steps]",
+        ("at which it does [not solve {} of the grasp's steps]",
          lambda: [of.one_in(of.highs_unsolved())]),
         ("{:.0f} to {:.0f} times as fast by the backend", of.native_gains),
     ],

@@ -208,7 +208,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if system.rigid else 0
-    backend, engine = _asked(solver, certify, named, entries_of_J)
+    backend, engine = _backend_and_engine(solver, certify, named, entries_of_J)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -244,12 +244,14 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     )
 
 
-def _asked(solver: Fields, certify: str, cone_name: str, entries: int) -> tuple[str, str]:
+def _backend_and_engine(
+    solver: Fields, certify: str, cone_name: str, entries: int
+) -> tuple[str, str]:
     """Names of the backend and the engine, looked up here rather than in the first step."""
-    asked = value(solver, SOLVER, "engine")
-    default = default_backend(asked, cone_name, certify, entries)
+    named = value(solver, SOLVER, "engine")
+    default = default_backend(named, cone_name, certify, entries)
     name = value(solver, SOLVER, "backend", default)
-    engine = asked or default_engine(name, cone_name)
+    engine = named or default_engine(name, cone_name)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
         raise solver.fail("backend", problem, name)

@@ -117,7 +117,8 @@ class Simulator:
         self.weighs = np.ones(system.n_v)
         self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
         self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
+        self.named, self.named_engine = solver, engine
+        self.accuracy, self.certify = accuracy, certify
         blocks = extension is None and system.rigid
         entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
         default = default_backend(engine, cone, certify, entries)
@@ -135,7 +136,7 @@ class Simulator:
     def __reduce__(self) -> tuple[Any, ...]:
         same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
-        settings |= {"solver": self.named, "engine": self.asked}
+        settings |= {"solver": self.named, "engine": self.named_engine}
         settings["feels_gravity"] = self.weighs[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
@@ -148,7 +149,7 @@ class Simulator:
         q_bar_a : ndarray, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
         force : ndarray, shape (n_v,), optional
-            External generalised force besides gravity [N, N m].
+            External generalised force in addition to gravity [N, N m].
 
         Returns
         -------
@@ -232,7 +233,7 @@ class Simulator:
     def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
         """A step solved, perhaps with an extension that is more than rows."""
         own = self.fitting(step)
-        by_name = extension is not None and (self.asked or CVXPY) == CVXPY
+        by_name = extension is not None and (self.named_engine or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else own
-        asked = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
-        return self.spare.after(step, partial(asked, extension=extension))
+        first = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
+        return self.spare.after(step, partial(first, extension=extension))

@@ -61,7 +61,7 @@ def solve_step(
         compiled problem and is kept between steps of one kind. What is certified does not depend
         on it.
     accuracy : float
-        Asked of the backend, in natural units [-].
+        Of the backend's answer, in natural units [-].
     certify : str
         ``"full"``: the exact optimum, correctly rounded, the same bits whatever the backend said
         (in the ellipsoid, which has no rational optimum, enclosed to 1e-13 or better);
@@ -86,7 +86,7 @@ def solve_step(
     StepNotSolved
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
-        If the backend is unknown or not installed, or not able to do what is asked of it.
+        If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
         If a solver object does not fit the step, `certify` is no such word, or `accuracy` not
         greater than 0.
@@ -136,7 +136,7 @@ def solved(
     Raises
     ------
     BackendError
-        If the solver cannot do what is asked of it.
+        If the solver does not support `certify`.
     """
     if certify == "full" and not solver.certifies:
         problem = "of sparse matrices gives residuals at most; use certify = 'residual'"
@@ -254,7 +254,7 @@ def _attempt(
     scaled: DenseStep, solver: Solver, accuracy: float
 ) -> tuple[Answer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
-    said = solver.name, "not asked", None, None, accuracy
+    said = solver.name, "not called", None, None, accuracy
     statistics = SolverStatistics(*said, engine=solver.engine)
     if solver.name == NONE:
         return None, statistics

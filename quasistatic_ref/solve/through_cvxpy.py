@@ -48,7 +48,7 @@ class CvxpySolver(Solver):
 
     def __init__(self, like: StepData, name: str = DEFAULT) -> None:
         if backend(name).name != name:
-            problem = f"is not asked through CVXPY; leave out {QPSOLVERS!r}"
+            problem = f"is not reached through CVXPY; leave out {QPSOLVERS!r}"
             raise BackendError(problem, field="backend", value=name)
         if like.cone == ELLIPSOID:
             cone_backend(name, "the ellipsoid")

@@ -97,15 +97,15 @@ def qpsolvers_reply(
 
 
 def _account(solution: qpsolvers.Solution) -> tuple[float | None, float | None]:
-    """Seconds of solving and of setting up as the solver tells them, and not qpsolvers' clock."""
+    """Seconds of solving and of setting up as the solver reports them, and not qpsolvers' clock."""
     extras = solution.extras or {}
     info = extras.get("info", extras)
-    told: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
+    field: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
     package = type(info).__module__
     unit = 1e-3 if "setup_time" in extras else 1e-6 if "proxsuite" in package else 1.0  # SCS: ms
 
     def seconds(name: str) -> float | None:
-        time = told(name)
+        time = field(name)
         return unit * float(time) if time is not None and time > 0 else None
 
     return seconds("solve_time"), seconds("setup_time")

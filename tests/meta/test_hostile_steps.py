@@ -39,7 +39,7 @@ def test_how_unlike_rows_are_is_the_ratio_of_their_lengths():
 
 def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():
     assert {"quadprog", "highs"} == UNSAFE
-    for ratio, status in ((0.9 * ALIKE, "optimal"), (1.1 * ALIKE, "failed: not asked: its rows ")):
+    for ratio, status in ((0.9 * ALIKE, "optimal"), (1.1 * ALIKE, "failed: not called: its rows ")):
         step = unlike_step(ratio)
         exact = solve_step(step, NONE).delta_q
         for name in UNSAFE:

@@ -200,7 +200,7 @@ def test_a_sparse_solver_refuses_a_step_of_another_pattern(large_step, step):
 def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="gives no answer of its own"):
         solve_step(step, NoSolver(step), certify="residual")
-    with pytest.raises(StepNotSolved, match="not asked"):
+    with pytest.raises(StepNotSolved, match="not called"):
         NoSolver(step).answer(NoSolver(step).scaled(step), 1e-9)
 
 
