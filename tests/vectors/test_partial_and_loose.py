@@ -1,4 +1,4 @@
-"""Answers in part, right to fewer digits, in another order; and what the checker is asked for."""
+"""Answers in part, right to fewer digits, in another order; and the checker's options."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""Classic mistakes, recognised by what somebody who makes them would have answered.
+"""Classic mistakes, recognised by what a program that makes them would have answered.
 
 Each hypothesis is tried on the failing answers of a layer. It is named if it predicts at least half
 of them to within a multiple of their tolerance where the right answer is another, and more of them
@@ -21,7 +21,7 @@ from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
 SAMPLE: Final = 12
-"""Failing cases that are tried, and right ones: mistakes are systematic, some predictions dear."""
+"""Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""
 SAME: Final = 1e-9
 """Difference from a prediction, relative to the field's largest number, that still matches: a
 mistake leaves the other digits right, but not to the last bit."""
