@@ -29,6 +29,7 @@ ROOMS = (
     "__main__",
     "lab/grasp",
     "lab/runs",
+    "lab/measures",
     "lab/page",
     "lab/figures",
     "lab/scenes",

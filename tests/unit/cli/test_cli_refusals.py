@@ -8,27 +8,8 @@ import sys
 import pytest
 
 from quasistatic_ref.cli.main import main
+from tests.helpers import one_sentence
 from tests.scenes import PUSH, written_scenario
-
-
-@pytest.fixture
-def scene(tmp_path):
-    return str(written_scenario(tmp_path))
-
-
-@pytest.fixture
-def out(tmp_path):
-    return tmp_path / "out"
-
-
-def one_sentence(errors):
-    """The one line on standard error, without the program's name."""
-    lines = errors.splitlines()
-    assert len(lines) == 1, errors
-    assert lines[0].startswith("quasistatic-ref: ")
-    assert "Traceback" not in errors
-    return lines[0].removeprefix("quasistatic-ref: ")
-
 
 STEP = json.dumps({"format": "quasistatic-ref/step", "version": 1, "h": -1})
 BAD = {

@@ -12,6 +12,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import validate as command
 from quasistatic_ref.lab.figures.validation import PICTURES
+from quasistatic_ref.lab.measures import slope, threshold
 from quasistatic_ref.lab.validate.claim import (
     FAILS,
     HOLDS,
@@ -23,7 +24,6 @@ from quasistatic_ref.lab.validate.claim import (
     sum_of_terms,
     within,
 )
-from quasistatic_ref.lab.validate.measures import slope, threshold
 from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
 
