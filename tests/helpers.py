@@ -14,6 +14,14 @@ from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
+SHAPES = [
+    (7, 6, (6,) * 10 + (4,) * 5),
+    (3, 4, (6, 4)),
+    (0, 6, (4, 6, 4)),
+    (4, 0, (6, 6)),
+    (2, 2, ()),
+]
+"""n_a, n_u and rows of each contact, of random steps."""
 
 
 def changed(contacts, **changes):

@@ -20,9 +20,9 @@ from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
-from quasistatic_ref.solve.judged import judged_answer
 from quasistatic_ref.solve.scaled import DenseStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
+from quasistatic_ref.solve.uncertified import uncertified_solution
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -160,7 +160,7 @@ def _solved(
     """The solution, or None if it is not finite."""
     scaled = solver.scaled(step, form, units)
     if certify != "full" or not isinstance(scaled, DenseStep):
-        solution = judged_answer(scaled, solver, solver.answer(scaled, accuracy), certify)
+        solution = uncertified_solution(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:
         certified = _enclosed if step.cone == ELLIPSOID else _exact
         solution = certified(scaled, solver, accuracy)
@@ -221,7 +221,7 @@ def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolutio
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        return judged_answer(scaled, solver, answer, "residual")
+        return uncertified_solution(scaled, solver, answer, "residual")
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)

@@ -23,6 +23,7 @@ from tests.helpers import (
     INTERFACES,
     JUDGE,
     REQUIRED,
+    SHAPES,
     changed,
     error,
     pinch,
@@ -35,13 +36,6 @@ from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM
 solve_step = functools.partial(solve.solve_step, certify="residual")  # what backends say
 
 every_interface = pytest.mark.parametrize("interface", INTERFACES)
-SHAPES = [
-    (7, 6, (6,) * 10 + (4,) * 5),
-    (3, 4, (6, 4)),
-    (0, 6, (4, 6, 4)),
-    (4, 0, (6, 6)),
-    (2, 2, ()),
-]
 
 
 def opposing_walls():

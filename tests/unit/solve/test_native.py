@@ -22,16 +22,9 @@ from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import changed, error, pinch, planted_step, random_step
+from tests.helpers import SHAPES, changed, error, pinch, planted_step, random_step
 from tests.tolerances import ACTIVE_SET, EXACT, FOUR_ULP, OPTIMUM
 
-SHAPES = [
-    (7, 6, (6,) * 10 + (4,) * 5),
-    (3, 4, (6, 4)),
-    (0, 6, (4, 6, 4)),
-    (4, 0, (6, 6)),
-    (2, 2, ()),
-]
 every_backend = pytest.mark.parametrize("backend", installed("native"))
 
 

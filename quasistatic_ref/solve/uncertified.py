@@ -14,7 +14,7 @@ from quasistatic_ref.tolerances import BOUNDED, RESIDUAL_LIMIT
 NOTHING_CLAIMED = Certificate("none")
 
 
-def judged_answer(
+def uncertified_solution(
     scaled: NaturalStep, solver: Solver, answer: Answer, certify: str
 ) -> StepSolution:
     """A solver's own answer as a solution in SI units.
