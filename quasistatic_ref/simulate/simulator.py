@@ -56,8 +56,8 @@ class Simulator:
         Joint stiffness [N/m, N m/rad], in the order of q_a.
     gravity : array_like, shape (3,)
         [m/s^2], world frame.
-    feels_gravity : ndarray of bool, shape (n_a,), optional
-        Actuated coordinates whose gravity is not compensated by the robot; none by default.
+    gravity_acts : ndarray of bool, shape (n_a,), optional
+        Whether gravity acts on each actuated coordinate; by default the robot compensates all.
     solver : str, optional
         Name of a backend, by default :func:`~quasistatic_ref.solve.engines.default_backend`'s, and
         Clarabel's where that fails; it, accuracy and certify are as in
@@ -100,7 +100,7 @@ class Simulator:
         h: float,
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
-        feels_gravity: Array | None = None,
+        gravity_acts: Array | None = None,
         solver: str | None = None,
         engine: str | None = None,
         accuracy: float = ACCURACY,
@@ -114,8 +114,8 @@ class Simulator:
         self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
         self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
-        self.weighs = np.ones(system.n_v)
-        self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
+        self.gravity_acts = np.ones(system.n_v)
+        self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
         self.extension, self.limits = extension, Limits() if limits is None else limits
         self.named, self.named_engine = solver, engine
         self.accuracy, self.certify = accuracy, certify
@@ -137,7 +137,7 @@ class Simulator:
         same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
         settings |= {"solver": self.named, "engine": self.named_engine}
-        settings["feels_gravity"] = self.weighs[: self.system.n_a]
+        settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -207,9 +207,9 @@ class Simulator:
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + force
-        if tau.shape != self.weighs.shape:
-            problem = f"must have shape {self.weighs.shape}"
+        tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
+        if tau.shape != self.gravity_acts.shape:
+            problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)

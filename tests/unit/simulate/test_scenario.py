@@ -192,7 +192,7 @@ SETTINGS = {
     "a word in quotes": ('record="light"', lambda s: s.record == "light"),
     "a table that was not there": ("solver.backend=osqp", lambda s: s.backend == "osqp"),
     "an inline table's field": ("bodies.rail.K_q.slide=600", lambda s: s.K_q[0, 0] == 600),
-    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.feels_gravity.all()),
+    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.gravity_acts.all()),
 }
 
 

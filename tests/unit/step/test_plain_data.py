@@ -157,7 +157,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "h": 0.002,
         "K_q": np.diag([3.0, 4.0]),
         "gravity": (1.0, 2.0, 3.0),
-        "feels_gravity": np.array([True, False]),
+        "gravity_acts": np.array([True, False]),
         "solver": "osqp",
         "engine": "cvxpy",
         "accuracy": 1e-7,
