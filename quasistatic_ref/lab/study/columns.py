@@ -29,7 +29,7 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
         The fields of the rows, and ``label`` (interface:solver); ``unit``, the problem with its
         repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that were
         delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of the
-        call, the time limit where it does not; ``net``; ``iterations``, NaN where not known.
+        call, the time limit where it does not; ``net``; ``iterations``, NaN where not told.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
     for name in FLAGS:
@@ -71,13 +71,13 @@ def chosen(columns: Columns, where: Where) -> Columns:
 
 
 def common(columns: Columns, by: Sequence[str] = ("label",)) -> Columns:
-    """The rows on problems that all solvers got.
+    """The rows on problems that everybody was asked on.
 
     Parameters
     ----------
     columns : mapping of str to ndarray
     by : sequence of str
-        What tells one from another. Solvers without a call are left out; what a
+        What tells one from another. Those who were asked nothing at all are left out; what a
         budget did not reach is not solved, so that it costs its own solver and no other.
     """
     if not size(columns):
@@ -104,7 +104,7 @@ def groups(columns: Columns, by: Sequence[str]) -> Iterator[tuple[tuple[str, ...
 
 
 def matrix(columns: Columns, name: str, labels: Sequence[str]) -> np.ndarray:
-    """One field, a row for each solver and a column for each problem that all got.
+    """One field, a row for each solver and a column for each problem that all were asked on.
 
     Parameters
     ----------
