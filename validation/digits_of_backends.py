@@ -1,9 +1,9 @@
 """Correct digits of each backend on every step of both bunny_grasp runs, at several settings.
 
 Run ``python -m validation.digits_of_backends`` (about two minutes; the extra ``test`` brings
-DAQP). Each step is asked twice: as it is, in SI units, and in natural units, as `solve_step` asks
-it. "default" is the solver as it comes, through CVXPY, with none of our options; the others are
-the accuracies that our table of options was asked for. The truth is the certified optimum of the
+DAQP). Each step is solved twice: as it is, in SI units, and in natural units, as `solve_step`
+solves it. "default" is the solver as it comes, through CVXPY, with none of our options; the others
+are accuracies at which our table of options is used. The truth is the certified optimum of the
 step. Writes validation/results/digits_of_backends.csv and docs/figures/digits_of_backends.png.
 """
 

@@ -2,7 +2,7 @@
 
 ``python -m validation.options_of_backends`` (some minutes) prints a CSV: for each set of options
 the steps that the backend did not solve, with and without torsional friction, and the worst and
-the median of its correct digits on those that it solved. Backends are asked through qpsolvers,
+the median of its correct digits on those that it solved. Backends are called through qpsolvers,
 cold. What was learned stands in docs/conventions.md, and the options in ``solve/backends.py``.
 """
 
@@ -59,7 +59,7 @@ class Worth:
     median: float
 
 
-def asked() -> Iterator[tuple[str, str, str, Options]]:
+def combinations() -> Iterator[tuple[str, str, str, Options]]:
     """Backend, units, what is special about the options, and the options."""
     for name, options in GAPS.items():
         for gap in (1e-12, 1e-14):
@@ -98,7 +98,7 @@ def answered(step: StepData, units: str, backend: str, options: Options) -> Arra
 def measured() -> Iterator[Worth]:
     """One record for each set of options."""
     runs = [steps_of(own) for own in CASES.values()]  # with torsion, without
-    for backend, units, special, options in tqdm(list(asked())):
+    for backend, units, special, options in tqdm(list(combinations())):
         unsolved, digits = [0, 0], []
         for case, steps in enumerate(runs):
             for step, x in steps:

@@ -65,7 +65,7 @@ def numbers(name):
 
 
 def pairs(name, atol, rtol=0.0):
-    """Measured and expected stand beside each other in `main`: they must agree."""
+    """Measured and expected stand next to each other in `main`: they must agree."""
     found = list(numbers(name).values())
     np.testing.assert_allclose(found[0::2], found[1::2], rtol=rtol, atol=atol)
 

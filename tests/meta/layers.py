@@ -41,7 +41,7 @@ ROOMS = (
     "lab/commands",
 )
 
-# The only file of the core that may name the lab, as a string: it imports a command when asked.
+# The only file of the core that may name the lab, as a string: it imports one of its commands.
 DOOR = "cli/main.py"
 
 # The only file that may name compiled code, as a string: it gives nothing where there is no

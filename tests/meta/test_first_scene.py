@@ -1,4 +1,4 @@
-"""Whoever types the page `from a URDF to a picture` gets what it says."""
+"""What the page `from a URDF to a picture` says comes of its commands."""
 
 import runpy
 import shlex

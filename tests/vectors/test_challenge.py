@@ -118,7 +118,7 @@ def test_shrinking_ends_where_no_single_move_fails_any_more():
     assert np.count_nonzero(small["contacts"][0]["J"]) == 1
 
 
-def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, capsys):
+def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
     out, asked = tmp_path / "found", command("wrong", tmp_path)
     given = ["vectors", "challenge", "--command", asked, "--layer", "selection", "--cases", "6"]
     assert main([*given, "--out", str(out), "--quiet"]) == 1

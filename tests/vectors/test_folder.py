@@ -22,7 +22,7 @@ from tests.vectors.material import ROOT, VECTORS, cases, expected
 MEBIBYTES = 25
 """Promised size of the folder."""
 SAMPLE = 4
-"""Cases of each layer that are computed anew: the first, the last and those between."""
+"""Cases of each layer that are computed again: the first, the last and those between."""
 
 
 def schema(name):

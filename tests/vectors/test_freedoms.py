@@ -149,7 +149,7 @@ def boxes_face_to_face():
     [
         ({}, "passed"),
         ({"alpha": [0.5, 0.3, -0.4], "beta": [1.5, 0.3, -0.4]}, "acceptable"),
-        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # beside alpha's box
+        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # outside of alpha's box
         ({"alpha": [0.4, 0.0, 0.0], "beta": [1.4, 0.0, 0.0]}, "failed"),  # inside it
         ({"beta": [1.5, 0.1, 0.0]}, "failed"),  # not opposite
         ({"n": [0.0, 1.0, 0.0]}, "failed"),

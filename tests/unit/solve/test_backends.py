@@ -222,7 +222,7 @@ def test_solutions_carry_statistics_and_name_the_cone(rng):
 
 
 def by_hand(accuracy):
-    """What has to be asked of each solver for its answer to have `accuracy`."""
+    """The options that each solver needs for its answer to have `accuracy`."""
     gap = 1e-2 * accuracy  # ||x - x*||_H^2 <= 2 gap
     return {
         "clarabel": {"tol_feas": accuracy, "tol_gap_abs": gap, "tol_gap_rel": gap},

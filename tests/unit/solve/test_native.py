@@ -72,7 +72,7 @@ def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_include
 @every_backend
 @pytest.mark.parametrize("far", [False, True])
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
-    # Written anew, it holds nothing of the step before.
+    # Written again, it holds nothing of the step before.
     solver = NativeSolver(random_step(rng), backend)
     solver.answer(DenseStep(random_step(rng)), 1e-9)
     step = random_step(rng)

@@ -128,7 +128,7 @@ def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sp
     assert run.steps == 3
     assert not formed
     assert step_after(some, 1).step.contacts.J.shape[1:] == (4, 24)
-    assert len(formed) == 1  # asked for, it is
+    assert len(formed) == 1  # read, it is
 
 
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
