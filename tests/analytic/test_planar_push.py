@@ -40,7 +40,7 @@ def test_a_push_without_friction_turns_by_its_arm():
 
 
 @pytest.mark.parametrize("sticks", [True, False])
-def test_the_support_moves_along_the_normal_of_its_limit_surface_at_any_speed(sticks):
+def test_the_support_moves_along_the_normal_of_its_limit_surface(sticks):
     of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.8, lifted=0.5, sticks=sticks)
     answer = solve_step(push_step(of), "clarabel")
     assert answer.certificate.kind == "enclosure"

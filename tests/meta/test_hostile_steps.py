@@ -50,7 +50,7 @@ def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():
                 np.testing.assert_array_equal(solution.delta_q, exact)
 
 
-def test_every_path_ends_exact_or_refused_on_a_sample_and_where_a_backend_was_held_up():
+def test_every_path_ends_exact_or_refused_also_where_it_was_held_up():
     held_up = [(name, i, 1) for part, i in HELD_UP.items() for name in names() if part in name]
     assert len(held_up) == 5  # but for ProxQP by two interfaces
     jobs = [(name, 0, SAMPLE) for name in names()] + held_up

@@ -159,7 +159,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
     assert {name: reason for name, reason in refused.items() if reason} == {}
 
 
-def test_generating_twice_gives_identical_bytes_and_generating_in_place_too(tmp_path):
+def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     for layer in LAYERS:
         few = sorted(cases(layer), key=lambda case: len(line(case.json)))[:3]
         text_written(tmp_path / "a" / "inputs" / f"{layer}.json", inputs_text(layer, few))

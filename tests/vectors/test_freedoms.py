@@ -164,7 +164,7 @@ def test_another_witness_has_to_prove_the_distance(changes, verdict):
     assert case_verdict("distance", case, wanted, answer).verdict == verdict
 
 
-def test_near_a_unique_witness_there_is_no_other_but_far_from_it_there_may_be():
+def test_near_a_unique_witness_there_is_no_other():
     # Unique is said of exact numbers: a face that is parallel but for 1e-18 has one nearest corner.
     case, wanted = boxes_face_to_face()
     wanted["flags"]["unique"] = True

@@ -108,7 +108,7 @@ def test_a_program_that_supports_nothing_is_asked_no_further(tmp_path):
     assert found.status == 0
 
 
-def test_layers_that_it_does_not_declare_are_not_asked_and_said_not_to_be_supported(tmp_path):
+def test_layers_that_a_program_does_not_declare_are_unsupported(tmp_path):
     program = Program(command("declares another layer", tmp_path))
     found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
     assert (found.findings, +found.asked) == ([], {"selection": 12})

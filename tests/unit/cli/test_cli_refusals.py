@@ -105,7 +105,7 @@ def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
     assert (tmp_path / "bench" / "scene.npz").is_file()
 
 
-def test_a_file_that_cannot_be_used_is_named_and_not_taken_for_standard_output(monkeypatch, capsys):
+def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsys):
     def full(options):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
 

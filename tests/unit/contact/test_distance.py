@@ -171,7 +171,7 @@ STACKED = {
 
 @pytest.mark.parametrize("gap", [1e-3, 0.0, -1e-3])
 @pytest.mark.parametrize(("shape", "height"), STACKED.values(), ids=STACKED)
-def test_what_stands_on_a_box_has_its_normal_upwards_apart_touching_or_sunk(shape, height, gap):
+def test_the_normal_on_a_box_is_upwards_apart_touching_or_sunk(shape, height, gap):
     table = placed(Box(np.array([1.0, 1.0, 0.5])))
     for turn in np.linspace(0, 3, 7):
         R = Rotation.from_rotvec(turn * Z).as_matrix()

@@ -75,7 +75,7 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
             assert answer.certificate.kind == "residual"
 
 
-def test_every_other_installed_backend_agrees_or_says_that_it_did_not_solve():
+def test_other_backends_agree_or_say_that_they_did_not_solve():
     step, delta_q, _ = planted_step(np.random.default_rng(0), *SHAPES[0])
     for name in set(installed_backends()) - set(INTERFACES):
         try:

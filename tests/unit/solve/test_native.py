@@ -49,7 +49,7 @@ def by_cvxpy(step, limits):
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("shape", SHAPES[:2], ids=str)
-def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_included(shape, seed):
+def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp(shape, seed):
     # CVXPY's rows go through i first, ours through the contacts; an equation is two rows of ours.
     step = random_step(np.random.default_rng(seed), *shape)
     form = standard_form(with_rows(step, extension_rows(step, Extension(some_limits))))
@@ -235,7 +235,7 @@ def test_an_engine_that_there_is_not_is_refused(rng):
         load_scenario("sphere_spin", ["solver.engine=native", "solver.backend=highs"])
 
 
-def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
+def test_a_simulator_passes_curved_extensions_to_cvxpy_by_default():
     scenario = load_scenario("sphere_spin", ["solver.certify=residual"])
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
     settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual"}
