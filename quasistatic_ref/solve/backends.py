@@ -128,7 +128,7 @@ def _osqp(accuracy: float) -> Attempts:
 
 
 def _piqp(accuracy: float) -> Attempts:
-    # eps_abs alone leaves the duality gap at 1e-8: it must be asked for by name.
+    # eps_abs alone leaves the duality gap at 1e-8: it must be set by name.
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
     gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from

@@ -108,8 +108,8 @@ def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
         return False
     expected = one.record["output"]
     for prediction in _predictions(layer, hypothesis, one):
-        told = _told(layer, one, prediction)
-        wrong = {name: v for name, v in told.items() if not _same(one, name, v, expected)}
+        fields = _comparable(layer, one, prediction)
+        wrong = {name: v for name, v in fields.items() if not _same(one, name, v, expected)}
         if wrong and all(_same(one, name, value, one.output) for name, value in wrong.items()):
             return True
     return False
@@ -130,7 +130,7 @@ def _would_spoil(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
     )
 
 
-def _told(layer: str, one: Failed, prediction: Json) -> dict[str, Json]:
+def _comparable(layer: str, one: Failed, prediction: Json) -> dict[str, Json]:
     """The fields to compare: of a whole step the first that fails, the others follow from it."""
     fields = parts(prediction)
     if layer != "step":
