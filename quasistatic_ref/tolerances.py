@@ -208,22 +208,34 @@ BEARING: Final = 1e-11
 it counts as none where a derivative is computed [-]: rounding of places, 1e-16 m, over a step of
 1e-5 m."""
 
-DEPENDENT: Final = 1e-8
-"""Least singular value of rows of length one that counts as none [-]. Geometry splits the rows of
-bodies that lie flat on each other by 1e-15; what is nearer to dependence than this makes forces of
-1e8 times the load."""
+DEPENDENT: Final = 1e-6
+"""Least singular value of rows of length one that counts as none [-]: derivatives are right to 2e-16
+over it."""
 
-CONSISTENT: Final = 1e-9
+SPLIT: Final = 1e-12
+"""Largest singular value of such rows that is rounding [-]: geometry splits the rows of bodies that
+lie flat on each other by 1e-15. Rows between this and DEPENDENT might hold at once or might not."""
+
+CONSISTENT: Final = 1e-11
 """Largest rate at which dependent rows leave each other, relative to the terms that make it, that
-is rounding [-]: rates are right to 1e-13, and are divided by lengths of rows 1e3 apart."""
+is rounding [-]: those of random states are at 1e-13 and below, and what is left is an error of ten
+times as much."""
 
 ON_RIM: Final = 1e-9
 """How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
 on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
 
-UNIQUE: Final = 1e-9
-"""Least singular value of the equations of a closest pair, lengths over the pair's size, at which
-the pair counts as unique [-]. Parallel faces leave 1e-16; nearer ones turn by 1e9 of a motion."""
+LEVEL: Final = 1e-5
+"""Tilt of a cylinder or a cone [rad] below which its rim counts as level where a derivative is
+asked for. Its closest point turns by 1 / tilt of a motion, and tilts are right to 2e-16: 2e-11 of
+that, and what two such rates leave of each other has lost another 1 / tilt: 2e-10 of a rate of 10.
+"""
+
+UNIQUE: Final = 1e-6
+"""Least singular value of the equations of a closest pair, lengths over the pair's size or its
+distance from the world's origin, whichever is larger, at which the pair counts as unique [-].
+Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16.
+"""
 
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:

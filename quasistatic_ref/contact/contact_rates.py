@@ -119,7 +119,7 @@ def couple_rates(
         v = nu + np.cross(omega, at, axis=1)
         v = v if slides is None else v + slides[side]
         sides.append(Sides([own[side] for own in features], v, omega))
-    phi, size = np.array([c.phi for c in couples]), np.array([c.size for c in couples])
+    phi, size = np.array([c.phi for c in couples]), np.array([c.reach for c in couples])
     n = np.array([c.n for c in couples]).reshape(-1, 3)
     return witness_rates(phi, n, frames, sides[0], sides[1], size)
 

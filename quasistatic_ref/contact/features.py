@@ -30,7 +30,7 @@ from quasistatic_ref.model.shapes import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ON_RIM
+from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
 
@@ -115,11 +115,11 @@ def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
     cap = abs(x[2]) >= shape.half_length - near
     if cap and not side:
         return Feature(np.zeros((3, 3)), _across(n))
-    bend, radial = _around(shape.radius, n), np.hypot(n[0], n[1])
+    bend, radial = _around(x, n), np.hypot(n[0], n[1])
     if not cap:
         return Feature(bend, axis[None])
     ends = axis[None] if abs(n[2]) <= ON_RIM else NONE
-    return Feature(bend, ends=_across(n) if radial <= ON_RIM else ends)
+    return Feature(bend, ends=_across(n) if radial <= LEVEL else ends)
 
 
 def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
@@ -133,10 +133,10 @@ def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
     generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
     on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
     if base:
-        return Feature(_around(r, n), ends=_across(n) if radial <= ON_RIM else on_slant)
+        return Feature(_around(x, n), ends=_across(n) if radial <= LEVEL else on_slant)
     if x[2] >= shape.half_length - near:
         return Feature(np.zeros((3, 3)), ends=on_slant)
-    return Feature(_around(r, n), generator[None])
+    return Feature(_around(x, n), generator[None])
 
 
 def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
@@ -166,12 +166,15 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
     return Feature(nothing, ends=ways[ways @ n >= -ON_RIM])
 
 
-def _around(r: float, n: Array) -> Array:
-    """D of a circle of radius r about the z axis, where its normal is n; 0 if that is the axis."""
-    radial = np.hypot(n[0], n[1])
-    if radial <= ON_RIM:
+def _around(x: Array, n: Array) -> Array:
+    """D of the circle about the z axis through x, where its normal is n; 0 if that is the axis.
+
+    The way around is taken from x: near the axis a normal knows its direction to fewer digits.
+    """
+    r, radial = np.hypot(x[0], x[1]), np.hypot(n[0], n[1])
+    if radial <= LEVEL:
         return np.zeros((3, 3))
-    around = np.array([-n[1], n[0], 0.0]) / radial
+    around = np.array([-x[1], x[0], 0.0]) / r
     return np.asarray(r / radial * np.outer(around, around))
 
 

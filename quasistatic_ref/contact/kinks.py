@@ -67,7 +67,7 @@ def _not_unique(j: int, couple: Couple) -> Kink:
     straight = np.concatenate([f.free for f in couple.features])
     independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
     if len(straight) <= 2 and independent:
-        if abs(couple.phi) <= UNIQUE * couple.size:
+        if abs(couple.phi) <= UNIQUE * couple.reach:
             return Kink(j, reason.NO_NORMAL, "touches where neither surface has a normal", True)
         return Kink(j, reason.MANY, "is at a surface's centre of curvature", True)
     return Kink(j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True)
