@@ -81,7 +81,8 @@ def witness_rates(
     turn = [_cross(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
     bends = [np.array([f.bend for f in side.features]).reshape(-1, 3, 3) for side in (alpha, beta)]
     free = [_padded(side.features) for side in (alpha, beta)]
-    matrix, right = _system(phi, frames, bends, free, turn, beta.v - alpha.v, size)
+    curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
+    matrix, right = _system(phi, frames, bends, free, curved, turn, beta.v - alpha.v, size)
     good = np.linalg.svd(matrix, compute_uv=False)[:, -1] > UNIQUE
     turns = beta.omega - alpha.omega
     solutions = {
@@ -124,6 +125,7 @@ def _system(
     frames: Array,
     bends: list[Array],
     free: list[Array],
+    curved: list[Array],
     turn: list[Array],
     apart: Array,
     size: Array,
@@ -134,19 +136,21 @@ def _system(
     matrix[:, :2, :2] = frames @ ((bends[0] + bends[1]) / s) @ across
     matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
     right[:, :2] = frames @ (apart + bends[0] @ turn[0] + bends[1] @ turn[1]) / s
-    for F, w, at, sign in zip(free, turn, (slice(2, 4), slice(4, 6)), (1, -1), strict=True):
-        own = F @ across
+    for F, k, w, first, sign in zip(free, curved, turn, (2, 4), (1, -1), strict=True):
+        own, at = F @ across, slice(first, first + 2)
         matrix[:, :2, at], matrix[:, at, :2] = sign * own.transpose(0, 2, 1), own
         matrix[:, at, at] = np.eye(2) * (np.abs(F).max(axis=2) == 0)[:, :, None]
+        matrix[:, first, first] -= sign * k * size
         right[:, at] = F @ w
     return matrix, right
 
 
 def _padded(features: list[Feature]) -> Array:
-    """The free directions of features, shape (N, 2, 3), filled up by zeros."""
+    """The free directions of features, or that of a rim, (N, 2, 3), filled up by zeros."""
     padded = np.zeros((len(features), 2, 3))
     for own, f in zip(padded, features, strict=True):
         own[: len(f.free)] = f.free
+        own[: len(f.arc)] = f.arc
     return padded
 
 
