@@ -237,6 +237,10 @@ distance from the world's origin, whichever is larger, at which the pair counts 
 Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16.
 """
 
+INSIDE: Final = 1e-6
+"""How far inside of a cone a load or a motion is, relative to itself, that stays there where its
+normal turns by TIED and float64 rounds [-]."""
+
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:
 REPEATED for sizes of some decimetres."""
