@@ -10,6 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.contact.witness_rates import Rates, Sides, witness_rates
+from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import ON_RIM, UNIQUE
 
@@ -111,15 +112,17 @@ def couple_rates(
         Others than those of the couples.
     """
     features = [c.features for c in couples] if features is None else features
-    sides = []
+    sides, far = [], np.zeros(len(couples))
     for side in (0, 1):
         links = [(c.pair.alpha, c.pair.beta)[side].link for c in couples]
         nu, omega = J[links][:, :3], J[links][:, 3:]
         at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
-        v = nu + np.cross(omega, at, axis=1)
+        far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
+        v = nu + crossed(omega, at)
         v = v if slides is None else v + slides[side]
         sides.append(Sides([own[side] for own in features], v, omega))
-    phi, size = np.array([c.phi for c in couples]), np.array([c.reach for c in couples])
+    phi, size = np.array([c.phi for c in couples]), np.array([c.size for c in couples])
+    size = np.maximum(size, far)
     n = np.array([c.n for c in couples]).reshape(-1, 3)
     return witness_rates(phi, n, frames, sides[0], sides[1], size)
 
@@ -163,5 +166,5 @@ def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:
     length = np.sqrt(1 - along * along)
     d1 = (axis[:, :, None] - along * n[:, :, None]) / length
     d_d1 = -(d_along * n[:, :, None] + along * d_n) / length + d1 * (along * d_along) / length**2
-    d_d2 = np.cross(d_n, d1, axis=1) + np.cross(n[:, :, None], d_d1, axis=1)
+    d_d2 = crossed(d_n, d1) + crossed(n[:, :, None], d_d1)
     return d_d1, d_d2

@@ -75,8 +75,7 @@ class Couple(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """The size, or the largest coordinate of a point if that is larger [m]: places are rounded
-        to a share of it."""
+        """The size, or a point's largest coordinate [m]: places are rounded to a share of it."""
         return max(self.size, *(float(np.abs(point).max()) for point in self.points))
 
 

@@ -22,8 +22,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.features import Feature
+from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import UNIQUE
+from quasistatic_ref.tolerances import CONSISTENT, UNIQUE
 
 
 class Rates(NamedTuple):
@@ -78,7 +79,7 @@ def witness_rates(
         About how large the bodies are [m]: what a singular matrix is measured by.
     """
     count = len(phi)
-    turn = [_cross(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
+    turn = [crossed(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
     bends = [np.array([f.bend for f in side.features]).reshape(-1, 3, 3) for side in (alpha, beta)]
     free = [_padded(side.features) for side in (alpha, beta)]
     curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
@@ -110,12 +111,12 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
     U, s, V = np.linalg.svd(matrix)
     rank = int(np.count_nonzero(s > UNIQUE))
     slides, across = V[rank:], U[:, rank:].T
-    if np.abs(slides[:, :2]).max() > UNIQUE:
+    if np.abs(slides[:, :2]).max() > CONSISTENT:
         return None  # the normal itself is not determined
-    if np.abs(across @ right).max(initial=0.0) > UNIQUE * max(1.0, float(np.abs(right).max())):
+    if np.abs(across @ right).max(initial=0.0) > CONSISTENT * max(1.0, float(np.abs(right).max())):
         return None
     for way in slides[:, 2:4] @ free:
-        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > UNIQUE:
+        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
             return None
     return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))
 
@@ -152,7 +153,3 @@ def _padded(features: list[Feature]) -> Array:
         own[: len(f.free)] = f.free
         own[: len(f.arc)] = f.arc
     return padded
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(np.cross(a, b, axis=1))

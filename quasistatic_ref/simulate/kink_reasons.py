@@ -11,6 +11,7 @@ from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
 from quasistatic_ref.contact.spare_pairs import spare_pair
+from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.step_rates import StepRates
@@ -106,7 +107,7 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
         link = [(couple.pair.alpha, couple.pair.beta)[side].link for couple in kept]
         end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
         extents = np.array([couple.extents[side] for couple in kept])
-        v = twist[link, :3] + np.cross(twist[link, 3:], end)
+        v = twist[link, :3] + crossed(twist[link, 3:], end)
         turn += spin[link]
         motion += np.sqrt(np.sum(v * v, axis=1))
         turning = spin[link] > 0  # any other point of the shape is this far from the end

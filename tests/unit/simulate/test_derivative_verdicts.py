@@ -197,8 +197,8 @@ def test_a_constructed_kink_is_named(kind, scene):
 @pytest.mark.parametrize(("distance", "kinds"), [(1e-9, 1), (1e-7, 1), (1e-5, 0)])
 def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kinds):
     # Places are right to 1e-16 m, and the normal to that over the distance.
-    way = distance * np.array([0.0, 0.6, 0.8])
-    simulator, q = free(PointCloud(np.zeros((1, 3))), (0.02, 0.1, 0.05) + way, (BOX, (0, 0, 0)))
+    at = np.array([0.02, 0.1, 0.05]) + distance * np.array([0.0, 0.6, 0.8])
+    simulator, q = free(PointCloud(np.zeros((1, 3))), at, (BOX, (0, 0, 0)))
     found, named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
     assert named == ({reason.NO_NORMAL} if kinds else set())
     assert np.isnan(found.dq_dq).all() == bool(kinds)
