@@ -7,9 +7,9 @@ surface is straight: there the normal cannot turn, and the point moves freely. S
 .. math:: p = D r + F z, \qquad F^T r = 0
 
 is one relation for all of them, and each shape supplies D and F. A rim is an edge that bends: along
-it, D would be its radius over the radial part of the normal, and F'r is z over that. Where the point is on the rim of
-its face or edge, or the normal on the rim of those that its edge or vertex has, the relation is
-another on each side: those directions are the feature's `ends`.
+it, D would be its radius over the radial part of the normal, and F'r is z over that. Where the
+point is on the rim of its face or edge, or the normal on the rim of those that its edge or vertex
+has, the relation is another on each side: those directions are the feature's `ends`.
 """
 
 from typing import NamedTuple

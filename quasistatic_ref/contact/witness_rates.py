@@ -11,11 +11,11 @@ the condition :math:`\beta - \alpha = \phi n` gives
    F_\alpha^T dn = F_\alpha^T(\omega_\alpha\times n),\;
    F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
 
-(of a rim, plus :math:`z_\alpha` or minus :math:`z_\beta` times its curvature)
-across n, and along n :math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the
-closest points are not unique, and at a distance of zero where neither surface has a normal. Points
-that slide along a common straight line do no harm if the bodies cannot turn out of it: the
-equations are then consistent, and no row depends on where along the line the points are.
+(of a rim, plus :math:`z_\alpha` or minus :math:`z_\beta` times its curvature) across n, and along n
+:math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the closest points are not
+unique, and at a distance of zero where neither surface has a normal. Points that slide along a
+common straight line do no harm if the bodies cannot turn out of it: the equations are then
+consistent, and no row depends on where along the line the points are.
 """
 
 from typing import NamedTuple
