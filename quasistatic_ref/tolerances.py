@@ -208,13 +208,18 @@ BEARING: Final = 1e-11
 it counts as none where a derivative is computed [-]: rounding of places, 1e-16 m, over a step of
 1e-5 m."""
 
-DEPENDENT: Final = 1e-6
-"""Least singular value of rows of length one that counts as none [-]: derivatives are right to
-2e-16 over it."""
+DEPENDENT: Final = 1e-8
+"""Least singular value of rows of length one that counts as none [-], where no derivative hangs on
+it: what others span is counted as theirs."""
+
+INDEPENDENT: Final = 3e-4
+"""Least singular value of rows of length one that are independent where a derivative is asked for
+[-]. Displacements are right to 1e-16 over it, and derivatives to that over it again: to 1e-9."""
 
 SPLIT: Final = 1e-12
-"""Largest singular value of such rows that is rounding [-]: geometry splits the rows of bodies that
-lie flat on each other by 1e-15. Rows between this and DEPENDENT might hold at once or might not."""
+"""Largest singular value of rows, or of the equations of a closest pair, that is rounding [-]:
+geometry splits the rows of bodies that lie flat on each other by 1e-15. Rows between this and
+INDEPENDENT hold at once or do not, and normals between this and UNIQUE are not known."""
 
 CONSISTENT: Final = 1e-11
 """Largest rate at which dependent rows leave each other, or straight surfaces in line with each

@@ -21,7 +21,7 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.certify.touching import Touching, bearing
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, SPLIT
+from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +90,7 @@ class Equations:
         self.length[self.length == 0] = 1.0
         self.rows = rows / self.length[:, None]
         U, s, V = np.linalg.svd(self.rows)
-        rank = int(np.count_nonzero(s > DEPENDENT))
+        rank = int(np.count_nonzero(s > INDEPENDENT))
         self.U, self.s, self.V, self.free = U[:, :rank], s[:rank], V[:rank], V[rank:]
         self.null = U[:, rank:].T  # combinations that vanish, but for what is left of each
         self.left = np.zeros(len(self.null))

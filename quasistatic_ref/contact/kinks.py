@@ -25,12 +25,15 @@ class Kink(NamedTuple):
         What it is, after the contact's name.
     jumps : bool
         Whether points, normal or tangents jump there, rather than turn a corner.
+    blurs : bool
+        Whether float64 does not know the contact well enough for any derivative.
     """
 
     contact: int
     kind: str
     says: str
     jumps: bool
+    blurs: bool = False
 
 
 def kinks(
@@ -50,14 +53,16 @@ def kinks(
         Whether the friction cone is the same after a quarter turn about n.
     """
     for j, couple in enumerate(couples):
+        blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
-            yield Kink(j, reason.RIM, "is on a rim that is level: no point of it is lowest", True)
+            says = "is on a rim that is level: no point of it is lowest"
+            yield Kink(j, reason.RIM, says, True, blurs)
         if depth_tie(couple):
             yield Kink(j, reason.SURFACES, "is as deep below another surface", True)
         if not rates.unique[j]:
-            yield _not_unique(j, couple)
+            yield _not_unique(j, couple)._replace(blurs=blurs)
         elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
-            yield _at_an_end(j, couple, frames[j], J)
+            yield _at_an_end(j, couple, frames[j], J)._replace(blurs=blurs)
         if _switches(couple.n, rates.n[j], quarters):
             says = "has two axes that are as far from its normal: its tangents jump"
             yield Kink(j, reason.TANGENTS, says, True)

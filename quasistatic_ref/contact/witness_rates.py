@@ -25,7 +25,7 @@ import numpy as np
 from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import CONSISTENT, UNIQUE
+from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 
 class Rates(NamedTuple):
@@ -37,6 +37,8 @@ class Rates(NamedTuple):
     alpha, beta, n : ndarray, shape (N, 3, n_v)
     unique : ndarray of bool, shape (N,)
         Whether there are such derivatives.
+    blurred : ndarray of bool, shape (N,)
+        Whether not, and the points or normals themselves have lost half of their digits.
     """
 
     phi: Array
@@ -44,6 +46,7 @@ class Rates(NamedTuple):
     beta: Array
     n: Array
     unique: Mask
+    blurred: Mask
 
 
 class Sides(NamedTuple):
@@ -85,7 +88,8 @@ def witness_rates(
     free = [_padded(side.features) for side in (alpha, beta)]
     curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
     matrix, right = _system(phi, frames, bends, free, curved, turn, beta.v - alpha.v, size)
-    good = np.linalg.svd(matrix, compute_uv=False)[:, -1] > UNIQUE
+    least = np.linalg.svd(matrix, compute_uv=False)[:, -1]
+    good = least > UNIQUE
     turns = beta.omega - alpha.omega
     solutions = {
         int(j): _sliding(matrix[j], right[j], free[0][j], turns[j]) for j in np.flatnonzero(~good)
@@ -104,7 +108,7 @@ def witness_rates(
         moved.append(side.v + sign * (D @ (dn - w)) + slide)
     d_phi = np.einsum("ja,jak->jk", n, beta.v - alpha.v)
     assert len(good) == count
-    return Rates(d_phi, moved[0], moved[1], dn, good)
+    return Rates(d_phi, moved[0], moved[1], dn, good, ~good & (least > SPLIT))
 
 
 def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:

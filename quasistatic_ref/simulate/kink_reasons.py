@@ -59,7 +59,8 @@ def geometry_reasons(
             or (touching and stays(result.step, result.solution.delta_q, touching, kink.contact))
         ):
             continue
-        reasons.append(Reason(kink.kind, (name,), FIELDS, f"{name} {kink.says}"))
+        fields = tuple(rates.places) if kink.blurs else FIELDS
+        reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
     return [*reasons, *_ties(simulator, result, rates, safe)]
 
 

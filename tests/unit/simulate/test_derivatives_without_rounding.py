@@ -51,7 +51,10 @@ def test_a_constructed_kink_has_its_name_turned_anyhow(i):
     assert found["right"], found["kinds"]
 
 
-@pytest.mark.parametrize("name", ["landing", "over_a_rim", "switching_axis", "deep_in_a_box"])
+@pytest.mark.parametrize(
+    "name",
+    ["landing", "on_three_balls", "over_a_rim", "at_an_edge", "switching_axis", "deep_in_a_box"],
+)
 def test_slopes_differ_at_a_kink_and_numbers_beside_it_are_right(name):
     found = kink_record([f.__name__ for f in FAMILIES].index(name))
     assert found["shown"]
