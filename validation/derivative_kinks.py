@@ -131,7 +131,7 @@ def faults(one: Record) -> list[str]:
     said = [] if one["right"] else [f"the verdict is {one['kinds']}"]
     for distance, what, wrong, _ in one["near"]:
         if what == "kink" or (wrong is not None and wrong > WITHIN):
-            said.append(f"{distance:g} beside it {what}, wrong by {wrong:.1e}")
+            said.append(f"{distance:g} from it {what}, wrong by {wrong:.1e}")
     return said
 
 

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.placed import Witness
 from quasistatic_ref.contact.polytope import Polytope
 from quasistatic_ref.model.shapes import Capsule
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import BESIDE, ON_SURFACE
+from quasistatic_ref.tolerances import OUTSIDE_FACE, ON_SURFACE
 
 
 def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
@@ -31,10 +31,10 @@ def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
     gap, n = _widest_gap(a, b.moved(R, t))
     size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
     if gap > 0:
-        on_a, on_b, beside = _nearest(a, b, R, t, gap * n, size)
+        on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
         between = on_b - on_a
         distance = float(np.sqrt(between @ between))
-        if beside > BESIDE * size and distance > ON_SURFACE * size:
+        if miss > OUTSIDE_FACE * size and distance > ON_SURFACE * size:
             gap, n = distance, between / distance
     else:
         # Parted along n, they touch: where they do is where they are deepest now.
@@ -131,7 +131,7 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
 def _nearest(
     a: Polytope, b: Polytope, R: Array, t: Array, way: Array, size: float
 ) -> tuple[Array, Array, float]:
-    """Closest points of two cores that are apart or touch, and how far they are beside a way [m].
+    """Closest points of two cores that are apart or touch, and how far they miss a way [m].
 
     They are a corner and a face, or an edge and an edge. Near a rim both are as near as each other
     in float64, and that which the way leads to is right.
@@ -147,12 +147,12 @@ def _nearest(
     distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
     distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
     on_a, on_b = np.stack([foot_a, tip_a, *on_a]), np.stack([tip_b, foot_b, *on_b])
-    beside = np.sqrt(np.sum((on_b - on_a - way) ** 2, axis=1))
+    miss = np.sqrt(np.sum((on_b - on_a - way) ** 2, axis=1))
     best = int(distance.argmin())
-    as_near = (distance <= distance[best] + BESIDE * size) & (beside <= BESIDE * size)
+    as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
     if not as_near[best] and as_near.any():
         best = int(as_near.argmax())
-    return on_a[best], on_b[best], float(beside[best])
+    return on_a[best], on_b[best], float(miss[best])
 
 
 def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Array, Array]:

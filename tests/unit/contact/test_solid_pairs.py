@@ -185,15 +185,15 @@ def test_just_beside_a_face_the_normal_leans_away_from_its_edge(beside: float) -
         np.testing.assert_allclose(phi[0], np.hypot(beside, up), rtol=0, atol=CLOSED_FORM)
 
 
-@pytest.mark.parametrize("beside", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])
+@pytest.mark.parametrize("beyond", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])
 @pytest.mark.parametrize("up", [1e-5, 0.05])
-def test_a_corner_just_beside_the_edge_of_another_solid(beside: float, up: float) -> None:
-    # A tip above the face z = 0.2, a little beyond its edge at x = 0.1 or within it. Distances to
-    # face and edge differ by beside^2 / (2 up), less than float64 has: where the foot is decides.
-    lean = np.array([max(beside, 0.0), 0.0, up])
+def test_a_corner_near_the_edge_of_another_solid(beyond: float, up: float) -> None:
+    # A tip above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances to
+    # face and edge differ by beyond^2 / (2 up), less than float64 has: where the foot is decides.
+    lean = np.array([max(beyond, 0.0), 0.0, up])
     lean = lean / np.sqrt(lean @ lean)
     corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.3, 0.3) for z in (-0.2, 0.2)])
-    tip = np.array([0.1 + beside, 0.05, 0.2 + up])
+    tip = np.array([0.1 + beyond, 0.05, 0.2 + up])
     ways = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
     here = np.eye(3), np.zeros(3)
     other = Placed(convex_hull(tip + ways), *here)

@@ -103,7 +103,7 @@ def test_a_verdict_with_another_name_is_a_fault():
     assert faults(found) == []
     assert faults({**found, "right": False}) == [f"the verdict is {found['kinds']}"]
     silent = {**found, "near": [[1e-4, "kink", 1.0, 1.0]]}
-    assert faults(silent) == ["0.0001 beside it kink, wrong by 1.0e+00"]
+    assert faults(silent) == ["0.0001 from it kink, wrong by 1.0e+00"]
     wrong = {**found, "near": [[1e-4, "numbers", 2 * WITHIN, 1.0]]}
     assert len(faults(wrong)) == 1
 
