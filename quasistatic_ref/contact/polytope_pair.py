@@ -13,7 +13,7 @@ from quasistatic_ref.contact.placed import Witness
 from quasistatic_ref.contact.polytope import Polytope
 from quasistatic_ref.model.shapes import Capsule
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import OUTSIDE_FACE, ON_SURFACE
+from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
 def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
@@ -146,7 +146,7 @@ def _nearest(
     least = float(min(phi_a[j], phi_b[i]))
     distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
     distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
-    on_a, on_b = np.stack([foot_a, tip_a, *on_a]), np.stack([tip_b, foot_b, *on_b])
+    on_a, on_b = np.concatenate([[foot_a, tip_a], on_a]), np.concatenate([[tip_b, foot_b], on_b])
     miss = np.sqrt(np.sum((on_b - on_a - way) ** 2, axis=1))
     best = int(distance.argmin())
     as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
