@@ -90,7 +90,7 @@ def test_a_corner_before_a_corner():
 
 
 @pytest.mark.parametrize("axis", [(2, 1, 2), (1, -2, 2), (6, 3, -2)])
-def test_a_pose_that_is_rounded_in_the_hundredth_digit_still_has_flat_faces(axis):
+def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
     # A tetrahedron's tip 0.1 m below the top of a cube, both turned by one radian: the cosine is
     # rounded, and the matrix no rotation beyond the 96th digit.
     axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
