@@ -87,7 +87,13 @@ SOLVED = (
     "unit/step/test_problem.py",
     "unit/step/test_cones.py",
 )
-CURVED = ("unit/contact/test_curved_pairs.py", "unit/contact/test_distance.py")
+CURVED = (
+    "unit/contact/test_curved_witness.py",
+    "unit/contact/test_curved_pairs.py",
+    "unit/contact/test_faces.py",
+    "unit/contact/test_distance_guard.py",
+    "unit/contact/test_distance.py",
+)
 
 DIFFERENTIATED = (
     "unit/simulate/test_derivatives.py",
