@@ -248,7 +248,7 @@ def test_distances_that_are_no_numbers_are_an_error_and_no_endless_search(monkey
         ContactTracker(pairs).closest_points(*poses((0, 0, 0), (0, 0, 1)))
 
 
-def test_every_point_is_in_one_leaf_and_balls_and_boxes_are_as_large_as_what_they_hold(rng):
+def test_every_point_is_in_one_leaf_and_balls_are_as_large_as_their_points(rng):
     points = cloud("shell", 3001, rng)
     tree = ball_tree.ball_tree(points)
     real = tree.index >= 0

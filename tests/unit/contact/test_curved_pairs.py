@@ -130,7 +130,7 @@ def test_a_cap_above_an_ellipsoid_has_the_normal_of_the_cap() -> None:
     assert settles_at(a, b, start, 0.03, [0, 0, 0.04], [0, 0, 1])
 
 
-def test_of_two_caps_that_lie_on_each_other_the_points_of_the_start_are_taken() -> None:
+def test_of_two_caps_on_each_other_the_points_of_the_start_are_taken() -> None:
     a = Placed(Cylinder(0.3, 0.1), *HERE)
     b = Placed(Cylinder(0.3, 0.1), np.eye(3), np.array([0.05, 0, 0.1 + 0.02 + 0.1]))
     on_a, on_b = np.array([0.06, 0.08, 0.1]), np.array([0.06, 0.08, 0.12])
@@ -147,7 +147,7 @@ def test_where_two_caps_overlap_the_point_next_to_the_start_is_taken() -> None:
 
 
 @pytest.mark.parametrize("lengths", [(0.5, 0.5), (0.5, 1e-4), (1e-4, 0.5)])
-def test_cylinders_that_are_parallel_but_for_a_hair_are_nearest_where_their_sides_cross(
+def test_sides_that_are_parallel_but_for_a_hair_meet_where_they_cross(
     lengths,
 ) -> None:
     # Axes along z and turned about x by 1e-5, 0.3 m apart in x: crossing at z = 0, off the centres.

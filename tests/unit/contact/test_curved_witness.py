@@ -75,7 +75,7 @@ def test_closest_points_are_found_at_every_scale(scale) -> None:
         np.testing.assert_allclose(found.phi, expected.phi, rtol=ROUNDING)
 
 
-def test_a_normal_at_an_edge_has_length_one_however_near_the_other_solid_is() -> None:
+def test_a_normal_at_an_edge_has_length_one_however_near_the_contact() -> None:
     for feature in ("edge of a box", "edge of a mesh", "slanting edge of a mesh"):
         found = curved_witness(*put(feature, OTHERS[1], 1e-11)[:2])
         np.testing.assert_allclose(found.phi, 1e-11, rtol=EXACT, atol=CURVED_PAIR)

@@ -13,13 +13,6 @@ from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
 from tests.unit.contact.still import found_for, placed, standing
 
 
-def consistent(found, atol):
-    """Every result says beta - alpha = phi n with |n| = 1."""
-    gap = found.beta - found.alpha
-    np.testing.assert_allclose(gap, found.phi[:, None] * found.n, rtol=EXACT, atol=atol)
-    np.testing.assert_allclose(np.linalg.norm(found.n, axis=1), 1.0, rtol=EXACT, atol=atol)
-
-
 PLANTED = {
     "normal turned round": lambda r: setattr(r, "normal", -np.array(r.normal)),
     "normal of another direction": lambda r: setattr(r, "normal", np.roll(np.array(r.normal), 1)),
@@ -114,7 +107,7 @@ def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, 
 @pytest.mark.parametrize("settle", [True, False])
 @pytest.mark.parametrize("gap", [0.0, -1e-4, -0.01])
 def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap, settle) -> None:
-    # Three accuracies are asked for; the way that is tried then is along x.
+    # At no accuracy; the direction that is tried then is x.
     without_normals(monkeypatch, len(by_coal.ACCURACIES), phi=gap)
     if not settle:
         monkeypatch.setattr(by_coal, "settled", lambda *_: iter(()))
@@ -125,10 +118,10 @@ def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap
 
 def test_rivals_are_looked_for_away_from_the_way_out_that_was_followed(monkeypatch) -> None:
     without_normals(monkeypatch, len(by_coal.ACCURACIES))
-    asked, honest = [], by_coal.rival_directions
-    monkeypatch.setattr(by_coal, "rival_directions", lambda *a: asked.append(a) or honest(*a))
+    calls, honest = [], by_coal.rival_directions
+    monkeypatch.setattr(by_coal, "rival_directions", lambda *a: calls.append(a) or honest(*a))
     found = coal_witness("p", *tips(-0.01, SLANTING))
-    ((a, b, first, _, size),) = asked
+    ((a, b, first, _, size),) = calls
     np.testing.assert_allclose(found.n, SLANTING[:, 0], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(first, found.n, rtol=EXACT, atol=CURVED_PAIR)
     # Both widths along x, where the way began.
@@ -137,7 +130,7 @@ def test_rivals_are_looked_for_away_from_the_way_out_that_was_followed(monkeypat
 
 
 @pytest.mark.parametrize(("way", "refused"), [(-X, True), (X, False)])
-def test_a_way_out_that_may_be_shorter_decides_nothing_unless_it_is_the_same(
+def test_a_way_out_that_may_be_shorter_decides_nothing_unless_the_same(
     monkeypatch, way, refused
 ) -> None:
     # A rival 0.02 deep, but for an error of 0.05, next to one that is 0.01 deep.

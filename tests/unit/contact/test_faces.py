@@ -97,7 +97,7 @@ def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
         np.testing.assert_allclose(edge[edge[:, 1].argsort()], expected, rtol=ROUNDING)
 
 
-def test_a_side_ends_where_the_caps_are_though_the_normal_is_off_by_rounding() -> None:
+def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     x, _, axis = R.T
     at = Placed(Cylinder(1.0, 0.5), R, np.zeros(3))

@@ -184,7 +184,7 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
         )
 
 
-def test_a_limit_by_distance_falls_by_what_a_cloud_moves_and_the_room_for_that():
+def test_a_limit_by_distance_falls_by_the_motion_and_the_room_for_that():
     # The box about a cloud, moved along an axis by 1 m: |u| <= sqrt(3) max |u_i|, for all ways.
     box = np.array(list(itertools.product((-0.1, 0.1), repeat=3)))
     made = Shortlist(np.arange(2), 3.0, np.inf, Z, box)
@@ -195,7 +195,7 @@ def test_a_limit_by_distance_falls_by_what_a_cloud_moves_and_the_room_for_that()
         np.testing.assert_allclose(limit, expected, rtol=EXACT, atol=ROUNDING)
 
 
-def test_a_list_that_suffices_for_fewer_steps_than_is_worth_it_is_made_twice_as_long(rng):
+def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
     # Twice the cloud is turned upside down: after as many steps as is worth it, and one fewer.
     k, points = 12, PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
     floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))

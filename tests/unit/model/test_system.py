@@ -236,9 +236,7 @@ def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
     assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
 
 
-def test_the_kinematics_of_the_end_of_a_step_are_kept_for_the_start_of_the_next(
-    scene: System, q: np.ndarray
-) -> None:
+def test_the_kinematics_that_were_computed_last_are_kept(scene: System, q: np.ndarray) -> None:
     assert scene.kinematics(q) is scene.kinematics(q.copy())
     assert scene.kinematics(scene.q_start) is not scene.kinematics(q)
 
