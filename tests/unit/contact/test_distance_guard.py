@@ -12,7 +12,6 @@ from quasistatic_ref.model.shapes import Cone, Ellipsoid
 from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
 from tests.unit.contact.still import found_for, placed, standing
 
-
 PLANTED = {
     "normal turned round": lambda r: setattr(r, "normal", -np.array(r.normal)),
     "normal of another direction": lambda r: setattr(r, "normal", np.roll(np.array(r.normal), 1)),
