@@ -34,7 +34,7 @@ FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
-    "step_data": None,
+    "step_data": ctypes.c_double,
     "reach": ctypes.c_double,
     "positions": None,
     "changes": None,

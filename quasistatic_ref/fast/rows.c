@@ -64,16 +64,18 @@ static void load(Scene *s)
     }
 }
 
-/* The tangents, J, A and b of all contacts from their closest points, and the load. */
-void step_data(Scene *s)
+/* The tangents, J, A and b of all contacts from their closest points, and the load. The least gap. */
+double step_data(Scene *s)
 {
     int64_t n_v = s->n_v, n_x = s->n_x, row = 0;
+    double least = INFINITY;
     double *col = s->work, *own = col + 6 * n_x, *motion = own + 8 * n_x;
     for (int64_t x = 0; x < n_x; x++)
         for (int i = 0; i < 6; i++)
             col[i * n_x + x] = s->column[x][i];
     for (int64_t c = 0; c < s->n_c; c++) {
         double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c, *J = s->J + 4 * n_v * c;
+        least = s->phi[c] < least ? s->phi[c] : least;
         tangents(s->n + 3 * c, d1, d2);
         jacobian(s, col, c, own, J);
         motion_along(s->n + 3 * c, J, n_v, 1.0, motion);
@@ -92,4 +94,5 @@ void step_data(Scene *s)
         }
     }
     load(s);
+    return least;
 }
