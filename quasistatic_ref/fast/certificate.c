@@ -145,6 +145,8 @@ static int slacks(Proof *s, Room *m, int *lost)
             return NEGATIVE;
         } else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
             return OPEN_NUMBER;
+        else if (s->slack[r] < s->least[0])
+            s->least[0] = s->slack[r];
     }
     return DECIDED;
 }
@@ -193,6 +195,7 @@ static int rounded(Proof *s, Room *m, int *lost)
             s->counts[0] = s->guess[w];
             return NOT_PRESSED;
         }
+        s->least[1] = *lam < s->least[1] ? *lam : s->least[1];
     }
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
@@ -258,6 +261,7 @@ static int proved(Proof *s, Room *m)
     defect(m->R, m->K, N, m->G);
     for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
+        s->least[0] = s->least[1] = INFINITY;
         refined(s, m, bits, &lost);
         if (lost)
             return LOST;

@@ -41,6 +41,9 @@ typedef struct {
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
        many of both. Of a guess that is NOT_PRESSED or NEGATIVE the first number is the row. */
     int64_t *idle, *still, *counts;
+    /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
+       infinite where there is none. */
+    double *least;
 } Proof;
 
 /* What one proof computes. */

@@ -98,8 +98,8 @@ class Scaled:
         if self.step.cone == ELLIPSOID:
             return ellipsoid_residuals(self.natural, delta_q, lam)
         form = self.natural_form
-        balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), as (13) has it
-        slack = form.A @ delta_q - form.b
+        balance = form.H.dot(delta_q) - form.g - form.A.T.dot(lam)  # Eq. (9), as (13) has it
+        slack = form.A.dot(delta_q) - form.b
         return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:

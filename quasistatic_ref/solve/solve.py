@@ -206,16 +206,16 @@ def _proved(
     fast = compiled("certificate")
     if fast is None:
         return None
-    rows = np.flatnonzero(answer.lam > 0)
-    if rows.size > scaled.step.n_v:  # they depend on each other
+    if np.count_nonzero(answer.lam) > scaled.step.n_v:  # rows that depend on each other
         return None
     solver.prover = fast.prover(scaled.step, scaled.units.coordinate, solver.prover)
     if solver.prover is None:
         return None
-    form, lam = scaled.natural_form, answer.lam[rows]
-    bears = lam > form.A[rows] @ answer.delta_q - form.b[rows]  # as warm_rows has it
+    form = scaled.natural_form
+    slack = form.A.dot(answer.delta_q) - form.b
+    (guess,) = (answer.lam > np.maximum(slack, 0)).nonzero()  # as warm_rows has it
     prove = partial(solver.prover.optimum, scaled.step, units=scaled.units)
-    return proved_nearby(prove, rows[bears], scaled.form, hessian.rough)
+    return proved_nearby(prove, guess, scaled.form, hessian.rough)
 
 
 def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
