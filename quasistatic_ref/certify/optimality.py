@@ -35,7 +35,7 @@ class Residuals:
     @property
     def worst(self) -> float:
         """The largest of the four [of its own unit]; NaN if any of them is."""
-        return float(np.max(list(vars(self).values())))
+        return _largest(np.array([*vars(self).values()]))
 
 
 def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:
@@ -50,12 +50,14 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
     work : ndarray, shape (m,)
         Slack times multiplier [N m s].
     """
-    return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),
-        primal=float(short.max(initial=0.0)),
-        dual=float(pull.max(initial=0.0)),
-        complementarity=float(np.abs(work).max(initial=0.0)),
-    )
+    sizes = np.abs(balance), short, pull, np.abs(work)
+    return Residuals(*map(_largest, sizes))
+
+
+def _largest(values: Array) -> float:
+    """The largest of some numbers, or zero; NaN if one is."""
+    most = float(values[values.argmax()]) if values.size else 0.0
+    return 0.0 if most <= 0 else most
 
 
 def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:

@@ -130,8 +130,7 @@ class NativeSolver(Solver):
             np.multiply(form.b, 1 / (rho * ell), out=program.b)
         self.written = None
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
-            if isinstance(program, Program) and self.adapter.ORDER == "C":
-                scaled.natural_form = StandardForm(program.H, -program.f, program.A, program.b)
+            scaled.written = program
             return None
         reach = -reach_of_rows(scaled.step, units)
         np.maximum(program.b, reach, out=program.b)

@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import (
     Metric,
     Units,
@@ -51,11 +52,18 @@ class Scaled:
     units : Units, optional
         Its natural units, where they are known.
 
+    Attributes
+    ----------
+    written : Program or None
+        That of a solver into which it is written, in natural units.
+
     Raises
     ------
     StepDataError
         If products of its numbers leave the range of float64.
     """
+
+    written: Program | None = None
 
     def __init__(
         self,
@@ -84,6 +92,9 @@ class Scaled:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
+        p = self.written
+        if p is not None and p.A.flags.c_contiguous:
+            return StandardForm(p.H, -p.f, p.A, p.b)
         return natural_form(self.form, self.units, self.metric.natural)
 
     @property

@@ -40,6 +40,8 @@ from quasistatic_ref.tolerances import ACCURACY, BOUNDED, ILL_POSED, RESIDUAL_LI
 
 CERTIFY = ("full", "residual", "off")
 NOTHING_CLAIMED = Certificate("none")
+LARGE = 2.0**200
+"""Three such factors are far from 2^1024, where the range of float64 ends."""
 
 
 def solve_step(
@@ -169,9 +171,15 @@ def _solved(
     good = finite(solution.delta_q) and finite(solution.lam)
     if certify != "off" or solution.lam_extra.size:
         residuals = np.array(list(solution.certificate.residuals.values()))
-        others = (solution.lam_extra, solution.wrench.ravel(), residuals)
-        good = good and all(map(finite, others))
+        good = good and all(map(finite, (solution.lam_extra, residuals)))
+        good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     return solution if good else None
+
+
+def _far_from_largest(solution: StepSolution) -> bool:
+    """Whether lam, mu and 1 / h are so far from the largest float64 that wrenches are finite."""
+    mu, lam = solution.step.contacts.mu, solution.lam
+    return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
 def _as_said(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) -> StepSolution:
