@@ -55,7 +55,7 @@ class Scaled:
     Attributes
     ----------
     written : Program or None
-        That of a solver into which it is written, in natural units.
+        In natural units, row by row: that of a solver, until it is asked the next step.
 
     Raises
     ------
@@ -93,7 +93,7 @@ class Scaled:
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
         p = self.written
-        if p is not None and p.A.flags.c_contiguous:
+        if p is not None:
             return StandardForm(p.H, -p.f, p.A, p.b)
         return natural_form(self.form, self.units, self.metric.natural)
 
