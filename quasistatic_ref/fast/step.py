@@ -12,7 +12,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.fast.library import library
-from quasistatic_ref.fast.natural import MOST, NaturalProgram
+from quasistatic_ref.fast.natural import NaturalProgram, natural_program
 from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.products import products
 from quasistatic_ref.fast.scene import Scene, known
@@ -20,8 +20,6 @@ from quasistatic_ref.fast.screws import Screws
 from quasistatic_ref.plain import bits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Units
@@ -120,7 +118,9 @@ class CompiledStep:
         self.of_contacts = {
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
         }  # fmt: skip
-        self.of_steps: tuple[Constants | None, dict[str, Any]] = None, {}
+        self.constant: Constants | None = None
+        self.of_steps: dict[str, Any] = {}
+        self.solver: Solver | None = None
 
     def __call__(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
@@ -148,7 +148,9 @@ class CompiledStep:
                 simulator.fast = None
                 return None
         lap("rows")
-        solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)
+        solver, asked = self.solver, (simulator.accuracy, simulator.certify)
+        if solver is None or solver is not simulator.solver:  # what fits one fits all of them
+            self.solver = solver = simulator.fitting(step)
         try:
             solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
         except StepNotSolved as failure:
@@ -194,23 +196,19 @@ class CompiledStep:
         points = ClosestPoints(phi, alpha, beta, n, point)
         own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
         contacts = posed(PosedContacts, self.of_contacts, own)
-        if constant is not self.of_steps[0]:
-            self.of_steps = constant, constant._asdict()
+        if constant is not self.constant:
+            self.constant, self.of_steps, self.solver = constant, constant._asdict(), None
         n_a = len(delta_q_bar_a)
         loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
-        step = posed(PosedStep, self.of_steps[1], {**loads, "contacts": contacts})
+        step = posed(PosedStep, self.of_steps, {**loads, "contacts": contacts})
         return points, step, StandardForm(constant.H, g, scene["A"], scene["b"]), gap
 
     def units(self, solver: Solver, step: StepData) -> Units | None:
         """The natural units of the step, where its program is written for the solver in them."""
-        if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
-            return None
-        metric, program = solver.metric, self.program
-        if metric is None or metric.H is not step.H or step.n_v > MOST:
-            return None
-        if program is None or not program.fits(solver):
-            self.program = program = NaturalProgram(self.scene, solver.program, metric)
-        return program.written(solver)
+        program = self.program
+        if program is None or not program.fits(solver, step):
+            self.program = program = natural_program(self.scene, solver, step)
+        return None if program is None else program.written()
 
     def by_numpy(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
