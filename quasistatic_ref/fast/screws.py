@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.fast.library import library
+from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
@@ -24,18 +25,21 @@ class Screws:
     Parameters
     ----------
     system : System
-    q : ndarray, shape (n_q,)
-        The one that they start from, which is written elsewhere.
+    poses : Poses
+        Whose configuration q they start from.
     """
 
-    def __init__(self, system: System, q: Array) -> None:
+    def __init__(self, system: System, poses: Poses) -> None:
         found = library()
-        self.system, self.q = system, q
+        self.system, self.q = system, poses.q
+        same, bodies = poses.order.same, poses.workspace
+        self._sum = bodies.sum if same else system.pinocchio_sum
+        self._difference = bodies.difference if same else system.pinocchio_difference
         self._positions, self._changes = found.positions, found.changes
         joints = [joint for joint in system.joints if joint.kind in KINDS]
-        self._sums = _structure(found, q, joints, system.n_v)
+        self._sums = _structure(found, poses.q, joints, system.n_v)
         actuated = [joint for joint in joints if joint.actuated]
-        self._differences = _structure(found, q, actuated, system.n_a)
+        self._differences = _structure(found, poses.q, actuated, system.n_a)
         self._of_sums, self._of_differences = (
             tuple(s[name] for name in ("q_next", "delta_q", "angle"))
             for s in (self._sums, self._differences)
@@ -46,7 +50,7 @@ class Screws:
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         there, change, angle = self._of_sums
-        there[:], change[:] = self.system.pinocchio_sum(self.q, delta_q), delta_q
+        there[:], change[:] = self._sum(self.q, delta_q), delta_q
         moved = delta_q.tolist()
         for i, where in self._vectors:
             angle[i] = math.hypot(*moved[where])
@@ -60,7 +64,7 @@ class Screws:
             self.system.with_actuated(self.q, q_a)  # which says so
         there[:] = self.q
         self._target[:] = q_a
-        change[:] = self.system.pinocchio_difference(self.q, there)[: len(change)]
+        change[:] = self._difference(self.q, there)[: len(change)]
         moved = change.tolist()
         for i, where in self._actuated:
             angle[i] = math.hypot(*moved[where])

@@ -111,7 +111,7 @@ class CompiledStep:
         self.force, self.tau_k = self.scene["force"], self.scene["tau_k"]
         found = library()
         self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
-        self.screws = Screws(simulator.system, self.poses.q)
+        self.screws = Screws(simulator.system, self.poses)
         self.program: NaturalProgram | None = None
         self.equal: bool | None = None
         layout, mu = self.geometry.layout, self.geometry.mu
