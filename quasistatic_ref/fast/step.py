@@ -11,6 +11,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.fast.answer import as_said
 from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.natural import NaturalProgram, natural_program
 from quasistatic_ref.fast.poses import Poses
@@ -26,6 +27,7 @@ from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
@@ -148,11 +150,8 @@ class CompiledStep:
                 simulator.fast = None
                 return None
         lap("rows")
-        solver, asked = self.solver, (simulator.accuracy, simulator.certify)
-        if solver is None or solver is not simulator.solver:  # what fits one fits all of them
-            self.solver = solver = simulator.fitting(step)
         try:
-            solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
+            solution = self.solution(simulator, step, form)  # Eq. (13)
         except StepNotSolved as failure:
             solution = simulator.spare.answer(step, failure)
         limits = simulator.limits
@@ -202,6 +201,15 @@ class CompiledStep:
         loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
         step = posed(PosedStep, self.of_steps, {**loads, "contacts": contacts})
         return points, step, StandardForm(constant.H, g, scene["A"], scene["b"]), gap
+
+    def solution(self, simulator: Simulator, step: StepData, form: StandardForm) -> StepSolution:
+        """The solution of the step whose matrices are there; StepNotSolved if there is none."""
+        solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
+        if solver is None or solver is not simulator.solver:  # what fits one fits all of them
+            self.solver = solver = simulator.fitting(step)
+        units = self.units(solver, step)
+        said = as_said(step, solver, units, accuracy) if certify == "off" else None
+        return solved(step, solver, accuracy, certify, form, units) if said is None else said
 
     def units(self, solver: Solver, step: StepData) -> Units | None:
         """The natural units of the step, where its program is written for the solver in them."""
