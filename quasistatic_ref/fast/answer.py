@@ -32,7 +32,7 @@ def as_said(
     -------
     StepSolution or None
         That of :func:`~quasistatic_ref.solve.solve.solved` with ``certify="off"``, to the last bit;
-        None where that has more to do: other options to try, rows out of reach, or a step to refuse.
+        None where that has more to do: options to try, rows out of reach, or a step to refuse.
     """
     if units is None or not isinstance(solver, NativeSolver) or solver.adapter.NEAR:
         return None
