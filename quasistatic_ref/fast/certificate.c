@@ -26,7 +26,8 @@ static int nearest_of_two(const Number *x, double e, double *c)
     int last = x->high - 2;
     if (last < 0)
         return 0;
-    __int128 first = (__int128)x->d[last + 1] * ((__int128)1 << BITS) + x->d[last];
+    __int128 first = (__int128)x->d[last + 1] * ((__int128)1 << BITS);
+    first += last < x->low ? 0 : x->d[last]; /* which is not set below the lowest */
     double near = (double)first, unit = ldexp(1.0, BITS * (last - FRACTION));
     double rest = (double)(first - (__int128)near);
     *c = near * unit;

@@ -17,8 +17,14 @@ EXPOSED = """
 #include "certificate.c"
 int shown(int64_t first, int64_t second, int64_t third, int place, double e, double *c)
 {
-    Number x = {place - 2, place + 1, {0}};
-    x.d[place] = first, x.d[place - 1] = second, x.d[place - 2] = third;
+    Number x = {third ? place - 2 : second ? place - 1 : place, place + 1, {0}};
+    for (int j = 0; j < DIGITS; j++)
+        x.d[j] = 0x5555555555555; /* nothing may depend on what is not set */
+    x.d[place] = first;
+    if (x.low < place)
+        x.d[place - 1] = second;
+    if (x.low < place - 1)
+        x.d[place - 2] = third;
     return nearest_of_two(&x, e, c);
 }
 """
@@ -56,7 +62,8 @@ def cases():
             near = (first * 2**56 + second) // gap * gap + gap // 2 + int(rng.integers(-2, 3))
             if abs(near - first * 2**56) <= 2**55:
                 second = near - first * 2**56
-        third = int(rng.choice([-(2**55), 2**55, int(rng.integers(-(2**55), 2**55))]))
+        third = int(rng.choice([0, -(2**55), 2**55, int(rng.integers(-(2**55), 2**55))]))
+        second *= bool(rng.integers(8)) or third != 0
         unit = Fraction(2) ** (56 * (place - 1 - 12))  # of the second digit
         yield first, second, third, place, unit, float(unit) * rng.choice([0.0, 0.3, 0.9, 1.7, gap])
 
@@ -85,6 +92,7 @@ MUTANTS = {
     "the error": ("rest * unit, e + unit, 1.0)", "rest * unit, unit, 1.0)"),
     "the rest": ("rest * unit, e + unit, 1.0)", "0.0, e + unit, 1.0)"),
     "the side of the rest": ("rest > 0.0 ? rest * UP", "rest < 0.0 ? rest * UP"),
+    "what is not set": ("last < x->low ? 0 : x->d[last]", "x->d[last]"),
     "half of the gap": ("h * below / 2 * DOWN", "h * below * DOWN"),
 }
 
