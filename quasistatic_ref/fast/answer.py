@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import NOTHING_CLAIMED
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.uncertified import NOTHING_CLAIMED
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.data import StepData

@@ -1,14 +1,22 @@
 """A wrong sign, comparison or index in the paper's page or in the judge makes a test fail.
 
-The mutants are generated (validation/mutants.py); these are a fixed sample of them. All of them:
-``python -m validation.mutations``.
+The mutants are generated (validation/mutating/mutants.py); these are a fixed sample of them. All of
+them: ``python -m validation.mutations``.
 """
+
+import ast
+import json
+import os
+import subprocess
+import sys
 
 import pytest
 
-from validation.mutants import Mutant, mutants
-from validation.mutated import TESTS
-from validation.mutations import PACKAGE, Workbench, all_mutants
+from validation.mutating.forks import forked
+from validation.mutating.mutants import mutants
+from validation.mutating.mutated import TESTS
+from validation.mutating.swapped import changed_functions, swap
+from validation.mutations import PACKAGE, all_mutants
 
 PAGE, CONES, FORM = "step/problem.py", "step/friction.py", "step/standard_form.py"
 JUDGE = "certify/optimality.py"
@@ -64,19 +72,67 @@ SAMPLE = (
     f"{CLAIMS} _wrong_sign: lam_i <= 0 -> lam_i < 0",
     f"{DEPENDENCE} idle_rows: i not in working -> i in working",
 )
-UNCHANGED = (PAGE, CONES, JUDGE, FARKAS)
+TRIED = """
+import json, sys
+from validation.mutations import all_mutants, outcomes
+keys, found = json.load(sys.stdin), {}
+known = {m.key: m for m in all_mutants(sorted({key.split()[0] for key in keys}))}
+outcomes([known[key] for key in keys], lambda m, said: found.update({m.key: said}))
+open(sys.argv[1], "w").write(json.dumps(found))
+"""
 
 
-def test_every_mutant_is_killed_and_the_package_as_it_is_passes():
-    """One test, so that one worker tries them all: a minute on two cores."""
-    known = {mutant.key: mutant for mutant in all_mutants(sorted({k.split()[0] for k in SAMPLE}))}
+def test_every_mutant_of_the_sample_is_killed(tmp_path):
+    """One test, and one process: to collect the tests takes longer than to run them."""
+    known = {mutant.key for mutant in all_mutants(sorted({key.split()[0] for key in SAMPLE}))}
     gone = [key for key in SAMPLE if key not in known]
     assert not gone, f"no longer mutants of the package, renew them: {gone}"
-    as_it_is = [Mutant(file, file, 1, (PACKAGE / file).read_text()) for file in UNCHANGED]
-    with Workbench() as bench:
-        tried = bench.outcomes([*as_it_is, *(known[key] for key in SAMPLE)])
-        found = {mutant.key: said for mutant, said in tried}
-    assert found == dict.fromkeys(UNCHANGED, "survived") | dict.fromkeys(SAMPLE, "killed")
+    found = tmp_path / "found.json"
+    subprocess.run(
+        [sys.executable, "-c", TRIED, str(found)], input=json.dumps(SAMPLE), text=True,
+        cwd=PACKAGE.parent, env=os.environ | {"CI": "1"}, check=True, capture_output=True,
+    )  # fmt: skip
+    said = json.loads(found.read_text())
+    assert set(said) == set(SAMPLE)
+    assert not [key for key in SAMPLE if said[key] == "survived"]
+
+
+SOURCE = "HALF = 0.5\n\n\ndef f(x, y=-1):\n    return [x - HALF for _ in range(1)][0]\n"
+
+
+def changed(key):
+    """The functions that the mutant of SOURCE with this key changes."""
+    plain = ast.unparse(ast.parse(SOURCE))
+    (mutant,) = (m for m in mutants("f.py", plain) if m.key == f"f.py {key}")
+    return changed_functions("f.py", plain, mutant)
+
+
+def test_a_mutant_in_a_function_names_the_outermost_one():
+    assert changed("f: x - HALF -> x + HALF") == {"f"}
+
+
+def test_the_default_of_an_argument_is_more_than_a_function():
+    assert changed("f: -1 -> 1") is None
+
+
+def test_swapped_code_runs_and_swaps_back():
+    plain = ast.unparse(ast.parse(SOURCE))
+    module = {}
+    exec(compile(plain, "f.py", "exec"), module)
+    mutant = plain.replace("x - HALF", "x + HALF")
+    swap([module["f"]], "f.py", plain, mutant)
+    assert module["f"](1.0) == 1.5
+    swap([module["f"]], "f.py", mutant, plain)
+    assert module["f"](1.0) == 0.5
+
+
+def test_a_job_that_raises_is_no_outcome():
+    with pytest.raises(RuntimeError, match="ZeroDivisionError"):
+        list(forked([("a", lambda: 1 / 0)], 1))
+
+
+def test_a_job_that_is_killed_says_by_which_signal():
+    assert list(forked([("a", lambda: os.kill(os.getpid(), 9))], 1)) == [("a", 9)]
 
 
 def changes(source):

@@ -71,7 +71,7 @@ def test_a_report_has_every_table(tables):
     assert len(of_store(tables)) == 4 + 3 + 4 + 1 + 2 + 3 + 2
 
 
-def test_every_number_of_columns_named_by_what_they_count_is_that_of_the_rows(tables, rows):
+def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
     checked = 0
     titles = "Time to|Setting|Raw units|Cold|qpsolvers and cvxpy|How the calls"
     for title, where, columns, line in lines(tables, titled=titles):
@@ -119,7 +119,7 @@ def test_each_false_claim_that_is_shown_is_a_row_and_the_worst_of_its_kind(table
     assert len(found) == 12
 
 
-def test_the_setting_of_a_time_to_digits_is_that_with_the_least_of_the_mean(tables, rows):
+def test_the_setting_of_a_time_to_digits_has_the_least_mean(tables, rows):
     found = lines(tables, titled="Time to")
     assert len(found) == 4 * len(made_store.SOLVERS)
     for title, where, columns, line in found:
@@ -221,7 +221,7 @@ class Page(HTMLParser):
             self._open = None
 
 
-def test_the_html_page_shows_the_same_tables_and_needs_nothing_from_elsewhere(report, tables):
+def test_the_html_page_shows_the_same_tables_without_network(report, tables):
     text = html_page(report, {picture.name: b"<svg/>" for picture in report.pictures})
     page = Page(text)
     cells = [
@@ -284,6 +284,6 @@ def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
     }
 
 
-def test_calls_of_no_time_at_all_are_compared_as_the_shortest_that_a_clock_tells_apart():
+def test_calls_of_no_time_count_as_one_tick_of_the_clock():
     ratios = performance_ratios(np.array([[0.0, 0.0], [2e-9, 0.0]]), np.ones((2, 2), dtype=bool))
     np.testing.assert_array_equal(ratios, [[1, 1], [2, 1]])

@@ -1,4 +1,4 @@
-"""docs/solver_study.md against the committed rows: each number on the page is asked of them again.
+"""docs/solver_study.md against the committed rows: each number on the page is computed from them.
 
 Each phrase with braces has a question whose answers fill them. When the rows are made again, the
 test lists the phrases as they ought to read; whether what the page concludes from them still
@@ -43,7 +43,7 @@ PAGE = of.DEFAULT.parents[2] / "docs" / "solver_study.md"
 CONSTANTS = re.compile(
     r"1e-\d+|\d digits|by 1 %|at most 40|200 problems|all 200|limit of 1 s|sqrt\(2 eps\)|up to 1e9"
 )
-"""What the page says that is no result: accuracies, digits that count, what was asked."""
+"""What the page says that is no result: accuracies, digits that count, how much was measured."""
 
 
 def extent():
@@ -175,7 +175,7 @@ HELD = [
     ("ProxQP tuned {} against {} %", lambda: raw_and_natural("proxqp", "tuned")),
     ("in the median PIQP has {} in raw and {} in natural units, SCS {} and {}, ProxQP {} and {}",
      lambda: [d for s in ("piqp", "scs", "proxqp") for d in median_raw_and_natural(s)]),
-    ("Of {} claims of success {} are false. Natural units and 1e-9, asked directly and cold, "
+    ("Of {} claims of success {} are false. Natural units and 1e-9, called directly and cold, "
      "leave {} of {}: {} of HiGHS and {} of QPALM", false_claims),
     ("an error of sqrt(2 eps), {:.0f} digits for 1e-6", lambda: [-math.log10(math.sqrt(2e-6))]),
     ("PIQP delivers {} digits in the median and Clarabel {}, but 6 digits on {} and {} % of the "

@@ -84,7 +84,7 @@ class Keeper:
     ----------
     solver : Solver
     folder : str or Path
-        Where a callable's module is looked for, besides the usual places.
+        Where a callable's module is looked for, in addition to the usual places.
     memory : float
         Most that it may hold, with its children [bytes].
     """

@@ -66,9 +66,7 @@ def test_multiplier_that_vanishes_first_leaves_the_longest_held_in_a_tie(
         ((1.0, 0.0), 0),
     ],
 )
-def test_on_a_combination_the_smallest_ratio_leaves_the_longest_held_in_a_tie(
-    order, c, first, balls
-):
+def test_the_row_of_smallest_ratio_leaves_in_a_tie_the_longest_held(order, c, first, balls):
     form = program([[1, 0], [0, 1], c], [1, 3, 99])
     combination = active_set.combination(form, order, 2)
     assert [float(str(c_j)) for c_j in combination] == [c[i] for i in order]

@@ -57,7 +57,7 @@ def test_the_right_working_set_is_confirmed_with_the_same_bits(step):
 
 
 @pytest.mark.parametrize("block", range(4))
-def test_random_steps_of_every_cone_have_the_same_bits_and_wrong_sets_are_refused(block):
+def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused(block):
     """A sample of validation/confirmed_bits.py."""
     outcomes = [checked(seed) for seed in range(block, 120, 4)]
     assert [faults for _, _, faults in outcomes if faults] == []
@@ -133,7 +133,7 @@ def test_another_bit_is_noticed_by_the_script(monkeypatch, field):
     assert all(fault.startswith(f"{kind}, step 0") and field in fault for fault in faults)
 
 
-def test_a_hessian_that_is_not_positive_definite_without_rounding_is_refused():
+def test_a_hessian_that_is_not_exactly_positive_definite_is_refused():
     """1 and 1, and between them the float64 next to 1: the determinant is less than 0."""
     step = StepData(1.0, np.eye(0), np.eye(2), [], [0.0, 0.0], [], no_contacts(2))
     M_u = np.array([[1.0, np.nextafter(1.0, 2.0)], [np.nextafter(1.0, 2.0), 1.0]])
@@ -184,7 +184,7 @@ def test_rows_that_are_seen_to_be_spanned_are_spanned():
     assert not seen[(0, 1, 4), 5]
 
 
-def test_contacts_with_one_spin_have_it_in_common_and_those_with_none_have_none():
+def test_contacts_with_one_spin_share_its_generator():
     step = pinch()
     c = step.contacts
     np.testing.assert_array_equal(c.J[0, 3], -c.J[1, 3])  # opposite normals

@@ -50,7 +50,7 @@ def test_wrench_is_measured_by_the_displacement_that_it_causes(k):
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
-def test_slack_is_measured_by_the_displacement_that_changes_it_however_long_its_row(scale):
+def test_slack_is_measured_as_a_displacement_for_rows_of_any_length(scale):
     """A row scale * y >= -1 and an error of 1e-7 along y: seven digits."""
     step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
     step = step.replace(extra=Extra(("y",), scale * np.eye(3)[1:2], np.array([-1.0])))

@@ -180,7 +180,7 @@ def test_an_infeasible_step_is_not_solved():
 
 
 @pytest.mark.parametrize("backend", ["osqp", "piqp", "daqp", "qpsolvers:clarabel"])
-def test_a_backend_without_cones_is_refused_in_a_sentence_that_names_others(backend):
+def test_a_backend_without_cones_is_refused_with_the_names_of_others(backend):
     with pytest.raises(BackendError, match="the ellipsoid needs one of clarabel, scs"):
         solve_step(round_step(pinch()), backend)
 

@@ -228,6 +228,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/sparse.py": (*SPARSE, "unit/certify/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
     "solve/through_qpsolvers.py": SOLVED,
+    "solve/uncertified.py": (*SOLVED, "unit/certify/test_rounded_bound.py"),
     "solve/units.py": ("unit/solve/test_units.py", *SOLVERS),
     "step/arrays.py": DATA,
     "step/blocks.py": SPARSE,
