@@ -25,7 +25,7 @@ VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCES = (
     "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
-    "span.c",
+    "span.c", "rounding.c",
 )  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")

@@ -14,7 +14,7 @@ from tests.unit.fast.test_fast import needs_compiler
 pytestmark = needs_compiler
 CASES = 4000
 EXPOSED = """
-#include "certificate.c"
+#include "rounding.c"
 int shown(int64_t first, int64_t second, int64_t third, int place, double e, double *c)
 {
     Number x = {third ? place - 2 : second ? place - 1 : place, place + 1, {0}};
@@ -31,17 +31,17 @@ int shown(int64_t first, int64_t second, int64_t third, int place, double e, dou
 
 
 def library(folder, text="", other=""):
-    """The function by itself, with one text of certificate.c replaced."""
+    """The function by itself, with one text of rounding.c replaced."""
     made = compiled("library")
     sources = Path(made.__file__).parent
     for file in (*sources.glob("*.c"), *sources.glob("*.h")):
         code = file.read_text()
-        if file.name == "certificate.c" and text:
+        if file.name == "rounding.c" and text:
             assert code.count(text) == 1
             code = code.replace(text, other)
         (folder / file.name).write_text(code)
     (folder / "exposed.c").write_text(EXPOSED)
-    names = ["exposed.c", *(name for name in made.SOURCES if name != "certificate.c")]
+    names = ["exposed.c", *(name for name in made.SOURCES if name != "rounding.c")]
     files, out = [str(folder / name) for name in names], folder / "exposed.so"
     command = [*made.compiler(), *made.FLAGS, "-O0", "-o", str(out), *files, "-lm"]
     subprocess.run(command, check=True, capture_output=True)
