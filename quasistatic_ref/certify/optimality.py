@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.step.arrays import largest
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -35,7 +36,7 @@ class Residuals:
     @property
     def worst(self) -> float:
         """The largest of the four [of its own unit]; NaN if any of them is."""
-        return _largest(np.array([*vars(self).values()]))
+        return largest(np.array([*vars(self).values()]))
 
 
 def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:
@@ -51,13 +52,7 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
         Slack times multiplier [N m s].
     """
     sizes = np.abs(balance), short, pull, np.abs(work)
-    return Residuals(*map(_largest, sizes))
-
-
-def _largest(values: Array) -> float:
-    """The largest of some numbers, or zero; NaN if one is."""
-    most = float(values[values.argmax()]) if values.size else 0.0
-    return 0.0 if most <= 0 else most
+    return Residuals(*map(largest, sizes))
 
 
 def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:

@@ -253,7 +253,7 @@ def test_a_world_of_one_coordinate_has_its_axis_as_jacobian(
     assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (1,)
 
 
-def test_a_workspace_in_parts_has_the_sums_and_differences_of_the_whole_model() -> None:
+def test_a_workspace_in_parts_adds_and_subtracts_as_the_whole_model() -> None:
     """Nine free bodies, 54 coordinates: pinocchio's own sums, part by part."""
     system, rng = pile((9, 1, 1)).simulator.system, np.random.default_rng(2)
     workspace = system.workspace()

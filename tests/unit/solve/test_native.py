@@ -272,7 +272,7 @@ def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
     ("cone", "backend"),
     [(cone, name) for cone in ("pyramid", "ellipsoid") for name in native_backends(cone)],
 )
-def test_the_natural_form_is_the_same_once_a_solver_has_written_and_solved_it(cone, backend):
+def test_the_natural_form_is_the_same_once_a_solver_has_written_it(cone, backend):
     step = random_step(np.random.default_rng(8)).replace(cone=cone)
     solver = solver_for(step, backend, "native")
     scaled = solver.scaled(step)
