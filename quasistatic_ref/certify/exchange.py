@@ -82,22 +82,23 @@ def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | Non
     found : Violated
     """
     p, working, lam, delta_q = found
-    row = form.A[p]
-    moved, short = inverse @ row, float(form.b[p] - row @ delta_q)
-    square = float(row @ moved)
+    row, A = form.A[p], form.A[working]
+    moved, short = inverse.dot(row), float(form.b[p] - row.dot(delta_q))
+    square = float(row.dot(moved))
+    reached, towards = A.dot(inverse).dot(A.T), A.dot(moved)
     while True:
-        A = form.A[working]
         try:
-            falls = np.linalg.solve(A @ inverse @ A.T, A @ moved)  # of lam, for a unit of p's
+            falls = np.linalg.solve(reached, towards)  # of lam, for a unit of p's
         except np.linalg.LinAlgError:
             return None
-        rate = square - float(falls @ (A @ moved))
+        rate = square - float(falls.dot(towards))
         full = max(short, 0.0) / rate if rate > DEPENDENT * square else np.inf
         limits = np.full(len(working), np.inf)
         np.divide(lam, falls, out=limits, where=falls > 0)
         if not full > limits.min(initial=np.inf):  # NaN too
-            return np.sort(np.append(working, p)) if full < np.inf else None
+            return np.array(sorted([*working.tolist(), p])) if full < np.inf else None
         first = int(limits.argmin())
         rest = np.arange(len(working)) != first
         lam, working = (lam - limits[first] * falls)[rest], working[rest]
+        reached, towards = reached[rest][:, rest], towards[rest]
         short -= limits[first] * rate

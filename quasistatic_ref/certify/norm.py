@@ -27,11 +27,11 @@ class EnergyNorm:
 
     def displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return math.hypot(*(self.L.T @ (v / self.unit)).tolist())
+        return math.hypot(*self.L.T.dot(v / self.unit).tolist())
 
     def impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return math.hypot(*(self.inverse @ (p * self.unit)).tolist())
+        return math.hypot(*self.inverse.dot(p * self.unit).tolist())
 
     def impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""

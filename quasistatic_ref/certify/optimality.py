@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.step.arrays import largest
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -35,7 +36,7 @@ class Residuals:
     @property
     def worst(self) -> float:
         """The largest of the four [of its own unit]; NaN if any of them is."""
-        return float(np.max(list(vars(self).values())))
+        return largest(np.array([*vars(self).values()]))
 
 
 def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:
@@ -50,12 +51,8 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
     work : ndarray, shape (m,)
         Slack times multiplier [N m s].
     """
-    return Residuals(
-        stationarity=float(np.abs(balance).max(initial=0.0)),
-        primal=float(short.max(initial=0.0)),
-        dual=float(pull.max(initial=0.0)),
-        complementarity=float(np.abs(work).max(initial=0.0)),
-    )
+    sizes = np.abs(balance), short, pull, np.abs(work)
+    return Residuals(*map(largest, sizes))
 
 
 def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:

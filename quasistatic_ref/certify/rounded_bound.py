@@ -130,7 +130,7 @@ class FloatBound:
             return None
         way, work = moved
         rest = np.abs(at.balance) + at.off_balance
-        unbalanced = math.sqrt(float(rest @ self.inverse @ rest))
+        unbalanced = math.sqrt(float(rest.dot(self.inverse).dot(rest)))
         length = way + math.sqrt((unbalanced + way) ** 2 + 2 * work)
         error = MORE * length / math.sqrt(free)
         return error if math.isfinite(error) else None
@@ -153,16 +153,16 @@ class FloatBound:
         reach = np.einsum("cij,ci->cj", np.abs(contacts.J), self.weight(contacts.mu))
         reach *= self.coordinate / ell
         target = np.abs(step.delta_q_bar_a) / (rho * self.coordinate[: step.n_a])
-        load = np.abs(form.g) + 2 * (self.sizes[:, : step.n_a] @ target) + UNDERFLOW
+        load = np.abs(form.g) + 2 * self.sizes[:, : step.n_a].dot(target) + UNDERFLOW
         size, lost = np.abs(x), U * UNDERFLOW
-        balance = form.H @ x - form.g - form.A.T @ y
-        sums = (n + OF_BALANCE) * (self.sizes @ size + load) + np.abs(balance)
-        slack, off_slack = form.A @ x - form.b, 0.0
+        balance = form.H.dot(x) - form.g - form.A.T.dot(y)
+        sums = (n + OF_BALANCE) * (self.sizes.dot(size) + load) + np.abs(balance)
+        slack, off_slack = form.A.dot(x) - form.b, 0.0
         if y.size:
             lost *= 1 + float(size.sum() + y.sum())
-            off_slack = U * (n + OF_SLACK) * float((reach @ size).max()) + lost
+            off_slack = U * (n + OF_SLACK) * float(reach.dot(size).max()) + lost
             of_contacts = np.add.reduceat(y, step.offsets[:-1])
-            sums += (np.count_nonzero(y) + OF_WORK) * (of_contacts @ reach)
+            sums += (np.count_nonzero(y) + OF_WORK) * of_contacts.dot(reach)
         return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
 
     def weight(self, mu: Array) -> Array:
@@ -175,8 +175,8 @@ class FloatBound:
 
     def energy(self, g: Array, load: Array) -> float:
         """A lower bound of ||H^-1 g||_H^2 in natural units [-], for g and its `load`, (n_v,)."""
-        off = U * (4 * len(g) + OF_ENERGY) * float(load @ self.inverse @ load)
-        return float(g @ self.middle @ g) - MORE * off
+        off = U * (4 * len(g) + OF_ENERGY) * float(load.dot(self.inverse).dot(load))
+        return float(g.dot(self.middle).dot(g)) - MORE * off
 
     def moved(self, step: StepData, form: StandardForm, at: Rounded) -> tuple[float, float] | None:
         """The way t ||d||_H and y'(A x' - b) at most [-]; None if no direction opens all rows."""
@@ -187,12 +187,12 @@ class FloatBound:
             if found is None:
                 return None
             d, length = found
-            opened = form.A @ d
-            off = U * (len(d) + OF_SLACK) * float((at.reach @ np.abs(d)).max()) + UNDERFLOW
+            opened = form.A.dot(d)
+            off = U * (len(d) + OF_SLACK) * float(at.reach.dot(np.abs(d)).max()) + UNDERFLOW
             least = float(opened.min()) - off
             if least > off:
                 t = (at.off_slack - min(float(at.slack.min()), 0.0)) / least
-                work = float(at.y @ np.maximum(at.slack, 0.0)) + t * float(at.y @ opened)
+                work = float(at.y.dot(np.maximum(at.slack, 0.0))) + t * float(at.y.dot(opened))
                 return t * length, work + (at.off_slack + t * off) * float(at.y.sum())
         return None
 

@@ -20,7 +20,7 @@ def places(step: StepData, rows: Iterable[int]) -> tuple[NDArray[np.int64], NDAr
     ndarray, shape (rows,), twice
     """
     flat = np.array([*rows], dtype=np.int64)
-    contact = np.searchsorted(step.offsets, flat, side="right") - 1
+    contact = step.offsets.searchsorted(flat, side="right") - 1
     return contact, flat - step.offsets[contact]
 
 

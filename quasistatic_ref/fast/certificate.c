@@ -11,36 +11,6 @@
 int64_t proof_size(void) { return sizeof(Proof); }
 int64_t number_size(void) { return sizeof(Number); }
 
-/* The float64 nearest to unit x / h, x being known to within e; 0 if that is not shown. */
-static int nearest(const Number *x, double e, double h, double unit, double *out, int *lost)
-{
-    double c = value(x) / h, rest = 0.0;
-    if (c == 0.0) {
-        *out = 0.0;
-        return x->low == x->high && e == 0.0;
-    }
-    Float by = exact(h, lost);
-    Number divisor = number_of(&by);
-    for (int round = 0; round < 3; round++) {
-        Sum sum;
-        clear(&sum);
-        add_number(&sum, x, 1);
-        Float quotient = exact(c, lost);
-        add_product(&sum, &divisor, &quotient, -1, lost);
-        Number left = carried(&sum, lost);
-        rest = value(&left);
-        double better = c + rest / h;
-        if (better == c)
-            break;
-        c = better;
-    }
-    double above = nextafter(c, INFINITY) - c, below = c - nextafter(c, -INFINITY);
-    double beyond = rest > 0.0 ? rest * UP : 0.0, short_of = rest < 0.0 ? -rest * UP : 0.0;
-    *out = c * unit;
-    return beyond + e < h * above / 2 * DOWN && short_of + e < h * below / 2 * DOWN
-        && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
-}
-
 /* gap, slip_1, slip_2 and spin of a contact, without friction's coefficients' rows, and bounds. */
 static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double *e, int *lost)
 {
@@ -118,6 +88,8 @@ static int slacks(Proof *s, Room *m, int *lost)
             return NEGATIVE;
         } else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
             return OPEN_NUMBER;
+        else if (s->slack[r] < s->least[0])
+            s->least[0] = s->slack[r];
     }
     return DECIDED;
 }
@@ -166,6 +138,7 @@ static int rounded(Proof *s, Room *m, int *lost)
             s->counts[0] = s->guess[w];
             return NOT_PRESSED;
         }
+        s->least[1] = *lam < s->least[1] ? *lam : s->least[1];
     }
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
@@ -231,6 +204,7 @@ static int proved(Proof *s, Room *m)
     defect(m->R, m->K, N, m->G);
     for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
+        s->least[0] = s->least[1] = INFINITY;
         refined(s, m, bits, &lost);
         if (lost)
             return LOST;

@@ -1,5 +1,7 @@
 """The exact optimum on a guessed working set, proved in compiled fixed point."""
 
+import math
+
 import numpy as np
 
 from quasistatic_ref.certify.dependence import combined
@@ -19,7 +21,7 @@ ARRAYS = (
     "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega",
     "cone", "integers", "contact", "row", "guess",
     "hessian", "hessian_values",
-    "delta_q", "lam", "net", "slack", "idle", "still", "counts",
+    "delta_q", "lam", "net", "slack", "idle", "still", "counts", "least",
 )  # fmt: skip
 """The fields of ``Proof`` in proof.h."""
 
@@ -62,6 +64,7 @@ class Prover:
                 "J": np.zeros(step.contacts.J.shape),
                 "lam": np.zeros(m), "slack": np.zeros(m), "idle": np.zeros(m, np.int64),
                 "still": np.zeros(n, np.int64), "counts": np.zeros(2, np.int64),
+                "least": np.zeros(2),
             }
         )  # fmt: skip
         self.usable = n <= LARGEST and bool(found.hessian(s.address))
@@ -101,20 +104,20 @@ class Prover:
         code, (rows, coordinates) = self._proof(s.address), s["counts"].tolist()
         if code == NEGATIVE:
             return Violated(rows, guess, s["lam"][guess], s["delta_q"].copy())
+        least_slack, least_multiplier = s["least"].tolist()
         zeros = s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
         if code != DECIDED and not (code == TO_BE_IMPLIED and zeros_hold(step, working, *zeros)):
             return None
-        lam, slack = s["lam"].copy(), s["slack"].copy()
         return ExactOptimum(
             delta_q=s["delta_q"].copy(),
-            lam=lam,
+            lam=s["lam"].copy(),
             net=s["net"].copy(),
-            slack=slack,
+            slack=s["slack"].copy(),
             working_set=tuple(working),
             multipliers_unique=not rows,
             differentiable=True,  # every row without slack is one of W, or spanned by W
-            smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
-            smallest_active_multiplier=min(lam[working].tolist(), default=None),
+            smallest_inactive_slack=least_slack if least_slack < math.inf else None,
+            smallest_active_multiplier=least_multiplier if working else None,
             walks=0,
         )
 

@@ -16,7 +16,7 @@ enum { BITS = 56, FRACTION = 12, DIGITS = 15 };
 
 typedef struct { int low, high; int64_t d[DIGITS]; } Number;
 typedef struct { int start; int64_t d[2]; } Float;
-typedef struct { __int128 d[DIGITS]; } Sum;
+typedef struct { int low, high; __int128 d[DIGITS]; } Sum;
 
 /* The digits of a float64. What lies below 2^-grid is cut off where `cut` is set, else lost. */
 static inline Float digits_of(double x, int grid, int cut, int *lost)
@@ -57,51 +57,72 @@ static inline Float digits_of(double x, int grid, int cut, int *lost)
 
 static inline Float exact(double x, int *lost) { return digits_of(x, BITS * FRACTION, 0, lost); }
 
-static inline void clear(Sum *sum) { memset(sum, 0, sizeof *sum); }
+static inline void clear(Sum *sum) { sum->low = sum->high = 0; }
+
+/* Have the digits from `low` to below `high` set. */
+static inline void reach(Sum *sum, int low, int high)
+{
+    if (sum->low == sum->high)
+        sum->low = sum->high = low;
+    while (sum->low > low)
+        sum->d[--sum->low] = 0;
+    while (sum->high < high)
+        sum->d[sum->high++] = 0;
+}
 
 static inline void add_float(Sum *sum, const Float *f, int sign)
 {
+    if (!f->d[0] && !f->d[1])
+        return;
+    reach(sum, f->start, f->start + 2);
     sum->d[f->start] += sign * f->d[0];
     sum->d[f->start + 1] += sign * f->d[1];
 }
 
 static inline void add_number(Sum *sum, const Number *x, int sign)
 {
+    if (x->low == x->high)
+        return;
+    reach(sum, x->low, x->high);
     for (int j = x->low; j < x->high; j++)
         sum->d[j] += sign * x->d[j];
 }
 
 static inline void add_product(Sum *sum, const Number *x, const Float *f, int sign, int *lost)
 {
-    if (!f->d[0] && !f->d[1])
+    if (x->low == x->high || (!f->d[0] && !f->d[1]))
         return;
     int by = f->start - FRACTION;
     if (x->low + by >= 0 && x->high + by < DIGITS) {
         int64_t low = sign * f->d[0], high = sign * f->d[1];
-        for (int j = x->low; j < x->high; j++) {
+        reach(sum, x->low + by, x->high + by + 1);
+        for (int j = x->low; low && j < x->high; j++)
             sum->d[j + by] += (__int128)x->d[j] * low;
+        for (int j = x->low; high && j < x->high; j++)
             sum->d[j + by + 1] += (__int128)x->d[j] * high;
-        }
         return;
     }
     for (int j = x->low; j < x->high; j++)
         for (int k = 0; k < 2; k++) {
             if (!x->d[j] || !f->d[k])
                 continue;
-            if (j + by + k < 0 || j + by + k >= DIGITS)
+            if (j + by + k < 0 || j + by + k >= DIGITS) {
                 *lost = 1;
-            else
-                sum->d[j + by + k] += (__int128)(sign * x->d[j]) * f->d[k];
+                continue;
+            }
+            reach(sum, j + by + k, j + by + k + 1);
+            sum->d[j + by + k] += (__int128)(sign * x->d[j]) * f->d[k];
         }
 }
 
 static inline Number carried(const Sum *sum, int *lost)
 {
-    Number x = {0, 0, {0}};
+    Number x;
     __int128 carry = 0;
     int any = 0;
-    for (int j = 0; j < DIGITS; j++) {
-        __int128 digit = sum->d[j] + carry;
+    x.low = x.high = 0;
+    for (int j = sum->low; j < DIGITS && (j < sum->high || carry); j++) {
+        __int128 digit = (j < sum->high ? sum->d[j] : 0) + carry;
         carry = (digit + ((__int128)1 << (BITS - 1))) >> BITS;
         x.d[j] = (int64_t)(digit - carry * ((__int128)1 << BITS));
         if (x.d[j]) {

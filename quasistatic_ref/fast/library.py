@@ -25,7 +25,7 @@ VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCES = (
     "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
-    "span.c",
+    "span.c", "rounding.c",
 )  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
@@ -34,7 +34,7 @@ FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
-    "step_data": None,
+    "step_data": ctypes.c_double,
     "reach": ctypes.c_double,
     "positions": None,
     "changes": None,

@@ -143,11 +143,11 @@ int natural_program(Natural *s)
     }
     double unit = 1 / (size * length);
     for (int64_t r = 0; r < s->m; r++) {
-        const double *A = s->A + r * s->n;
-        double *to = s->natural_A + r * s->row;
+        const double *A = s->A + r * s->n, *scale = s->scale;
+        double *restrict to = s->natural_A + r * s->row;
         s->natural_b[r] = s->b[r] * unit;
-        for (int64_t v = 0; v < s->n; v++)
-            to[v * s->column] = A[v] * s->scale[v];
+        for (int64_t v = 0, column = s->column; v < s->n; v++)
+            to[v * column] = A[v] * scale[v];
     }
     return 1;
 }

@@ -7,7 +7,9 @@ from quasistatic_ref.fast.scene import Scene
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Metric, Units
+from quasistatic_ref.step.data import StepData
 
 NUMBERS = ("n", "m", "row", "column")
 ARRAYS = (
@@ -27,15 +29,18 @@ class NaturalProgram:
     ----------
     scene : Scene
         Where the steps' g, A and b are.
+    solver : NativeSolver
     program : Program
-        The solver's.
+        Its own.
     metric : Metric
         Of H.
     """
 
-    def __init__(self, scene: Scene, program: Program, metric: Metric) -> None:
+    def __init__(
+        self, scene: Scene, solver: NativeSolver, program: Program, metric: Metric
+    ) -> None:
         found = library()
-        self._write, self._program, self._metric = found.natural_program, program, metric
+        self._write, self._solver, self._metric = found.natural_program, solver, metric
         self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
         m, n = program.A.shape
         row, column = (stride // program.A.itemsize for stride in program.A.strides)
@@ -51,13 +56,15 @@ class NaturalProgram:
                 "natural_A": program.A.ravel(order="K"),
             }
         )  # fmt: skip
+        self._units = s["units"]
         assert all(np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b"))
 
-    def fits(self, solver: NativeSolver) -> bool:
-        """Whether it writes into the arrays of a solver in the units of its H."""
-        return solver.metric is self._metric and solver.program is self._program
+    def fits(self, solver: Solver, step: StepData) -> bool:
+        """Whether it writes a step into the arrays of a solver in the units of its H."""
+        own, metric = self._solver, self._metric
+        return solver is own and own.metric is metric and metric.H is step.H
 
-    def written(self, solver: NativeSolver) -> Units | None:
+    def written(self) -> Units | None:
         """The units of the step that the scene holds; its program is written in them now.
 
         Returns
@@ -67,5 +74,15 @@ class NaturalProgram:
         """
         if not self._write(self._structure.address):
             return None
-        solver.written = units = Units(self._metric.coordinate, *self._structure["units"].tolist())
+        units = Units(self._metric.coordinate, *self._units.tolist())
+        self._solver.written = units
         return units
+
+
+def natural_program(scene: Scene, solver: Solver, step: StepData) -> NaturalProgram | None:
+    """What writes the steps of a scene that are like one into the arrays of a solver, or None."""
+    if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
+        return None
+    if solver.metric is None or solver.metric.H is not step.H or step.n_v > MOST:
+        return None
+    return NaturalProgram(scene, solver, solver.program, solver.metric)

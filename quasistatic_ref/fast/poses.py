@@ -15,6 +15,8 @@ class Poses:
 
     Attributes
     ----------
+    q : ndarray, shape (n_q,)
+        The configuration whose poses are written.
     R, t : ndarray of int, shape (L,)
         Addresses of each link's rotation, by columns, and of its origin; the world's first.
     columns : ndarray of int, shape (n_x,)
@@ -25,6 +27,7 @@ class Poses:
 
     def __init__(self, system: System) -> None:
         self.workspace, self.order = system.workspace(), system.motion.order
+        self.q = system.q_start.copy()
         self._world = np.eye(3), np.zeros(3)
         R, t = [self._world[0]], [self._world[1]]
         columns: list[int] = []
@@ -49,9 +52,11 @@ class Poses:
         if at == self._at:
             return
         self._at = None  # of a failure
-        self.workspace.move(self.order.model_q(q))
+        self._model_q = self.order.model_q(q).copy()  # whoever has q may write into it
+        self.q[:] = q
+        self.workspace.move(self._model_q)
         self._at = at
 
-    def weigh(self, q: Array, gravity: tuple[float, ...]) -> None:
-        """Have gravity [m/s^2] at a configuration, shape (n_q,), written."""
-        self.workspace.gravity_torque(self.order.model_q(q), gravity)
+    def weigh(self, gravity: tuple[float, ...]) -> None:
+        """Have gravity [m/s^2] at that configuration written."""
+        self.workspace.gravity_torque(self._model_q, gravity)

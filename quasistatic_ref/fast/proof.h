@@ -41,6 +41,9 @@ typedef struct {
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
        many of both. Of a guess that is NOT_PRESSED or NEGATIVE the first number is the row. */
     int64_t *idle, *still, *counts;
+    /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
+       infinite where there is none. */
+    double *least;
 } Proof;
 
 /* What one proof computes. */
@@ -67,6 +70,7 @@ void corrected(const Proof *s, Room *m, int *lost);
 int inverse(double *a, double *R, int64_t n);
 void defect(const double *R, const double *K, int64_t n, double *G);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
+int nearest(const Number *x, double e, double h, double unit, double *out, int *lost);
 int spanned(const Proof *s, int64_t *table, int64_t *pivot);
 
 #endif

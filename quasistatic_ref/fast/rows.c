@@ -18,15 +18,17 @@ static void tangents(const double *n, double *d1, double *d2)
 }
 
 /* contact/jacobian: [nu; n'omega] of a body that all columns move, at the point r. */
-static void columns_at(const double *col, int64_t n_x, const double *r, const double *n, double *out)
+static void columns_at(const double *col, int64_t n_x, const double *r, const double *n,
+                       double *restrict out)
 {
     const double *w = col + 3 * n_x;
+    double r0 = r[0], r1 = r[1], r2 = r[2], n0 = n[0], n1 = n[1], n2 = n[2];
     for (int64_t x = 0; x < n_x; x++) {
         double w0 = w[x], w1 = w[n_x + x], w2 = w[2 * n_x + x];
-        out[x] = ADDED(-r[1], w2, ADDED(r[2], w1, col[x] + 0.0));
-        out[n_x + x] = ADDED(r[0], w2, ADDED(-r[2], w0, col[n_x + x] + 0.0));
-        out[2 * n_x + x] = ADDED(-r[0], w1, ADDED(r[1], w0, col[2 * n_x + x] + 0.0));
-        out[3 * n_x + x] = ADDED(n[2], w2, ADDED(n[1], w1, ADDED(n[0], w0, 0.0)));
+        out[x] = ADDED(-r1, w2, ADDED(r2, w1, col[x] + 0.0));
+        out[n_x + x] = ADDED(r0, w2, ADDED(-r2, w0, col[n_x + x] + 0.0));
+        out[2 * n_x + x] = ADDED(-r0, w1, ADDED(r1, w0, col[2 * n_x + x] + 0.0));
+        out[3 * n_x + x] = ADDED(n2, w2, ADDED(n1, w1, ADDED(n0, w0, 0.0)));
     }
 }
 
@@ -49,10 +51,12 @@ static void jacobian(const Scene *s, const double *col, int64_t c, double *own, 
 }
 
 /* step/friction: frame_jacobian of one axis, times a coefficient of friction. */
-static void motion_along(const double *axis, const double *J, int64_t n_v, double mu, double *out)
+static void motion_along(const double *axis, const double *J, int64_t n_v, double mu,
+                         double *restrict out)
 {
+    double x = axis[0], y = axis[1], z = axis[2];
     for (int64_t v = 0; v < n_v; v++)
-        out[v] = mu * ((axis[0] * J[v] + axis[1] * J[n_v + v]) + axis[2] * J[2 * n_v + v]);
+        out[v] = mu * ((x * J[v] + y * J[n_v + v]) + z * J[2 * n_v + v]);
 }
 
 /* simulate/simulator: posed; step/standard_form: load. */
@@ -64,16 +68,18 @@ static void load(Scene *s)
     }
 }
 
-/* The tangents, J, A and b of all contacts from their closest points, and the load. */
-void step_data(Scene *s)
+/* The tangents, J, A and b of all contacts from their closest points, and the load. The least gap. */
+double step_data(Scene *s)
 {
     int64_t n_v = s->n_v, n_x = s->n_x, row = 0;
+    double least = INFINITY;
     double *col = s->work, *own = col + 6 * n_x, *motion = own + 8 * n_x;
     for (int64_t x = 0; x < n_x; x++)
         for (int i = 0; i < 6; i++)
             col[i * n_x + x] = s->column[x][i];
     for (int64_t c = 0; c < s->n_c; c++) {
         double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c, *J = s->J + 4 * n_v * c;
+        least = s->phi[c] < least ? s->phi[c] : least;
         tangents(s->n + 3 * c, d1, d2);
         jacobian(s, col, c, own, J);
         motion_along(s->n + 3 * c, J, n_v, 1.0, motion);
@@ -82,14 +88,18 @@ void step_data(Scene *s)
         for (int64_t v = 0; v < n_v; v++)
             motion[3 * n_v + v] = s->mu_omega[c] * J[3 * n_v + v];
         for (int64_t i = 0; i < s->rows[c]; i++, row++) { /* Eqs. (4)-(8) */
-            double *A = s->A + n_v * row;
+            double *restrict A = s->A + n_v * row; /* which is nowhere in the work */
             for (int64_t v = 0; v < n_v; v++)
                 A[v] = motion[v];
-            for (int k = 0; k < 3; k++)
-                for (int64_t v = 0; s->has[3 * i + k] && v < n_v; v++)
-                    A[v] = A[v] + s->coefficient[3 * i + k] * motion[(k + 1) * n_v + v];
+            for (int k = 0; k < 3; k++) {
+                const double *along = motion + (k + 1) * n_v;
+                double coefficient = s->coefficient[3 * i + k];
+                for (int64_t v = 0, last = s->has[3 * i + k] ? n_v : 0; v < last; v++)
+                    A[v] = A[v] + coefficient * along[v];
+            }
             s->b[row] = -s->phi[c];
         }
     }
     load(s);
+    return least;
 }

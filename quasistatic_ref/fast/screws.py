@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.fast.library import library
+from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
@@ -24,44 +25,55 @@ class Screws:
     Parameters
     ----------
     system : System
+    poses : Poses
+        Whose configuration q they start from.
     """
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, poses: Poses) -> None:
         found = library()
-        self.system = system
+        self.system, self.q = system, poses.q
+        same, bodies = poses.order.same, poses.workspace
+        self._sum = bodies.sum if same else system.pinocchio_sum
+        self._difference = bodies.difference if same else system.pinocchio_difference
         self._positions, self._changes = found.positions, found.changes
         joints = [joint for joint in system.joints if joint.kind in KINDS]
-        self._sums = _structure(found, system, joints, system.n_v)
+        self._sums = _structure(found, poses.q, joints, system.n_v)
         actuated = [joint for joint in joints if joint.actuated]
-        self._differences = _structure(found, system, actuated, system.n_a)
+        self._differences = _structure(found, poses.q, actuated, system.n_a)
         self._of_sums, self._of_differences = (
-            tuple(s[name] for name in ("q", "q_next", "delta_q", "angle"))
+            tuple(s[name] for name in ("q_next", "delta_q", "angle"))
             for s in (self._sums, self._differences)
         )
+        self._target = self._of_differences[0][: system.n_q_a]
         self._vectors, self._actuated = _rotations(joints), _rotations(actuated)
 
-    def integrate(self, q: Array, delta_q: Array) -> Array:
+    def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        at, there, change, angle = self._of_sums
-        at[:], there[:], change[:] = q, self.system.pinocchio_sum(q, delta_q), delta_q
+        there, change, angle = self._of_sums
+        there[:], change[:] = self._sum(self.q, delta_q), delta_q
+        moved = delta_q.tolist()
         for i, where in self._vectors:
-            angle[i] = math.hypot(*change[where].tolist())
+            angle[i] = math.hypot(*moved[where])
         self._positions(self._sums.address)
         return there.copy()
 
-    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+    def actuated_difference(self, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
-        at, there, change, angle = self._of_differences
-        at[:], there[:] = q, self.system.with_actuated(q, q_a)
-        change[:] = self.system.pinocchio_difference(at, there)[: len(change)]
+        there, change, angle = self._of_differences
+        if np.shape(q_a) != self._target.shape:
+            self.system.with_actuated(self.q, q_a)  # which says so
+        there[:] = self.q
+        self._target[:] = q_a
+        change[:] = self._difference(self.q, there)[: len(change)]
+        moved = change.tolist()
         for i, where in self._actuated:
-            angle[i] = math.hypot(*change[where].tolist())
+            angle[i] = math.hypot(*moved[where])
         self._changes(self._differences.address)
         return change.copy()
 
 
-def _structure(found: Any, system: System, joints: Sequence[Joint], n_v: int) -> Structure:
-    """The structure for some joints, whose delta_q has n_v entries."""
+def _structure(found: Any, q: Array, joints: Sequence[Joint], n_v: int) -> Structure:
+    """The structure for some joints at q, whose delta_q has n_v entries."""
     made = Structure(NUMBERS, ARRAYS, found.screws_size)
     made.put(
         {
@@ -70,7 +82,7 @@ def _structure(found: Any, system: System, joints: Sequence[Joint], n_v: int) ->
             "q_start": np.array([joint.q.start for joint in joints], np.int64),
             "v_start": np.array([joint.v.start for joint in joints], np.int64),
             "angle": np.zeros(len(joints)),
-            "q": np.zeros(system.n_q), "q_next": np.zeros(system.n_q), "delta_q": np.zeros(n_v),
+            "q": q, "q_next": np.zeros(len(q)), "delta_q": np.zeros(n_v),
         }
     )  # fmt: skip
     return made

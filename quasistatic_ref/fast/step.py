@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.fast.answer import as_said
 from quasistatic_ref.fast.library import library
-from quasistatic_ref.fast.natural import MOST, NaturalProgram
+from quasistatic_ref.fast.natural import NaturalProgram, natural_program
 from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.products import products
 from quasistatic_ref.fast.scene import Scene, known
@@ -18,18 +21,20 @@ from quasistatic_ref.fast.screws import Screws
 from quasistatic_ref.plain import bits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.posed import PosedContacts, PosedStep
+from quasistatic_ref.step.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
+
+TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
+"""What a step takes of what C has written."""
 
 SURELY = 1 - 2.0**-40
 """For the rounding of a sum of squares, of 2^-53 of each."""
@@ -74,6 +79,21 @@ def compiled_step(simulator: Simulator) -> CompiledStep | None:
     return CompiledStep(simulator) if unknown(simulator) is None else None
 
 
+T = TypeVar("T", PosedContacts, PosedStep)
+
+
+def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
+    """Posed data of a `kind` of their fields: the `same` at each step, and their `own`.
+
+    Arrays must be such as cannot be written.
+    """
+    made = kind.__new__(kind)
+    fields = vars(made)
+    fields.update(same)
+    fields.update(own)
+    return made
+
+
 class CompiledStep:
     """The step of one simulator.
 
@@ -90,11 +110,19 @@ class CompiledStep:
         clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
         constant, weighs = simulator.constant, simulator.gravity_acts
         self.scene = Scene(self.poses, self.geometry, constant, weighs, clouds)
+        self.force, self.tau_k = self.scene["force"], self.scene["tau_k"]
         found = library()
         self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
-        self.screws = Screws(simulator.system)
+        self.screws = Screws(simulator.system, self.poses)
         self.program: NaturalProgram | None = None
         self.equal: bool | None = None
+        layout, mu = self.geometry.layout, self.geometry.mu
+        self.of_contacts = {
+            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
+        }  # fmt: skip
+        self.constant: Constants | None = None
+        self.of_steps: dict[str, Any] = {}
+        self.solver: Solver | None = None
 
     def __call__(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
@@ -107,32 +135,33 @@ class CompiledStep:
             None where NumPy turns out to multiply otherwise here, or has an extension to take or a
             force to refuse.
         """
-        shapes = () if isinstance(force, float) else np.shape(force), self.scene["force"].shape
-        if simulator.extension is not None or shapes[0] not in ((), shapes[1]):
+        shape = () if isinstance(force, float) else np.shape(force)
+        if simulator.extension is not None or (shape and shape != self.force.shape):
             return None
         lap, system = Stopwatch(), simulator.system
         q = np.asarray(q, dtype=np.float64)
         self.poses.move(q)
         self.find_points(simulator, q)
         lap("distances")
-        points, step, form = self.step_data(simulator, q, q_bar_a, force)
+        points, step, form, gap = self.step_data(simulator, q, q_bar_a, force)
         if self.equal is None:
             self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
             if not self.equal:
                 simulator.fast = None
                 return None
         lap("rows")
-        solver, asked = simulator.fitting(step), (simulator.accuracy, simulator.certify)
         try:
-            solution = solved(step, solver, *asked, form, self.units(solver, step))  # Eq. (13)
+            solution = self.solution(simulator, step, form)  # Eq. (13)
         except StepNotSolved as failure:
             solution = simulator.spare.answer(step, failure)
-        simulator.limits.check_penetration(step)
+        limits = simulator.limits
+        if not gap >= -limits.penetration:
+            limits.check_penetration(step)
         lap("solve")
-        q_next = self.screws.integrate(q, solution.delta_q)
+        q_next = self.screws.integrate(solution.delta_q)
         self.poses.move(q_next)
-        if not self.reach(self.scene.address) <= SURELY * simulator.limits.reach**2:
-            simulator.limits.check_reach(step, system.links, system.kinematics(q_next).t)
+        if not self.reach(self.scene.address) <= SURELY * limits.reach**2:
+            limits.check_reach(step, system.links, system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
@@ -150,34 +179,44 @@ class CompiledStep:
 
     def step_data(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
-    ) -> tuple[ClosestPoints, StepData, StandardForm]:
-        """The closest points and the problem of one step, and its matrices until the next."""
+    ) -> tuple[ClosestPoints, StepData, StandardForm, float]:
+        """The closest points, the problem of one step, its matrices until the next, the least gap.
+
+        The last is in [m].
+        """
         scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
-        delta_q_bar_a = self.screws.actuated_difference(q, q_bar_a)
-        np.matmul(constant.K_q, delta_q_bar_a, out=scene["tau_k"])  # in BLAS's order
-        self.poses.weigh(q, simulator.gravity)
-        scene["force"][:] = force
-        self.form(scene.address)
-        of, layout, mu = scene.taken(), self.geometry.layout, self.geometry.mu
-        points = ClosestPoints(*(of[name] for name in ClosestPoints._fields))
-        names = self.geometry.names(points.point)
-        frames = points.n, of["d1"], of["d2"], of["J"]
-        of_layout = layout.mu_v, layout.mu_omega, layout.rows, mu
-        contacts = PosedContacts(names, points.phi, *frames, *of_layout)
-        n_a, tau = len(delta_q_bar_a), of["tau"]
-        step = PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
-        return points, step, StandardForm(step.H, of["g"], scene["A"], scene["b"])
+        delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
+        delta_q_bar_a.setflags(write=False)
+        constant.K_q.dot(delta_q_bar_a, self.tau_k)  # in BLAS's order
+        self.poses.weigh(simulator.gravity)
+        self.force[:] = force
+        gap = self.form(scene.address)
+        phi, alpha, beta, n, point, d1, d2, J, tau, g = TAKEN(scene.taken())
+        points = ClosestPoints(phi, alpha, beta, n, point)
+        own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
+        contacts = posed(PosedContacts, self.of_contacts, own)
+        if constant is not self.constant:
+            self.constant, self.of_steps, self.solver = constant, constant._asdict(), None
+        n_a = len(delta_q_bar_a)
+        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
+        step = posed(PosedStep, self.of_steps, {**loads, "contacts": contacts})
+        return points, step, StandardForm(constant.H, g, scene["A"], scene["b"]), gap
+
+    def solution(self, simulator: Simulator, step: StepData, form: StandardForm) -> StepSolution:
+        """The solution of the step whose matrices are there; StepNotSolved if there is none."""
+        solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
+        if solver is None or solver is not simulator.solver:  # what fits one fits all of them
+            self.solver = solver = simulator.fitting(step)
+        units = self.units(solver, step)
+        said = as_said(step, solver, units, accuracy) if certify == "off" else None
+        return solved(step, solver, accuracy, certify, form, units) if said is None else said
 
     def units(self, solver: Solver, step: StepData) -> Units | None:
         """The natural units of the step, where its program is written for the solver in them."""
-        if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
-            return None
-        metric, program = solver.metric, self.program
-        if metric is None or metric.H is not step.H or step.n_v > MOST:
-            return None
-        if program is None or not program.fits(solver):
-            self.program = program = NaturalProgram(self.scene, solver.program, metric)
-        return program.written(solver)
+        program = self.program
+        if program is None or not program.fits(solver, step):
+            self.program = program = natural_program(self.scene, solver, step)
+        return None if program is None else program.written()
 
     def by_numpy(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float

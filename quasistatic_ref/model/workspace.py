@@ -86,6 +86,16 @@ class Workspace:
             array.setflags(write=False)
         return found
 
+    def sum(self, q: Array, delta_q: Array) -> Array:
+        """Configuration q (+) delta_q, shape (n_q,), whose bases lack digits of their places."""
+        sums = [pin.integrate(part.model, q[part.q], delta_q[part.v]) for part in self.parts]
+        return sums[0] if len(sums) == 1 else np.concatenate(sums)
+
+    def difference(self, q: Array, q_next: Array) -> Array:
+        """Change q_next (-) q, shape (n_v,), of which only rotations of floating bases count."""
+        parts = [pin.difference(part.model, q[part.q], q_next[part.q]) for part in self.parts]
+        return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
     def mass(self, q: Array) -> Array:
         """Mass matrix, shape (n_v, n_v)."""
         M = np.zeros((self.n_v, self.n_v))

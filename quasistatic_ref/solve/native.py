@@ -130,6 +130,8 @@ class NativeSolver(Solver):
             np.multiply(form.b, 1 / (rho * ell), out=program.b)
         self.written = None
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
+            if self.adapter.ORDER == "C":  # which no cones are made of
+                scaled.written = program
             return None
         reach = -reach_of_rows(scaled.step, units)
         np.maximum(program.b, reach, out=program.b)

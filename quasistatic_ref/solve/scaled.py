@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import (
     Metric,
     Units,
@@ -51,11 +52,18 @@ class DenseStep:
     units : Units, optional
         Its natural units, where they are known.
 
+    Attributes
+    ----------
+    written : Program or None
+        In natural units, row by row: that of a solver, until it is asked the next step.
+
     Raises
     ------
     StepDataError
         If products of its numbers leave the range of float64.
     """
+
+    written: Program | None = None
 
     def __init__(
         self,
@@ -84,6 +92,9 @@ class DenseStep:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
+        p = self.written
+        if p is not None:
+            return StandardForm(p.H, -p.f, p.A, p.b)
         return natural_form(self.form, self.units, self.metric.natural)
 
     @property
@@ -98,8 +109,8 @@ class DenseStep:
         if self.step.cone == ELLIPSOID:
             return ellipsoid_residuals(self.natural, delta_q, lam)
         form = self.natural_form
-        balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), as (13) has it
-        slack = form.A @ delta_q - form.b
+        balance = form.H.dot(delta_q) - form.g - form.A.T.dot(lam)  # Eq. (9), as (13) has it
+        slack = form.A.dot(delta_q) - form.b
         return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:

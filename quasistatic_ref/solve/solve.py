@@ -38,6 +38,8 @@ from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED
 
 CERTIFY = ("full", "residual", "off")
+LARGE = 2.0**200
+"""Three such factors are far from 2^1024, where the range of float64 ends."""
 
 
 def solve_step(
@@ -167,9 +169,15 @@ def _solved(
     good = finite(solution.delta_q) and finite(solution.lam)
     if certify != "off" or solution.lam_extra.size:
         residuals = np.array(list(solution.certificate.residuals.values()))
-        others = (solution.lam_extra, solution.wrench.ravel(), residuals)
-        good = good and all(map(finite, others))
+        good = good and all(map(finite, (solution.lam_extra, residuals)))
+        good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     return solution if good else None
+
+
+def _far_from_largest(solution: StepSolution) -> bool:
+    """Whether lam, mu and 1 / h are so far from the largest float64 that wrenches are finite."""
+    mu, lam = solution.step.contacts.mu, solution.lam
+    return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
 def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
@@ -197,16 +205,16 @@ def _proved(
     fast = compiled("certificate")
     if fast is None:
         return None
-    rows = np.flatnonzero(answer.lam > 0)
-    if rows.size > scaled.step.n_v:  # they depend on each other
+    if np.count_nonzero(answer.lam) > scaled.step.n_v:  # rows that depend on each other
         return None
     solver.prover = fast.prover(scaled.step, scaled.units.coordinate, solver.prover)
     if solver.prover is None:
         return None
-    form, lam = scaled.natural_form, answer.lam[rows]
-    bears = lam > form.A[rows] @ answer.delta_q - form.b[rows]  # as warm_rows has it
+    form = scaled.natural_form
+    slack = form.A.dot(answer.delta_q) - form.b
+    (guess,) = (answer.lam > np.maximum(slack, 0)).nonzero()  # as warm_rows has it
     prove = partial(solver.prover.optimum, scaled.step, units=scaled.units)
-    return proved_nearby(prove, rows[bears], scaled.form, hessian.rough)
+    return proved_nearby(prove, guess, scaled.form, hessian.rough)
 
 
 def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:

@@ -112,6 +112,8 @@ class Solver(ABC):
         Whether its answers can be the start of an exact certificate.
     remembers : bool
         Whether its answer to a step depends on the steps before.
+    unsafe : bool
+        Whether its backend may not return from steps whose rows are unlike each other.
     """
 
     engine: ClassVar[str]
@@ -121,6 +123,7 @@ class Solver(ABC):
 
     def __init__(self, like: StepData, name: str) -> None:
         self.like, self.name = like, name
+        self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         self._attempts: dict[float, list[Attempt]] = {}
         self._fitting: StepData | None = None
         self.hessian: BallHessian | None = None
@@ -220,8 +223,7 @@ class Solver(ABC):
             If it says anything but a full solution, or the numbers are not finite; or if it may
             not return and the rows of the step are unlike each other.
         """
-        unsafe = self.name.removeprefix(QPSOLVERS) in UNSAFE
-        if unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
+        if self.unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
             status = f"not called: its rows differ by {scaled.unlike:.0e} in natural units"
             raise StepNotSolved(self.name, status, scaled.step, accuracy)
         idle = self.write(scaled)
@@ -241,8 +243,8 @@ class Solver(ABC):
             elif finite(reply.x) and finite(reply.lam):
                 if idle is not None:
                     reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
-                cost = reply.iterations, reply.seconds
-                said = SolverStatistics(self.name, "optimal", *cost, tried, engine=self.engine)
+                cost = reply.iterations, reply.seconds, tried
+                said = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
                 return Answer(reply.x, reply.lam, said)
         raise StepNotSolved(self.name, status, scaled.step, tried) from cause
 

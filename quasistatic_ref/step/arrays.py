@@ -52,6 +52,12 @@ def finite(x: Array) -> bool:
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
+def largest(x: Array) -> float:
+    """The largest number of a vector, of its unit [-], or zero if none is larger; NaN if one is."""
+    most = float(x[x.argmax()]) if x.size else 0.0
+    return 0.0 if most <= 0 else most
+
+
 def columns(value: Any, name: str, ndim: int) -> int:
     """Number of columns that a matrix, or a stack of matrices, has; StepDataError if it is none."""
     shape = numbers(value, name).shape

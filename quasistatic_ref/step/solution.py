@@ -88,7 +88,7 @@ class SolverStatistics(NamedTuple):
     engine: str = "cvxpy"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class StepSolution(Plain):
     """The optimum of Eq. :eq:`eq-13`.
 
@@ -123,9 +123,20 @@ class StepSolution(Plain):
 
     __repr__, _repr_html_ = shown(solution_page)
 
-    def __post_init__(self) -> None:
-        for array in (self.delta_q, self.lam, self.lam_extra):
+    def __init__(
+        self,
+        delta_q: Array,
+        lam: Array,
+        lam_extra: Array,
+        step: StepData,
+        backend: str,
+        certificate: Certificate,
+        statistics: SolverStatistics,
+    ) -> None:
+        for array in (delta_q, lam, lam_extra):
             array.setflags(write=False)
+        vars(self).update(delta_q=delta_q, lam=lam, lam_extra=lam_extra, step=step)
+        vars(self).update(backend=backend, certificate=certificate, statistics=statistics)
 
     @cached_property
     def wrench(self) -> Array:
@@ -154,12 +165,5 @@ def step_solution(
 ) -> StepSolution:
     """The solution of a step from delta_q (n_v,) and lam (m,), the user's own rows last."""
     m = int(step.offsets[-1])
-    return StepSolution(
-        delta_q=delta_q,
-        lam=lam[:m],
-        lam_extra=lam[m:],
-        step=step,
-        backend=statistics.backend,
-        certificate=certificate,
-        statistics=statistics,
-    )
+    backend = statistics.backend
+    return StepSolution(delta_q, lam[:m], lam[m:], step, backend, certificate, statistics)

@@ -33,5 +33,5 @@ class Daqp(Adapter):
         self.model.update(H=H, f=p.f, A=p.A, blower=p.b, sense=sense)
         x, _, flag, info = self.model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
-        status, seconds = STATUS.get(flag, str(flag)), info["solve_time"]
+        status, seconds = STATUS.get(flag) or str(flag), info["solve_time"]
         return Reply(x, lam, flag == 1, status, info["iterations"], seconds)

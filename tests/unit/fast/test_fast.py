@@ -108,9 +108,11 @@ def compared(system, pairs, cone, rng):
         expected = arrays(*of_numpy(other, q, goal, force))
         one.fast.poses.move(q)
         one.fast.find_points(one, q)
-        found = arrays(*one.fast.step_data(one, q, goal, force))
+        *data, gap = one.fast.step_data(one, q, goal, force)
+        found = arrays(*data)
+        assert gap == expected["phi"].min()
         wrong.update(differing(found, expected))
-        after = one.fast.screws.integrate(q, move)
+        after = one.fast.screws.integrate(move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)
 

@@ -22,8 +22,8 @@ def units(H, g, A, b):
     H, g, A, b = (np.array(values, dtype=np.float64) for values in (H, g, A, b))
     of_H, solver = metric(H), SimpleNamespace(written=None)
     program = Program(H, np.zeros(len(g)), np.zeros(A.shape), np.zeros(len(b)))
-    made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, program, of_H)
-    found = made.written(solver)
+    made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, of_H)
+    found = made.written()
     with np.errstate(all="ignore"):
         expected = units_of(StandardForm(H, g, A, b), of_H)
     assert solver.written is found

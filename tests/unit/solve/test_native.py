@@ -15,7 +15,7 @@ from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
-from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
@@ -266,3 +266,16 @@ def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
     command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert done.stdout.splitlines()[-1] == "0 []", done.stderr
+
+
+@pytest.mark.parametrize(
+    ("cone", "backend"),
+    [(cone, name) for cone in ("pyramid", "ellipsoid") for name in native_backends(cone)],
+)
+def test_the_natural_form_is_the_same_once_a_solver_has_written_it(cone, backend):
+    step = random_step(np.random.default_rng(8)).replace(cone=cone)
+    solver = solver_for(step, backend, "native")
+    scaled = solver.scaled(step)
+    solver.answer(scaled, 1e-9)
+    for one, other in zip(scaled.natural_form, DenseStep(step).natural_form, strict=True):
+        assert one.tobytes() == other.tobytes()

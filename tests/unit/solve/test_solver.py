@@ -18,7 +18,7 @@ from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.sparse import SparseSolver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
@@ -26,6 +26,7 @@ from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 from tests.helpers import (
     REQUIRED,
     always_in_blocks,
@@ -274,3 +275,20 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
         for engine in ("cvxpy", "native"):
             with pytest.raises(BackendError, match="is not a backend"):
                 solver_for(point_on_floor(), name, engine)
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "facets-8", "ellipsoid"])
+def test_wrenches_that_are_not_looked_at_are_finite(cone):
+    """Where h, mu and lam are as far towards the ends of float64 as is taken for harmless."""
+    least, most = 1.0000001 / LARGE, 0.49 * LARGE**0.5
+    step = random_step(np.random.default_rng(3), rows=(6,)).replace(cone=cone, h=1.0)
+    contacts = changed(step.contacts, mu_v=np.array([0.7 * most]), mu_omega=np.array([0.01]))
+    step = step.replace(contacts=contacts)
+    lam = np.full(int(step.offsets[-1]), most / step.offsets[-1])
+    said = SolverStatistics("some", "optimal", None, None, 1e-12)
+    for h, harmless in ((1.0, True), (least, True), (1e-300, False)):
+        of_h = copy.copy(step)
+        vars(of_h)["h"] = h
+        solution = step_solution(of_h, np.zeros(step.n_v), lam, Certificate("none"), said)
+        assert _far_from_largest(solution) == harmless
+        assert not harmless or np.isfinite(solution.wrench).all()

@@ -1,0 +1,63 @@
+/* The float64 nearest to a number of fixed point that is known to within a bound. */
+
+#include <math.h>
+
+#include "proof.h"
+
+/* Whether c is the float64 nearest to c + rest / h, the rest being known to within e. */
+static int is_nearest(double c, double rest, double e, double h)
+{
+    double above = nextafter(c, INFINITY) - c, below = c - nextafter(c, -INFINITY);
+    double beyond = rest > 0.0 ? rest * UP : 0.0, short_of = rest < 0.0 ? -rest * UP : 0.0;
+    return beyond + e < h * above / 2 * DOWN && short_of + e < h * below / 2 * DOWN;
+}
+
+/* The float64 nearest to x, which is known to within e, from its first two digits; 0 where they do
+   not show it. */
+static int nearest_of_two(const Number *x, double e, double *c)
+{
+    int last = x->high - 2;
+    if (last < 0)
+        return 0;
+    __int128 first = (__int128)x->d[last + 1] * ((__int128)1 << BITS);
+    first += last < x->low ? 0 : x->d[last]; /* which is not set below the lowest */
+    double near = (double)first, unit = ldexp(1.0, BITS * (last - FRACTION));
+    double rest = (double)(first - (__int128)near);
+    *c = near * unit;
+    return is_nearest(*c, rest * unit, e + unit, 1.0); /* what follows is less than one unit */
+}
+
+/* The float64 nearest to x / h, x being known to within e; 0 if that is not shown. */
+static int nearest_quotient(const Number *x, double e, double h, double *out, int *lost)
+{
+    double c = value(x) / h, rest = 0.0;
+    Float by = exact(h, lost);
+    Number divisor = number_of(&by);
+    for (int round = 0; round < 3; round++) {
+        Sum sum;
+        clear(&sum);
+        add_number(&sum, x, 1);
+        Float quotient = exact(c, lost);
+        add_product(&sum, &divisor, &quotient, -1, lost);
+        Number left = carried(&sum, lost);
+        rest = value(&left);
+        double better = c + rest / h;
+        if (better == c)
+            break;
+        c = better;
+    }
+    *out = c;
+    return is_nearest(c, rest, e, h);
+}
+
+/* The same, times a unit; zero is shown if it is known exactly. */
+int nearest(const Number *x, double e, double h, double unit, double *out, int *lost)
+{
+    *out = 0.0;
+    if (x->low == x->high)
+        return e == 0.0;
+    int shown = h == 1.0 && nearest_of_two(x, e, out);
+    shown = shown || nearest_quotient(x, e, h, out, lost);
+    *out *= unit;
+    return shown && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
+}
