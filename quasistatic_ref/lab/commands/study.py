@@ -10,9 +10,10 @@ from typing import Any
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_problems, study_sequences
-from quasistatic_ref.lab.commands.study_report import run_pack, run_report
+from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.grade import OUTCOMES
-from quasistatic_ref.lab.study.store import ROWS, Row, label_of, unreached_read
+from quasistatic_ref.lab.study.store import ROWS, Row, label_of
+from quasistatic_ref.lab.study.unreached import unreached_read
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
@@ -20,6 +21,7 @@ ACTIONS = {
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
     "problems": "sets of problems with exact answers: list, export, check, make",
     "sequences": "ask steps in order, from cold and from what the step before left",
+    "merge": "join the results of several machines into one store",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
 
@@ -50,6 +52,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)
     shared.add(export, "--out", default="qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    words = "results of a machine, and its name; else the folder's"
+    merge = parsers["merge"]
+    merge.add_argument("parts", nargs="+", metavar="[NAME=]FOLDER", help=words)
+    shared.add(merge, "--out", default=Path("merged"))
     for name, folder in (("report", "report"), ("pack", "packed")):
         words = f"folder for the results (default: {folder}, in that of the study)"
         parsers[name].add_argument("--out", type=Path, metavar="FOLDER", help=words)
@@ -69,6 +75,7 @@ def run(options: argparse.Namespace) -> int:
         "problems": study_problems.run_problems,
         "sequences": study_sequences.run_sequences,
         "report": run_report,
+        "merge": run_merge,
         "pack": run_pack,
     }
     return actions[options.action](options)

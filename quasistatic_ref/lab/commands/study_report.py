@@ -1,4 +1,4 @@
-"""``study report`` and ``study pack``: what a store says, and a store small enough to keep."""
+"""``study report``, ``study pack``, ``study merge``: what is done with a store that was run."""
 
 import argparse
 
@@ -32,4 +32,15 @@ def run_pack(options: argparse.Namespace) -> int:
     out = options.store / "packed" if options.out is None else options.out
     for path in packed(options.store, out):
         print(f"wrote {path}")
+    return 0
+
+
+def run_merge(options: argparse.Namespace) -> int:
+    """Write the merged store."""
+    from quasistatic_ref.lab.study.merge import merged, part_read
+
+    parts = [part_read(words) for words in options.parts]
+    folder = merged(parts, options.out)
+    rows, machines = sum(len(part.rows) for part in parts), {m for p in parts for m in p.machines}
+    print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")
     return 0

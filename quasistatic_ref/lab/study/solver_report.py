@@ -75,9 +75,18 @@ class _Asked:
         return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
 
     def best(self) -> list[str]:
-        """Of the interfaces to one solver the one with the fastest 6 digits, for figures."""
-        found = [one.label for one in self.soonest(WANTED[0])]
+        """Of the interfaces to one solver the one with the fastest 6 digits, for figures.
+
+        Of merged results figures show one machine, that with most rows.
+        """
+        found = [one.label for one in self.soonest(WANTED[0]) if one.machine == self.drawn]
         return list({label.partition(":")[2]: label for label in reversed(found)}.values())[::-1]
+
+    @property
+    def drawn(self) -> str:
+        """The machine that figures are of; empty where there is only one."""
+        names, counts = np.unique(self.columns["machine"], return_counts=True)
+        return str(names[counts.argmax()])
 
     def at(self, setting: str) -> Where:
         """The calls at one setting, of those that are compared first."""
@@ -121,9 +130,11 @@ def solver_report(
     asked = _Asked(study, columns, _settings(study, columns), _widest(columns), noise)
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
-        f"{len(facts):,} problems, {len(set(columns['label'])):,} pairs of solver and interface, "
+        f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
         f"{len(rows):,} measurements."
     )
+    if machines := study.get("machines"):
+        head += f" Made on {len(machines)} machines: {', '.join(machines)}; figures: {asked.drawn}."
     heads = [head, *old_times(study), noise_words(noise)]
     options = options_table(study["solvers"])
     sections: dict[str, Sequence[Block]] = {
@@ -276,6 +287,9 @@ def _contrasts(asked: _Asked) -> list[Block]:
         contrast(*columns, "Raw units and natural units.", "units", raw, cold, ways),
         contrast(*columns, "Cold and warm starts.", "warm", (False, True), units, ways, True),
     ]
+    if len(machines := asked.study.get("machines", [])) > 1:
+        way, where = ["way", "setting"], units | cold
+        tables.append(contrast(*columns, "Machines.", "machine", machines, where, way))
     for one, other in (("qpsolvers", "cvxpy"), ("native", "qpsolvers")):
         title = f"{one} and {other}."
         tables.append(contrast(*columns, title, "interface", (one, other), units | cold))
