@@ -27,7 +27,8 @@ def made(name: str) -> None:
             if command(["study", *step]):
                 sys.exit(f"study {step[0]} of {name} failed")
             print(f"{name}: {step[0]} ended after {time.perf_counter() - begun:.0f} s")
-    (FOLDER / name / "report.html").unlink()  # the same as Markdown and PNG; made at will
+    for ending in ("html", "csv", "parquet"):  # the same as Markdown and PNG; made at will
+        (FOLDER / name / f"report.{ending}").unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

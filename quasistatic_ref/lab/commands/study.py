@@ -9,7 +9,7 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.commands import study_problems, study_sequences
+from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.grade import OUTCOMES
 from quasistatic_ref.lab.study.store import ROWS, Row, label_of
@@ -19,6 +19,7 @@ ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
+    "ask": "ask one solver one problem, in a process of its own, and grade the answer",
     "problems": "sets of problems with exact answers: list, export, check, make",
     "sequences": "ask steps in order, from cold and from what the step before left",
     "merge": "join the results of several machines into one store",
@@ -36,6 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
     study_sequences.add_options(parsers["sequences"])
+    study_ask.add_options(parsers["ask"])
     study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
@@ -72,6 +74,7 @@ def run(options: argparse.Namespace) -> int:
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
         "export": _export,
+        "ask": study_ask.run_ask,
         "problems": study_problems.run_problems,
         "sequences": study_sequences.run_sequences,
         "report": run_report,

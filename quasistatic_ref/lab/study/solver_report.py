@@ -1,12 +1,12 @@
 """The report on solvers: which one, at which setting, how right, how fast, where it fails."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
+from quasistatic_ref.lab.study.asked import Asked
 from quasistatic_ref.lab.study.columns import (
     Columns,
     Where,
@@ -17,9 +17,9 @@ from quasistatic_ref.lab.study.columns import (
     matrix,
     size,
 )
-from quasistatic_ref.lab.study.headline import WANTED, Soonest, soonest, soonest_table
+from quasistatic_ref.lab.study.headline import WANTED, soonest_table
 from quasistatic_ref.lab.study.judged_tables import claims_sentence, detection, failing_clocks
-from quasistatic_ref.lab.study.noise import Noise, noise_of, noise_words
+from quasistatic_ref.lab.study.noise import noise_of, noise_words
 from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
     limitations,
@@ -43,61 +43,10 @@ from quasistatic_ref.lab.study.solver_tables import (
 )
 from quasistatic_ref.lab.study.statistics import performance_ratios, success
 from quasistatic_ref.lab.study.store import Row
+from quasistatic_ref.lab.study.worst import worst_problems
 
 PROFILED = (6.0, 9.0)
 """Digits that count as right in a profile."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Asked:
-    """What a study asked, and the calls that are compared first.
-
-    Parameters
-    ----------
-    study : mapping
-        ``study.json``.
-    columns : mapping of str to ndarray
-    settings : list of str
-        Each solver's own first, then from loose to tight.
-    base : mapping
-        The units and warmth that most solvers were asked in.
-    noise : Noise
-    """
-
-    study: Mapping[str, Any]
-    columns: Columns
-    settings: list[str]
-    base: Where
-    noise: Noise
-
-    def soonest(self, least: float) -> list[Soonest]:
-        """Each solver at the setting that delivers so many digits soonest."""
-        return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
-
-    def best(self) -> list[str]:
-        """Of the interfaces to one solver the one with the fastest 6 digits, for figures.
-
-        Of merged results figures show one machine, that with most rows.
-        """
-        found = [one.label for one in self.soonest(WANTED[0]) if one.machine == self.drawn]
-        return list({label.partition(":")[2]: label for label in reversed(found)}.values())[::-1]
-
-    @property
-    def drawn(self) -> str:
-        """The machine that figures are of; empty where there is only one."""
-        names, counts = np.unique(self.columns["machine"], return_counts=True)
-        return str(names[counts.argmax()])
-
-    def at(self, setting: str) -> Where:
-        """The calls at one setting, of those that are compared first."""
-        return {**self.base, "setting": setting}
-
-    @property
-    def main(self) -> list[str]:
-        """The settings, at most two, at which most problems were asked."""
-        counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
-        two = sorted(self.settings, key=lambda s: -counts[s])[:2]
-        return [s for s in self.settings if s in two and counts[s]]
 
 
 def solver_report(
@@ -127,7 +76,7 @@ def solver_report(
     columns = chosen(first, {"feasible": True})
     columns = columns if size(columns) else first
     noise = noise_of(every)
-    asked = _Asked(study, columns, _settings(study, columns), _widest(columns), noise)
+    asked = Asked(study, columns, _settings(study, columns), _widest(columns), noise)
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
         f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
@@ -141,6 +90,9 @@ def solver_report(
         "Time to so many digits": [*heads, *_headline(asked, unreached or {})],
         "Accuracy and time": _compared(asked),
         "False claims": [*_claims(asked), *detection(first)],
+        "Worst problems": worst_problems(
+            columns, asked.base, [(one.label, one.setting) for one in asked.fastest()], facts
+        ),
         "By problem family": _by_family(asked, families),
         "Units, warm starts, interfaces": _contrasts(asked),
         "How calls ended": [outcome_table(first), *failing_clocks(first)],
@@ -167,7 +119,7 @@ def _widest(columns: Columns) -> Where:
     return {"units": units, "warm": warm == "True"}
 
 
-def _headline(asked: _Asked, unreached: Mapping[str, str]) -> list[Block]:
+def _headline(asked: Asked, unreached: Mapping[str, str]) -> list[Block]:
     options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
     tables = []
     for least in WANTED:
@@ -183,7 +135,7 @@ def _headline(asked: _Asked, unreached: Mapping[str, str]) -> list[Block]:
     return [*words, *tables]
 
 
-def _compared(asked: _Asked) -> list[Block]:
+def _compared(asked: Asked) -> list[Block]:
     panels, shares, said, best = [], [], [], asked.best()
     for least in PROFILED:
         found = {one.label: one for one in asked.soonest(least)}
@@ -226,7 +178,7 @@ def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any
     return Picture(name, name, {"panels": panels, **more}, caption, where)
 
 
-def _against_time(asked: _Asked, best: Sequence[str]) -> Block:
+def _against_time(asked: Asked, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
     own_ = {s["name"]: s["accuracy"] is None for s in asked.study["settings"]}
     panels, said = [], []
@@ -252,7 +204,7 @@ def _against_time(asked: _Asked, best: Sequence[str]) -> Block:
     return _picture("digits_time", panels, caption, f"{filter_words(where)}; {'; '.join(said)}")
 
 
-def _claims(asked: _Asked) -> list[Block]:
+def _claims(asked: Asked) -> list[Block]:
     columns = asked.columns
     promised = {s["name"]: s["promised"] for s in asked.study["settings"]}
     tables = [
@@ -262,7 +214,7 @@ def _claims(asked: _Asked) -> list[Block]:
     return [*claims_sentence(columns), *tables, worst_claims(columns, promised)]
 
 
-def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
+def _by_family(asked: Asked, families: Sequence[str]) -> list[Block]:
     panels, tables, said = [], [], []
     for setting in asked.main:
         where = asked.at(setting)
@@ -279,7 +231,7 @@ def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
     return [_picture("families", panels, caption, rows), *tables]
 
 
-def _contrasts(asked: _Asked) -> list[Block]:
+def _contrasts(asked: Asked) -> list[Block]:
     units, cold = {"units": asked.base["units"]}, {"warm": False}
     columns, ways = (asked.columns, asked.settings), ["label", "setting"]
     raw = ("raw", "natural")

@@ -1,0 +1,67 @@
+"""What a study of solvers asked, and what of it a report compares first."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.study.columns import Columns, Where, chosen, size
+from quasistatic_ref.lab.study.headline import WANTED, Soonest, soonest
+from quasistatic_ref.lab.study.noise import Noise
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """What a study asked, and the calls that are compared first.
+
+    Parameters
+    ----------
+    study : mapping
+        ``study.json``.
+    columns : mapping of str to ndarray
+    settings : list of str
+        Each solver's own first, then from loose to tight.
+    base : mapping
+        The units and warmth that most solvers were asked in.
+    noise : Noise
+    """
+
+    study: Mapping[str, Any]
+    columns: Columns
+    settings: list[str]
+    base: Where
+    noise: Noise
+
+    def soonest(self, least: float) -> list[Soonest]:
+        """Each solver at the setting that delivers so many digits soonest."""
+        return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
+
+    def fastest(self) -> list[Soonest]:
+        """Of the interfaces to one solver the one with the fastest 6 digits, for figures.
+
+        Of merged results figures show one machine, that with most rows.
+        """
+        found = [one for one in self.soonest(WANTED[0]) if one.machine == self.drawn]
+        return list({str(one.rows["who"][0]): one for one in reversed(found)}.values())[::-1]
+
+    def best(self) -> list[str]:
+        """Their labels."""
+        return [one.label for one in self.fastest()]
+
+    @property
+    def drawn(self) -> str:
+        """The machine that figures are of; empty where there is only one."""
+        names, counts = np.unique(self.columns["machine"], return_counts=True)
+        return str(names[counts.argmax()])
+
+    def at(self, setting: str) -> Where:
+        """The calls at one setting, of those that are compared first."""
+        return {**self.base, "setting": setting}
+
+    @property
+    def main(self) -> list[str]:
+        """The settings, at most two, at which most problems were asked."""
+        counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
+        two = sorted(self.settings, key=lambda s: -counts[s])[:2]
+        return [s for s in self.settings if s in two and counts[s]]
