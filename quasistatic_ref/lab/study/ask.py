@@ -14,7 +14,7 @@ from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.sets.folder import set_read
 from quasistatic_ref.lab.study.sets.member import QP, SPARSE
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
-from quasistatic_ref.lab.study.spec_solvers import solvers_named
+from quasistatic_ref.lab.study.spec_solvers import BY_INTERFACE, PACKAGE, solvers_named
 from quasistatic_ref.lab.study.spec_table import MODULE
 from quasistatic_ref.lab.study.store import study_checked
 from quasistatic_ref.quoting import suggestion
@@ -136,7 +136,7 @@ def _problem(name: str, store: str | Path | None) -> Problem:
 def _by_label(label: str) -> Solver:
     """A solver of the package's table, or a callable."""
     interface = label.partition(":")[0]
-    if interface in ("cvxpy", "qpsolvers", "native"):
+    if interface in (*BY_INTERFACE, PACKAGE):
         return solvers_named(label)[0]
     if not re.fullmatch(MODULE, label):
         words = "is neither interface:name nor module:function; a study's own need --store"

@@ -6,11 +6,13 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.lab.study.packages import announced, entry_of
 from quasistatic_ref.lab.study.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
+PACKAGE = "package"
 BY_INTERFACE = {
     "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
     "qpsolvers": list(BACKENDS),
@@ -32,7 +34,7 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
         given = TABLES.all_values(table, SOLVER)
         interfaces = [interface for interface in INTERFACES if given[interface] is not None]
         if len(interfaces) != 1:
-            words = "must say one of cvxpy, qpsolvers, native, callable and executable"
+            words = "must say one of cvxpy, qpsolvers, native, package, callable and executable"
             raise tables.fail(name, words, interfaces or None)
         (interface,) = interfaces
         target, options = (
@@ -81,8 +83,11 @@ def solvers_named(name: str, own: Iterable[str] = ()) -> list[Solver]:
         If a name is unknown, or its solver is not installed.
     """
     interface, _, solver = name.partition(":")
+    if interface == PACKAGE:
+        names = list(announced()) if solver == "*" else [solver]
+        return [Solver(entry_of(one).name, PACKAGE, one) for one in names]
     if interface not in BY_INTERFACE:
-        known = [*own, *(f"{r}:*" for r in BY_INTERFACE)]
+        known = [*own, *(f"{r}:*" for r in (*BY_INTERFACE, PACKAGE))]
         raise InputError(f"holds no solver{suggestion(name, known)}", value=name)
     everyone = installed(interface) if solver == "*" else (solver,)
     for one in everyone:
@@ -107,7 +112,10 @@ def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
             raise table.fail(interface, "must read module:function", given)
         return str(given)
     try:
-        _check_installed(interface, given)
+        if interface == PACKAGE:
+            entry_of(given)
+        else:
+            _check_installed(interface, given)
     except InputError as error:
         raise table.fail(interface, error.problem, given) from None
     return str(given)
