@@ -69,7 +69,7 @@ def lines(tables, *, titled):
 
 def test_a_report_has_every_table(tables):
     worst = len({solver.partition(":")[2] for solver in made_store.SOLVERS})
-    assert len(of_store(tables)) == 4 + 3 + 4 + 1 + worst + 2 + 3 + 2
+    assert len(of_store(tables)) == 4 + 3 + 4 + 1 + worst + 2 + 3 + 1 + 2
 
 
 def test_every_number_of_columns_named_by_what_they_count_is_that_of_the_rows(tables, rows):
@@ -118,6 +118,24 @@ def test_each_false_claim_that_is_shown_is_a_row_and_the_worst_of_its_kind(table
         assert float(promised) == made_store.SETTINGS[setting][1]
         assert agrees(digits, min(delivered(r) for r in own))
     assert len(found) == 12
+
+
+def test_set_up_solving_and_conversion_are_the_parts_of_calls(tables, rows):
+    """Planted: solving is half of a call, set-up a fifth (ant) or not told (cat)."""
+    found = lines(tables, titled="Set-up, solving")
+    assert [(line[0], line[1]) for *_, line in found if line[0] == "bee"] == []
+    assert len(found) == 3
+    for _, where, columns, line in found:
+        own = rows_of_line("", where.partition(";")[0], columns[:3], line[:3], rows)
+        own = [row for row in own if row["outcome"] == "solved"]
+        call = 1e3 * quantile([row["seconds"]["call"] for row in own], 0.5)
+        setup = 0.2 if line[0] == "ant" else 0.0
+        assert int(line[3]) == len(own)
+        assert agrees(line[4], call)
+        assert line[5] == "-" if line[0] == "cat" else agrees(line[5], 0.2 * call)
+        assert agrees(line[6], 0.5 * call)
+        assert agrees(line[7], (0.5 - setup) * call)
+        assert agrees(line[8], 100 * (0.5 - setup))
 
 
 def test_the_setting_of_a_time_to_digits_is_that_with_the_least_of_the_mean(tables, rows):

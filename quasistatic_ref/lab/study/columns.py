@@ -30,7 +30,8 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
         the machine, where several were merged), ``label`` (interface:who); ``unit``, the problem
         with its repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that
         were delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of
-        the call, the time limit where it does not; ``net``; ``iterations``, NaN where not told.
+        the call, the time limit where it does not; ``own_setup`` and ``own_solver``: of set-up and
+        of solving by its own account, ``iterations``: NaN where not told; ``net``.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
     for name in FLAGS:
@@ -53,6 +54,8 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     columns["digits"] = np.where(solved & np.isfinite(digits), digits, 0.0)
     columns["net"] = np.where(solved & np.isfinite(net), net, 0.0)
     columns["seconds"] = np.where(solved & np.isfinite(call), call, limit)
+    for name in ("setup", "solver"):
+        columns[f"own_{name}"] = _numbers([row["seconds"][name] for row in rows])
     columns["warm_up"] = _numbers([row["seconds"]["warm_up"] for row in rows])
     columns["memory"] = _numbers([row["memory"] for row in rows])
     columns["clock_agrees"] = np.array([row["clock_agrees"] for row in rows], dtype=bool)

@@ -18,7 +18,12 @@ from quasistatic_ref.lab.study.columns import (
     size,
 )
 from quasistatic_ref.lab.study.headline import WANTED, soonest_table
-from quasistatic_ref.lab.study.judged_tables import claims_sentence, detection, failing_clocks
+from quasistatic_ref.lab.study.judged_tables import (
+    claims_sentence,
+    detection,
+    failing_clocks,
+    parts_of_calls,
+)
 from quasistatic_ref.lab.study.noise import noise_of, noise_words
 from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
@@ -95,6 +100,9 @@ def solver_report(
         ),
         "By problem family": _by_family(asked, families),
         "Units, warm starts, interfaces": _contrasts(asked),
+        "Set-up, solving, conversion": parts_of_calls(
+            [(one.rows, one.setting) for one in asked.soonest(WANTED[0])], asked.base
+        ),
         "How calls ended": [outcome_table(first), *failing_clocks(first)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
         "Limitations": limitations(),
@@ -102,7 +110,8 @@ def solver_report(
         "Machine, versions, options": [*place_tables(study), options],
     }
     title = "Solvers on contact problems with exact answers"
-    return Report(title, tuple(Section(name, tuple(part)) for name, part in sections.items()))
+    parts = (Section(name, tuple(part)) for name, part in sections.items() if part)
+    return Report(title, tuple(parts))
 
 
 def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
