@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
-from quasistatic_ref.lab.study.asked import Asked
+from quasistatic_ref.lab.study.asked import Asked, asked_in
 from quasistatic_ref.lab.study.columns import (
-    Columns,
-    Where,
     chosen,
     columns_of,
     common,
@@ -24,7 +22,7 @@ from quasistatic_ref.lab.study.judged_tables import (
     failing_clocks,
     parts_of_calls,
 )
-from quasistatic_ref.lab.study.noise import noise_of, noise_words
+from quasistatic_ref.lab.study.noise import noise_words
 from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
     limitations,
@@ -78,10 +76,8 @@ def solver_report(
     """
     every = columns_of(rows, study["time_limit"])
     first = chosen(every, {"repetition": 0})
-    columns = chosen(first, {"feasible": True})
-    columns = columns if size(columns) else first
-    noise = noise_of(every)
-    asked = Asked(study, columns, _settings(study, columns), _widest(columns), noise)
+    asked = asked_in(study, every)
+    columns, noise = asked.columns, asked.noise
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
         f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
@@ -112,20 +108,6 @@ def solver_report(
     title = "Solvers on contact problems with exact answers"
     parts = (Section(name, tuple(part)) for name, part in sections.items() if part)
     return Report(title, tuple(parts))
-
-
-def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
-    """The settings that were asked, each solver's own first, then from loose to tight."""
-    asked = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
-    asked.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
-    return [s["name"] for s in asked]
-
-
-def _widest(columns: Columns) -> Where:
-    """The units and warmth that most solvers were asked in: what is compared first."""
-    every = groups(columns, ["units", "warm"])
-    (units, warm), _ = max(every, key=lambda one: (len(set(one[1]["label"])), size(one[1])))
-    return {"units": units, "warm": warm == "True"}
 
 
 def _headline(asked: Asked, unreached: Mapping[str, str]) -> list[Block]:
