@@ -34,7 +34,13 @@ class Asked:
     noise: Noise
 
     def soonest(self, least: float) -> list[Soonest]:
-        """Each solver at the setting that delivers so many digits soonest."""
+        """Each solver at the setting that delivers so many digits soonest.
+
+        Parameters
+        ----------
+        least : float
+            Digits [-].
+        """
         return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
 
     def fastest(self) -> list[Soonest]:
