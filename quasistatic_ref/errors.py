@@ -97,7 +97,7 @@ class ScenarioError(InputError):
 
 
 class BackendError(InputError):
-    """The solver asked for is unknown or not installed."""
+    """The solver is unknown or not installed, or does not support what a call needs."""
 
 
 class StepNotSolved(QuasistaticError):
@@ -114,7 +114,7 @@ class StepNotSolved(QuasistaticError):
     step : StepData
         The step in SI units, as given.
     accuracy : float
-        The accuracy that was asked for, in natural units [-].
+        The accuracy of the call, in natural units [-].
     residuals : Residuals, optional
         Residuals of the refused answer, where there was one.
     """
@@ -194,7 +194,7 @@ class LimitExceeded(StepNotSolved):
 
 
 class NotDifferentiable(QuasistaticError):
-    """A derivative was asked for where a step has none.
+    """A derivative is needed where a step has none.
 
     Parameters
     ----------

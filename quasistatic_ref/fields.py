@@ -1,7 +1,7 @@
 """Reading the named fields of a JSON object or a TOML table, with plain errors.
 
 A reader takes each field once, checks it, and refuses in :meth:`Fields.close` whatever was
-not asked for: a misspelt name is an error, never a default.
+not taken: a misspelt name is an error, never a default.
 """
 
 from collections.abc import Iterable
@@ -197,5 +197,5 @@ class Fields:
                 raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)
 
     def close(self) -> None:
-        """Refuse every field that was never asked for."""
+        """Refuse every field that was not taken."""
         self.only(())

@@ -26,7 +26,7 @@ def json_schema(
         Of the schema.
     tables : Tables
     rules : mapping
-        JSON Schema that a kind of table has besides its fields.
+        JSON Schema that a kind of table has in addition to its fields.
     top : str
         The kind of the table that a whole file is.
     """

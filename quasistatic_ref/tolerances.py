@@ -20,7 +20,7 @@ Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix thi
 a condition number above 1e14, and its inverse no correct digit."""
 
 ACCURACY: Final = 1e-12
-"""Default accuracy asked of every backend, in natural units [-].
+"""Default accuracy of every backend, in natural units [-].
 
 The tightest at which Clarabel, OSQP and PIQP still solve every step of ``bunny_grasp``."""
 
@@ -41,7 +41,7 @@ leaves one of the size of its work."""
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
 
-Six orders above the accuracy asked for: an answer beyond it is not a less exact answer but
+Six orders above the default accuracy: an answer beyond it is not a less exact answer but
 a wrong one."""
 
 BOUNDED: Final = 1e-6
@@ -52,7 +52,7 @@ It leaves about 1e-7 of an exact answer; a larger one is tried again in balls, w
 FAR: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
 
-The unconstrained step is about one long. Solvers lose digits on numbers like 1e6 beside 1; a
+The unconstrained step is about one long. Solvers lose digits where 1e6 and 1 stand together; a
 row that is held at 100 stays inactive, and the judge, who sees the true distance, would notice."""
 
 PROVED: Final = 1e-13
@@ -113,10 +113,10 @@ ON_SURFACE: Final = 1e-12
 
 A direction computed from two points that near has fewer than four correct digits."""
 
-BESIDE: Final = 1e-14
-"""How far beside the nearest face of a polytope a point is, relative to the sizes, from which an
-edge or a corner is the nearest [-]: some ten roundings of coordinates. Where it is less, the face's
-normal is as right as the direction of a difference of coordinates."""
+OUTSIDE_FACE: Final = 1e-14
+"""How far outside of the nearest face of a polytope a point projects onto its plane, relative to
+the sizes, from which an edge or a corner is the nearest [-]: some ten roundings of coordinates.
+Where it is less, the face's normal is as right as the direction of a difference of coordinates."""
 
 UPRIGHT: Final = 1e-9
 """Tilt of a cylinder or a cone [rad] below which its rim counts as level.
@@ -166,7 +166,7 @@ IN_METRES: Final = 20.0
 What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
 
 ALIKE: Final = 1e3
-"""Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is asked
+"""Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is called
 that may not return. quadprog was found to loop for ever at 1e6 and above, HiGHS to end the process
 at 9e10; the steps of the scenarios in models/ stay below 3."""
 
@@ -201,11 +201,11 @@ of 32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960).""
 
 TOUCHING: Final = 1e-14
 """Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a
-derivative is asked for [-]: some fifty roundings of 2e-16."""
+derivative is computed [-]: some fifty roundings of 2e-16."""
 
 BEARING: Final = 1e-11
 """Multiplier of a row, as the displacement that it causes in the H norm over the step's, at which
-it counts as none where a derivative is asked for [-]: rounding of places, 1e-16 m, over a step of
+it counts as none where a derivative is computed [-]: rounding of places, 1e-16 m, over a step of
 1e-5 m."""
 
 DEPENDENT: Final = 1e-8

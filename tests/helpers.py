@@ -1,5 +1,7 @@
 """Steps of tests, and the one definition of error, written without the package's formulas."""
 
+import copy
+
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
@@ -12,6 +14,14 @@ from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
+SHAPES = [
+    (7, 6, (6,) * 10 + (4,) * 5),
+    (3, 4, (6, 4)),
+    (0, 6, (4, 6, 4)),
+    (4, 0, (6, 6)),
+    (2, 2, ()),
+]
+"""n_a, n_u and rows of each contact, of random steps."""
 
 
 def changed(contacts, **changes):
@@ -157,3 +167,26 @@ def error(step, delta_q, truth):
     """||x - x*||_H / ||H^-1 g||_H."""
     H, free, gap = hessian(step), unconstrained(step), np.asarray(delta_q) - np.asarray(truth)
     return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
+
+
+def record_changed(record, path, value=None):
+    """A copy of a record with the field at a path replaced, or removed if no value is given."""
+    new = copy.deepcopy(record)
+    *way, last = path
+    at = new
+    for key in way:
+        at = at[key]
+    if value is None:
+        del at[last]
+    else:
+        at[last] = value
+    return new
+
+
+def one_sentence(errors):
+    """The one line on standard error, without the program's name."""
+    lines = errors.splitlines()
+    assert len(lines) == 1, errors
+    assert lines[0].startswith("quasistatic-ref: ")
+    assert "Traceback" not in errors
+    return lines[0].removeprefix("quasistatic-ref: ")

@@ -2,11 +2,9 @@
 
 ``QUOTED`` has for each page its phrases, with braces in place of the numbers, and a function that
 returns what fills the braces: of a committed result, of a run, or of the formula that the page
-names. When a result changes, the test lists the phrases as they ought to read. Some pages have
-more phrases beside the tests of their results: ``OTHERS``.
-
-``MEANT`` has what else on a page stands before a unit of measurement: numbers that were chosen, or
-are part of a formula, an example or a definition. A number in neither fails the test.
+names. When a result changes, the test lists the phrases as they ought to read. ``OTHERS`` has pages
+whose further phrases stand in the tests of their results. Measured numbers of a page that are
+neither here nor in tests/chosen_numbers.py fail the test.
 """
 
 import math
@@ -119,8 +117,8 @@ QUOTED = {
         ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
          "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),
         ("tau_n over the vertical force is {:.0f} mm", lambda: [of.levers()[4]]),
-        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model asks "
-         "m v / h = {:.2f} N besides the {:.2f} N of the weight",
+        ("the fingers lift the bunny of 0.2 kg at {:.0f} mm/s, for which the model "
+         "needs m v / h = {:.2f} N in addition to the {:.2f} N of the weight",
          lambda: [40 / 2.2, of.drag()[0], 0.2 * G]),
         ("the same points would need {:.2f} mm", lambda: [of.weight_alone()]),
         ("And {} of it is an artifact", lambda: [of.one_in(1 - of.weight_alone() / of.least())]),
@@ -131,7 +129,7 @@ QUOTED = {
     "docs/artifacts.md": [
         ("h = 10 ms: {:.0f} mm a step, a terminal velocity of {:.0f} mm/s",
          lambda: [1e3 * H**2 * G, 1e3 * H * G]),
-        ("0.2 kg at 50 mm/s, h = 10 ms: {:.1f} N beside {:.2f} N of friction at",
+        ("0.2 kg at 50 mm/s, h = 10 ms: {:.1f} N against {:.2f} N of friction at",
          lambda: [0.2 * 0.05 / H, 0.5 * 0.2 * G]),
         ("A warning is given above {:g}", lambda: [SLOW]),
         ("for the same velocity {:.0f} % less turn",
@@ -210,7 +208,7 @@ QUOTED = {
         ("the can's {:.0f} N stretch by {:.0f} mm", lambda: [0.2 * G, 1e3 * 0.2 * G / 2000]),
     ],
     "docs/guides/choose_a_backend.md": [
-        ("where it does [not solve {} of the grasp's steps]",
+        ("at which it does [not solve {} of the grasp's steps]",
          lambda: [of.one_in(of.highs_unsolved())]),
         ("{:.0f} to {:.0f} times as fast by the backend", of.native_gains),
     ],
@@ -222,97 +220,4 @@ OTHERS = {
     "docs/conventions.md": options.quoted,
     **vectors.HELD,
     "docs/reality.md": reality.held,
-}
-
-MEANT = {
-    "docs/artifacts.md": [
-        "c = 20 mm, $\\rho$ = 30 mm",
-        "$\\mu$ = 0.3, l = 20 mm",
-        "slides down 25 degrees",
-    ],
-    "docs/cones.md": [
-        "tangents by 90 degrees",
-        "; 45 degrees",
-        "d of 0, 5, 20 and 50 mm",
-        "a patch of 5 mm",
-    ],
-    "docs/conventions.md": [
-        "more by 0.1 %",
-        "at these scales in 60 digits",
-    ],
-    "docs/derivations.md": ["A body 1 mm deep with h = 10 ms"],
-    "docs/distances.md": ["sqrt 3 times"],
-    "docs/engines.md": ["Steps are 1 ms in all engines but ours, which takes 10 ms"],
-    "docs/exactness.md": ["a step lifts the bunny by 0.2 mm"],
-    "docs/exercises.md": [
-        "with h = 10 ms",
-        "with h = 1 ms",
-        "with h = 5 ms",
-        "with mu_v = 0.5 and mu_omega = 20 mm press with 5 N",
-        "50 mm from its centre of mass, with mu_v = 0.5 and mu_omega = 20 mm:",
-        "its point r = (30, -20, -10) mm",
-        "Use 1, 2 and 4 mm",
-        "the rotation for 2 mm",
-    ],
-    "docs/extensions.md": ["0.2 kg, 20 mm off the axis"],
-    "docs/guides/add_a_scenario.md": ["under 1 MB"],
-    "docs/guides/first_scene.md": [
-        "target lies 5 mm inside",
-        "K_q times 5 mm = 5 N",
-        "The target rises by 30 mm",
-    ],
-    "docs/guides/in_python.md": ["1 mm above the ground", "h^2 g = 3.9 mm"],
-    "docs/guides/write_a_scenario.md": ["deeper than 1 %", "the same 1 %"],
-    "docs/lecture.md": [
-        "$K_q$ = 500 N/m whose target is 4 mm ahead, and 1 mm ahead",
-        "$\\delta q_a = \\phi$ = 1 mm, and $N = K_q(\\delta\\bar q_a - \\phi)$ = 500 N/m x 3 mm",
-        "$\\delta\\bar q_a$ = 4 mm is how far",
-        "Take a ball of 10 mm",
-        "on its face x = -50 mm",
-        "opening by 1 mm moves each finger 0.5 mm away",
-        "A wheel of radius r = 50 mm",
-        "With h = 10 ms instead",
-    ],
-    "docs/quickstart.md": [
-        "mu_omega = 10 mm",
-        "0.5 times the weight",
-        "0.5 times the normal force",
-        "r = 12 mm",
-        "The gripper rises by 40 mm",
-        "and a step is h = 10 ms",
-        "the one with 3 mm",
-    ],
-    "docs/studies.md": [
-        "1 to 1e9 times as heavy",
-        "| 3 digits |",
-        "| 1, 2.5, 4 digits |",
-        "| 5.5 digits |",
-        "differs by up to 1 %",
-        "3, 6 and 9 digits",
-        "delivers 0 digits",
-        "mu_omega = 1 mm",
-        "ProxQP 0.8 calls",
-    ],
-    "docs/reality.md": reality.MEANT,
-    "docs/speed.md": [
-        "a step takes less than 90 us",
-        '"less than 90 μs"',
-        "The paper's 90 us",
-        "a lone box of 0.5 kg by 60 mm in a step, beyond its own side; its edges then lie 7 mm",
-        "the scenes now have steps of 1 ms",
-        "At most 12 times the bare DAQP call were promised",
-        "The step took 11.8 times that call before",
-    ],
-    "docs/theory/notation.md": ["6 or 4 times"],
-    "docs/theory/the_paper.md": [
-        "= 0.39 mm",
-        "less than 90 µs for a step",
-        "and 90 µs where it is quoted",
-    ],
-    "docs/tour.md": [
-        "the height c = 40 mm",
-        "corners at w = 50 mm",
-        "h = 10 ms",
-        "mu_omega is a length: 20 mm",
-    ],
 }

@@ -220,7 +220,7 @@ def held():
     return [*PHRASES.values(), *((row, list) for row in rows())]
 
 
-MEANT = [
+CHOSEN = [
     "a round finger of 9.5 mm",
     "about 44 mm",
     "a 95 % interval",

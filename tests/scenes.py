@@ -123,7 +123,7 @@ solution."""
 
 
 def written_scenario(folder: Path, text: str = PUSH, name: str = "scene.toml") -> Path:
-    """A scenario file with its URDFs beside it."""
+    """A scenario file with its URDFs next to it."""
     for urdf, file in ((RAIL, "rail.urdf"), (BALL, "ball.urdf"), (CLUB, "club.urdf")):
         written(folder, urdf, file)
     path = folder / name

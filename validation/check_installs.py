@@ -228,7 +228,7 @@ def written(path: Path, rows: list[list[str]]) -> None:
 
 
 def main() -> int:
-    """Try what was asked for; 1 if something is wrong."""
+    """Try what was named; 1 if something is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("extras", nargs="*", metavar="EXTRA", help=", ".join(COMMANDS))
     parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")

@@ -39,7 +39,7 @@ FAULTS = """
   const faults = [];
   if (document.documentElement.scrollWidth > width + slack)
     faults.push(`the page is ${document.documentElement.scrollWidth} px wide`);
-  // What a reader cannot see, or what is out of the window until it is asked for.
+  // What a reader cannot see, or what is out of the window until it is shown.
   const hidden = e => getComputedStyle(e).visibility === 'hidden'
     || (e.matches('.sidebar-drawer, .toc-drawer, .skip-to-content, .visually-hidden')
         && (r => r.right <= slack || r.left >= width - slack || r.bottom <= slack

@@ -32,7 +32,7 @@ TESTS = (
     )),
     "tests/equations", "tests/study/test_committed_studies.py", "tests/vectors/test_folder.py",
 )  # fmt: skip
-"""Those that read most of the checkout besides the package: docs, models, committed results."""
+"""Those that read most of the checkout, not the package alone: docs, models, committed results."""
 NOWHERE = "http://127.0.0.1:9"
 """A proxy where nobody listens."""
 MADE = {"PKG-INFO"}

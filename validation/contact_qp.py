@@ -1,6 +1,6 @@
 """Each family of ``contact-qp-1`` at both ends of its dial: ``python -m validation.contact_qp``.
 
-Four solvers are asked for 1e-9 in natural units, once each and without a clock: what is compared
+Four solvers are called at 1e-9 in natural units, once each and without a clock: what is compared
 are correct digits and iterations. Writes their summary, a table and a figure.
 """
 
@@ -50,7 +50,7 @@ PARTS = 5
 """Of a dial, with equally many problems each."""
 
 
-def asked(one: Member, solver: str) -> dict[str, Any]:
+def graded_answer(one: Member, solver: str) -> dict[str, Any]:
     """What a solver says to a problem, and how many digits of it are right."""
     natural = one.natural
     reply = tried(lambda: replied(natural, solver))
@@ -90,7 +90,7 @@ def rows_of(members: Iterable[Member]) -> list[dict[str, Any]]:
     rows = []
     for one in members:
         of_kind = {SOCP: OF_CONES}.get(one.facts["kind"], SOLVERS)
-        rows += [asked(one, name) for name in
+        rows += [graded_answer(one, name) for name in
                  (OF_SPARSE if SPARSE in one.facts["tags"] else of_kind)]  # fmt: skip
     return rows
 
@@ -110,14 +110,14 @@ def summary(rows: Sequence[dict[str, Any]], families: dict[str, Any]) -> list[di
         own = [row for row in rows if row["family"] == family and row["solver"] == solver]
         for part, some in enumerate(parts(own, dial["first"] > dial["most"]) if own else ()):
             digits_ = [row["digits"] for row in some]
-            told = [row["iterations"] for row in some if row["iterations"] is not None]
+            known = [row["iterations"] for row in some if row["iterations"] is not None]
             found.append({
                 "family": family, "solver": solver, "part": part, "problems": len(some),
                 "dial": f"{np.exp(np.mean(np.log([row['dial'] for row in some]))):.3g}",
                 "solved": f"{100 * np.mean([row['solved'] for row in some]):.1f}",
                 "digits_of_nine_in_ten": f"{np.quantile(digits_, 0.1):.1f}",
                 "digits_median": f"{np.median(digits_):.1f}",
-                "iterations_median": f"{np.median(told):g}" if told else "",
+                "iterations_median": f"{np.median(known):g}" if known else "",
             })  # fmt: skip
     return found
 

@@ -82,7 +82,7 @@ def main() -> int:
         sheet.paste(cell, (k % COLUMNS * width, k // COLUMNS * height))
     sheet.save(folder / "contact_sheet.png")
     sheet.convert("L").save(folder / "contact_sheet_grey.png")
-    print(f"{len(cells)} figures on {folder / 'contact_sheet.png'}, and in grey beside it")
+    print(f"{len(cells)} figures on {folder / 'contact_sheet.png'}, and in grey next to it")
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0
 

@@ -186,7 +186,7 @@ def errors(
 
 
 def main() -> int:
-    """Print the table, and write it if asked."""
+    """Print the table, and write it where --out says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--pairs", type=int, default=20_000)
     parser.add_argument("--seed", type=int, default=0)

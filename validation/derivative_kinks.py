@@ -54,7 +54,7 @@ def kink(i: int) -> Kink:
 
 
 def record(i: int, *, nearby: bool = True) -> Record:
-    """What the package says of the i-th kink, and whether it is right; and beside it."""
+    """What the package says of the i-th kink, and whether it is right; and near it."""
     one, rng = kink(i), np.random.default_rng([22, i])
     found = derivatives(one.simulator, one.q, one.q_bar_a, one.force)
     kinds = {why.kind for why in found.reasons}
@@ -96,7 +96,7 @@ def _shown(one: Kink, rng: Rng) -> bool:
 
 
 def _near(one: Kink, way: Array, rng: Rng) -> tuple[str, float | None, float]:
-    """Beside a kink: verdict or numbers; how wrong they are, relative; their largest entry."""
+    """Near a kink: verdict or numbers; how wrong they are, relative; their largest entry."""
     state = _state(one, way)
     try:
         found = derivatives(state.simulator, state.q, state.q_bar_a, state.force)

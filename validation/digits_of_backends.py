@@ -1,9 +1,9 @@
 """Correct digits of each backend on every step of both bunny_grasp runs, at several settings.
 
 Run ``python -m validation.digits_of_backends`` (about two minutes; the extra ``test`` brings
-DAQP). Each step is asked twice: as it is, in SI units, and in natural units, as `solve_step` asks
-it. "default" is the solver as it comes, through CVXPY, with none of our options; the others are
-the accuracies that our table of options was asked for. The truth is the certified optimum of the
+DAQP). Each step is solved twice: as it is, in SI units, and in natural units, as `solve_step`
+solves it. "default" is the solver as it comes, through CVXPY, with none of our options; the others
+are accuracies at which our table of options is used. The truth is the certified optimum of the
 step. Writes validation/results/digits_of_backends.csv and docs/figures/digits_of_backends.png.
 """
 
@@ -27,7 +27,7 @@ from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver, cvxpy_reply
 from quasistatic_ref.solve.units import from_natural
 from quasistatic_ref.step.data import Array, StepData
@@ -69,7 +69,7 @@ class AsItIs:
 
 def answered(solver: CvxpySolver, step: StepData, units: str, accuracy: str) -> Array | None:
     """The delta_q that a backend gives [m, rad]; None if it gives none."""
-    scaled = AsItIs(step) if units == RAW else Scaled(step)
+    scaled = AsItIs(step) if units == RAW else DenseStep(step)
     if accuracy == DEFAULT:
         solver.write(scaled)
         with warnings.catch_warnings():

@@ -37,7 +37,7 @@ def differences(one: Trajectory, two: Trajectory) -> list[str]:
 
 
 def main() -> int:
-    """Compare all runs with CVXPY's, Clarabel being asked."""
+    """Compare all runs with CVXPY's, by Clarabel."""
     settings = [f"steps={sys.argv[1]}"] if len(sys.argv) > 1 else []
     failed = False
     for case, own in CASES.items():

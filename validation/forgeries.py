@@ -37,10 +37,10 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read
 from quasistatic_ref.step.solution_files import solution_text as text_of
 from validation.forged_scenes import scenes
+from validation.fuzzing.records import Place, places, value_at
 from validation.solution_truth import least_bound, truth_of, wrenches
 
 Json = Any
-Where = tuple[str | int, ...]
 MISSING: Json = object()
 NO_NUMBER: tuple[Json, ...] = (None, "1", True, [], {}, [0.0], math.nan, math.inf, -math.inf)
 HUGE = (1e308, -1e308, 1e9, -1.0, 5.0)
@@ -64,28 +64,12 @@ def good_file(step: StepData, kind: str) -> Json:
     return good
 
 
-def places(record: Json, at: Where = ()) -> Iterator[Where]:
-    """Every table, list and value in a record."""
-    yield at
-    if isinstance(record, dict | list):
-        inside = record.items() if isinstance(record, dict) else enumerate(record)
-        for key, value in inside:
-            yield from places(value, (*at, key))
-
-
-def at(record: Json, where: Where) -> Json:
-    """What stands somewhere in a record."""
-    for key in where:
-        record = record[key]
-    return record
-
-
-def put(record: Json, where: Where, value: Json) -> Json:
+def put(record: Json, where: Place, value: Json) -> Json:
     """A copy of a record with something else there, or nothing."""
     if not where:
         return value
     forged = copy.deepcopy(record)
-    owner = at(forged, where[:-1])
+    owner = value_at(forged, where[:-1])
     if value is MISSING:
         del owner[where[-1]]
     else:
@@ -124,8 +108,8 @@ def with_its_wrenches(step: StepData, record: Json) -> Json:
 
 def forgeries(step: StepData, record: Json) -> Iterator[tuple[str, Json]]:
     """Every forged record that differs from the good one, with the field that is forged."""
-    for where in places(record):
-        value = at(record, where)
+    for where in ((), *places(record)):
+        value = value_at(record, where)
         name = ".".join(key for key in where if isinstance(key, str)) or "the file"
         for new in (*replacements(value), *([MISSING] if where else [])):
             if new is value or (type(new) is type(value) and repr(new) == repr(value)):
@@ -164,12 +148,14 @@ def outcomes(
 
 def at_random(rng: np.random.Generator, step: StepData, record: Json) -> Json:
     """A record with up to three values taken from elsewhere in it, or moved by any power of ten."""
-    leaves = [where for where in places(record) if not isinstance(at(record, where), dict | list)]
+    leaves = [
+        where for where in places(record) if not isinstance(value_at(record, where), dict | list)
+    ]
     forged = record
     for _ in range(int(rng.integers(1, 4))):
         where = leaves[rng.integers(len(leaves))]
-        value = at(record, leaves[rng.integers(len(leaves))])
-        if isinstance(old := at(forged, where), float) and rng.random() < 0.7:
+        value = value_at(record, leaves[rng.integers(len(leaves))])
+        if isinstance(old := value_at(forged, where), float) and rng.random() < 0.7:
             value = old + (abs(old) + 1e-12) * float(
                 10 ** rng.uniform(-17, 3) * rng.choice([-1, 1])
             )

@@ -2,7 +2,7 @@
 
 Run ``python -m validation.lectures [--out FOLDER] [--answers] [--run]`` (extra ``notebooks``).
 A lecture is a file of ``docs/lectures/`` whose cells begin with ``# %% setup``, ``task``,
-``answer`` or ``check``. Notebooks have no answers unless asked for. With --run, each is executed
+``answer`` or ``check``. Notebooks have no answers by default. With --run, each is executed
 with its answers; exit status 1 if one fails, gives less than all marks, or takes a minute of the
 processor.
 """

@@ -2,7 +2,7 @@
 
 ``python -m validation.options_of_backends`` (some minutes) prints a CSV: for each set of options
 the steps that the backend did not solve, with and without torsional friction, and the worst and
-the median of its correct digits on those that it solved. Backends are asked through qpsolvers,
+the median of its correct digits on those that it solved. Backends are called through qpsolvers,
 cold. What was learned stands in docs/conventions.md, and the options in ``solve/backends.py``.
 """
 
@@ -20,7 +20,7 @@ from tqdm import tqdm
 from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.units import from_natural, within_reach
 from quasistatic_ref.step.data import Array, StepData
@@ -59,7 +59,7 @@ class Worth:
     median: float
 
 
-def asked() -> Iterator[tuple[str, str, str, Options]]:
+def combinations() -> Iterator[tuple[str, str, str, Options]]:
     """Backend, units, what is special about the options, and the options."""
     for name, options in GAPS.items():
         for gap in (1e-12, 1e-14):
@@ -88,7 +88,7 @@ def answered(step: StepData, units: str, backend: str, options: Options) -> Arra
     if units == RAW:
         reply = qpsolvers_reply(standard_form(step), backend, options)
         return reply.x if reply.solved else None
-    scaled = Scaled(step)
+    scaled = DenseStep(step)
     reply = qpsolvers_reply(standard_form(within_reach(scaled.natural)), backend, options)
     if reply.x is None or not reply.solved:
         return None
@@ -98,7 +98,7 @@ def answered(step: StepData, units: str, backend: str, options: Options) -> Arra
 def measured() -> Iterator[Worth]:
     """One record for each set of options."""
     runs = [steps_of(own) for own in CASES.values()]  # with torsion, without
-    for backend, units, special, options in tqdm(list(asked())):
+    for backend, units, special, options in tqdm(list(combinations())):
         unsolved, digits = [0, 0], []
         for case, steps in enumerate(runs):
             for step, x in steps:

@@ -17,7 +17,7 @@ def any_step(
     n_c: int,
     mass_ratio: float = 1.0,
 ) -> StepData:
-    """Anything that a step may be: duplicated contacts, penetration, mu = 0, light beside heavy.
+    """Anything that a step may be: duplicated contacts, penetration, mu = 0, light on heavy.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Faults planted in the second checker, each of which the sample of its files must notice.
 
 ``python -m validation.verifier_faults`` takes out each refusal of the checker in turn, and changes
-one comparison, limit or rounding at a time; what is left is asked about the sample of
+one comparison, limit or rounding at a time; what is left judges the sample of
 :mod:`validation.check_verifier`, files with one fault first. Prints a table, and exits with status
 1 if a fault is not noticed.
 """

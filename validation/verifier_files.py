@@ -1,4 +1,4 @@
-"""The steps and solutions that both checkers of solution files are asked about.
+"""The steps and solutions that both checkers of solution files judge.
 
 Solutions that are right (of all steps of the vectors, the bunny's grasp and random steps:
 degenerate, with rows of the user's own, infeasible, in every cone), steps that are written in other
@@ -195,7 +195,7 @@ def written_otherwise(cases: Cases) -> Iterator[Case]:
 
 
 def all_cases(folder: Path, whole: bool) -> Iterator[Case]:
-    """Everything that the two checkers are asked about."""
+    """Everything that the two checkers judge."""
     cases = Cases(folder)
     for k, step in enumerate(vector_steps(cases.step)):
         if whole or k % 5 == 0:

@@ -77,8 +77,8 @@ def most_violated(point: Point) -> tuple[int | None, list[int]]:
 def least_index(point: Point) -> tuple[int | None, list[int]]:
     """Return the first violated row, likewise.
 
-    It depends on exact signs alone, not on the midpoints of balls: whoever implements the method
-    walks the same way.
+    It depends on exact signs alone, not on the midpoints of balls: every implementation of the
+    method takes the same path.
     """
     signs = point.decided_slack_signs
     violated = [i for i, sign in enumerate(signs) if sign == -1]

@@ -132,7 +132,8 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
         y = arb_mat(form.m, 1)
         for i, value in zip(active, solution.lam, strict=True):
             y[i, 0] = value.mid() if value > 0 else arb(0)
-        moved = _feasible(step, form, balls, x)
+        with ctx.workprec(2 * PRECISION):  # x has all bits of the first: its slacks are rounding
+            moved = _feasible(step, form, balls, x)
         if moved is None:
             return None
         push = (balls.A.transpose() * y).entries()

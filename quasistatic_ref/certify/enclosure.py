@@ -35,7 +35,8 @@ BITS: Final = 640
 lose five digits for each that the gap gains."""
 
 GAP: Final = arb(2) ** -120
-"""Duality gap asked for, 1e-36, where the unconstrained step has length one: an error of 1e-18."""
+"""Duality gap at which the interior point stops, 1e-36, where the unconstrained step has length
+one: an error of 1e-18."""
 
 RESERVE: Final = 16 * GAP
 """What Newton's pair, far sharper, claims beyond its own gap: `verify` has the interior point's,
@@ -180,7 +181,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     ----------
     step : StepData
     gap : arb
-        Duality gap asked for, where the unconstrained step has length one.
+        Duality gap at which to stop, where the unconstrained step has length one.
     bits : int
         Precision, five times as many as the gap has.
     """

@@ -99,7 +99,7 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     That is the largest of the unconstrained steps that the target, tau_a and tau_u would each
     cause alone (together they may cancel, but for rounding), and of max_i b_i / ||a_i||, the
     shortest step that satisfies the row i alone (a body pushed out of penetration moves however
-    small g is). Where nothing is asked for, zero is the optimum.
+    small g is). Without loads and penetration, zero is the optimum.
 
     Parameters
     ----------
@@ -120,6 +120,6 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     pushed = form.b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         push_out = form.b[pushed] / norm.impulses(form.A[pushed])
-        asked = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
+        wanted = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
         length = norm.displacement(delta_q)
-        return length / asked if asked else (0.0 if length == 0 else float("inf"))
+        return length / wanted if wanted else (0.0 if length == 0 else float("inf"))

@@ -1,6 +1,6 @@
 """The optimality conditions (9)-(12) as residuals: an independent judge of any answer.
 
-Nothing here knows which solver gave the answer, or by which interface it was asked.
+Nothing here knows which solver gave the answer, or by which interface it was called.
 """
 
 from dataclasses import dataclass

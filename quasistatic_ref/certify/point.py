@@ -1,4 +1,4 @@
-"""The minimiser on a working set, with every sign that is asked of it decided exactly.
+"""The minimiser on a working set, with every sign that is needed decided exactly.
 
 A sign is read from balls where they show it, from an exact linear dependence where a row is one,
 and from the rational solution of the KKT system otherwise. That solution takes the

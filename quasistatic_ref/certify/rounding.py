@@ -3,19 +3,12 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Final
 
 import numpy as np
 from flint import arb, fmpq
 from numpy.typing import NDArray
 
 from quasistatic_ref.step.arrays import Array
-
-NORMAL: Final = 2.0**-900
-"""Numbers beyond this have neighbours whose distances, halved, are no subnormals."""
-
-SURELY: Final = 1 - 2.0**-40
-"""For the rounding of a bound to float64, of 2^-53 of it."""
 
 
 def nearest(p: int, q: int) -> float:
@@ -71,7 +64,8 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
     x = np.array(midpoints) + 0.0  # never -0.0
     with np.errstate(over="ignore", invalid="ignore"):
         gap = np.minimum(np.nextafter(x, np.inf) - x, x - np.nextafter(x, -np.inf))
-    shown = (off < SURELY * gap / 2) & (np.abs(x) > NORMAL) | (off == 0) & (x == 0)
+    # Half of a gap is a float64, or 0 of the least: what is not below it is not rounded below it.
+    shown = (off < gap / 2) | (off == 0) & (x == 0)
     for i in np.flatnonzero(~shown & (off <= 2 * gap)).tolist():  # a power of two, or subnormal
         value = nearest_in(balls[i])
         x[i], shown[i] = (x[i], False) if value is None else (value, True)

@@ -1,7 +1,7 @@
 r"""Which rows touch at an optimum, and which of them bear load, in float64.
 
-The exact working set has the signs of one optimum; beside it float64 data have ties that rounding
-split. A row *touches* if its slack is not more than rounding of what it is a sum of, and *bears* if
+The exact working set has the signs of one optimum, but rounding has split ties of float64
+data. A row *touches* if its slack is not more than rounding of what it is a sum of, and *bears* if
 its multiplier is more than that in some optimal lam: as a displacement in the H norm, relative to
 the step.
 """
@@ -83,8 +83,8 @@ def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touc
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
     length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
     length = np.where(length > 0, length, 1.0)
-    asked, taken = np.linalg.norm(np.linalg.solve(L, load(step))), np.linalg.norm(L.T @ x)
-    size = float(max(asked, taken))
+    load_size, step_size = np.linalg.norm(np.linalg.solve(L, load(step))), np.linalg.norm(L.T @ x)
+    size = float(max(load_size, step_size))
     if not size and len(every):  # nothing moves: what the nearest contact is away
         size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
     terms = np.abs(generators) @ np.abs(x)
@@ -109,7 +109,7 @@ def bearing(rows: Array, lam: Array, size: float) -> Mask:
     lam : ndarray, shape (k,)
         One optimal lam.
     size : float
-        Beside what a multiplier is nothing [of lam].
+        Compared with which a multiplier is nothing [of lam].
     """
     bears: Mask = lam > BEARING * size
     if bears.all():

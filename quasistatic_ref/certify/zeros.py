@@ -46,7 +46,7 @@ def zeros_hold(
     if not coordinates and spanned_in_contacts(step, working, rows):
         return True
     every, k = (*working, *rows), len(working)
-    if _implied(_Zeros(_numbers(step, every), k, every, tuple(coordinates), step)):
+    if _implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
         return True
     solution = rational_solution(exact_form(step, every), tuple(range(k)))
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
@@ -57,8 +57,11 @@ def zeros_hold(
 
 
 @dataclass(frozen=True)
-class _Zeros:
-    """What is asked of the rows of a step, the first `k` of which are W: equal if all of it is."""
+class _Claim:
+    """Rows and coordinates that are to be zero, and W, the first `k` of the rows.
+
+    Equal if all numbers of them are, so that answers can be kept.
+    """
 
     numbers: bytes
     k: int
@@ -78,9 +81,9 @@ def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
 
 
 @lru_cache(maxsize=8)
-def _implied(asked: _Zeros) -> bool:
-    """Whether W implies all zeros; kept, since a body at rest asks the same in every step."""
-    n, k = asked.step.n_v, asked.k
-    exact = exact_rows(asked.step, asked.rows)
-    zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in asked.coordinates]
+def _implied(claim: _Claim) -> bool:
+    """Whether W implies all zeros; kept, since a body at rest has the same claim in every step."""
+    n, k = claim.step.n_v, claim.k
+    exact = exact_rows(claim.step, claim.rows)
+    zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
     return all_follow(exact[:k], [*exact[k:], *zeros])

@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     ]
     for entry in (entry for entry in BACKENDS.values() if entry.steps):
         name = f"{entry.name}{DEFAULTS.get(entry.name, '')}"
-        asked = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
-        rows.append((name, *asked, "yes" if entry.name in native else "-", entry.method))
+        reached = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
+        rows.append((name, *reached, "yes" if entry.name in native else "-", entry.method))
     shared.print_rows(rows)
     return 0

@@ -90,9 +90,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
             stream.reconfigure(errors="backslashreplace")
-    asked = next((argument for argument in given if not argument.startswith("-")), None)
+    named = next((argument for argument in given if not argument.startswith("-")), None)
     # Only the command that is used declares its options: their modules may be heavy.
-    options = command_parser([asked]).parse_args(given)
+    options = command_parser([named]).parse_args(given)
     try:
         return _status(options)
     except InputError as error:
@@ -114,8 +114,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(f"standard output: cannot be written: {reason}", 2)
 
 
-def command_parser(asked: Container[str | None]) -> Parser:
-    """The parser of all commands, of which those that are asked for have options."""
+def command_parser(named: Container[str | None]) -> Parser:
+    """The parser of all commands, of which those in `named` have options."""
     parser = Parser(
         prog="quasistatic-ref",
         description="Convex quasi-dynamic simulation with torsional friction: the reference.",
@@ -124,7 +124,7 @@ def command_parser(asked: Container[str | None]) -> Parser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
-        if name in asked:
+        if name in named:
             _module(name).add_options(command)
             for last in _actions(command):
                 last.add_argument("--quiet", action="store_true", help="show no progress")

@@ -18,7 +18,7 @@ from quasistatic_ref.step.show import aligned
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
     "--backend": {"metavar": "NAME", "help": "solver; see 'quasistatic-ref backends'"},
-    "--engine": {"metavar": "NAME", "help": "native or cvxpy: how it is asked"},
+    "--engine": {"metavar": "NAME", "help": "native or cvxpy: the interface to it"},
     "--cone": {
         "metavar": "NAME",
         "help": f"friction cone in place of the file's: {', '.join(CONES)}",

@@ -112,8 +112,8 @@ def run(options: argparse.Namespace) -> int:
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     x = summary["worst_residual"]
     worst = "not computed" if x is None else f"{x:.1e} (natural units)"
-    asked = f"{summary['backend']} ({summary['engine']})"
-    print(f"{summary['certified']}; backend {asked}, worst residual {worst}")
+    backend = f"{summary['backend']} ({summary['engine']})"
+    print(f"{summary['certified']}; backend {backend}, worst residual {worst}")
     print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)

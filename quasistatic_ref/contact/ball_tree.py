@@ -68,7 +68,7 @@ def ball_tree(points: Array) -> BallTree:
         depth += 1
     leaf = -(-N // (1 << depth))
     order = np.arange(leaf << depth)
-    # What fills the last leaf are copies of the last point, told by an index beyond it.
+    # What fills the last leaf are copies of the last point, whose index is beyond it.
     filled = np.concatenate([points, np.broadcast_to(points[-1], (len(order) - N, 3))])
     for level in range(depth):
         node = filled[order].reshape(1 << level, -1, 3)

@@ -27,7 +27,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUPPORT, WITNESS
 
 ACCURACIES = (1e-10, 1e-8, 1e-6)
-"""Tolerances asked of coal in turn: the tighter ones sometimes end without an answer."""
+"""Tolerances of coal, tried in turn: the tighter ones sometimes end without an answer."""
 
 CLEARANCE = 0.02
 """How far apart, relative to the depth, the solids are put to have a normal computed."""
@@ -73,7 +73,7 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     scale = 2.0 ** -np.round(np.log2(size))
     here = Placed(_resized(a.shape, scale), a.R, np.zeros(3))
     there = Placed(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
-    best = _best(here, there, _asked(here, there))
+    best = _best(here, there, _by_coal(here, there))
     # Where they just touch, what is proved is right: no gap is wider than that of a contact.
     touching = best.phi >= -ENOUGH and best.defect <= WITNESS
     if not (best.phi > 0 or touching):
@@ -120,7 +120,7 @@ def _best(a: Placed, b: Placed, start: Judged) -> Judged:
     return min(level, key=lambda found: found.defect)
 
 
-def _asked(a: Placed, b: Placed) -> Judged:
+def _by_coal(a: Placed, b: Placed) -> Judged:
     """The best of coal's answers, with its defect."""
     assert not isinstance(a.shape, PointCloud)
     assert not isinstance(b.shape, PointCloud)
@@ -195,7 +195,7 @@ def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
         # Round surfaces settle faster from afar, corners from close by: in turn.
         clearance = CLEARANCE * abs(gap) + (LEAST * size if k % 2 == 0 else 0.0)
         shift = (clearance - gap) * n
-        parted = _asked(a, b._replace(t=b.t + shift))
+        parted = _by_coal(a, b._replace(t=b.t + shift))
         if not (np.isfinite(parted.defect) and parted.phi > 0):
             break
         before, n = n, parted.n

@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import BESIDE, ON_SURFACE
+from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 CHUNK = 1 << 17
 """Points times triangles handled at once: some tens of megabytes."""
@@ -43,8 +43,8 @@ def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
         distance = norm(away)
         # Near the surface p - x is all rounding; the face's normal is right to that distance.
         size = np.abs(hull.vertices).max()
-        beside = norm(away - phi[outside, None] * normal[outside])
-        edge = (beside > BESIDE * size) & (distance > ON_SURFACE * size)
+        sideways = norm(away - phi[outside, None] * normal[outside])
+        edge = (sideways > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
         at = outside[edge]
         phi[at], normal[at] = distance[edge], away[edge] / distance[edge, None]
     return phi, normal

@@ -75,7 +75,7 @@ class ContactPair(Plain):
 
     @property
     def corners(self) -> int:
-        """Number of corners of both shapes: the candidates beside the closest pair."""
+        """Number of corners of both shapes: the candidates other than the closest pair."""
         return corner_count(self.alpha.shape) + corner_count(self.beta.shape)
 
     @property

@@ -1,4 +1,4 @@
-"""A shape with its pose in the world, and what a pair of them is asked for."""
+"""A shape with its pose in the world, and the closest points of a pair of them."""
 
 from typing import NamedTuple
 

@@ -88,7 +88,7 @@ class CompiledStep:
         assert isinstance(simulator.geometry, ContactGeometry)
         self.poses, self.geometry = Poses(simulator.system), simulator.geometry
         clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
-        constant, weighs = simulator.constant, simulator.weighs
+        constant, weighs = simulator.constant, simulator.gravity_acts
         self.scene = Scene(self.poses, self.geometry, constant, weighs, clouds)
         found = library()
         self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach

@@ -29,8 +29,8 @@ LONGEST, FRAME = 0.4, 0.1
 MARGIN, PADDING = 1.1, 0.1
 """Around everything, as a factor; and on each side, as a share of half the scene's size."""
 
-BESIDE: Final = 0.85
-"""Share of a cell's width that is above the axes, not above the labels beside it [-]."""
+ABOVE_AXES: Final = 0.85
+"""Share of a cell's width that is above the axes, not above the labels at its side [-]."""
 
 SIGNS: Final = np.array([[-1.0], [1.0]])
 FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
@@ -183,5 +183,5 @@ def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
             loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
             handlelength=1.8, borderaxespad=0.2,
         )  # fmt: skip
-        if legend.get_window_extent().width <= BESIDE * room(axes)[0]:
+        if legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
             return

@@ -1,4 +1,4 @@
-"""Whether a figure can be read on a page: units, text, lines told apart without colour."""
+"""Whether a figure can be read on a page: units, text, lines distinguished without colour."""
 
 import re
 from collections.abc import Iterator

@@ -30,7 +30,7 @@ TEXT: Final = 9.0
 """Size of text in the style for paper [pt], in which the sizes of figures are given."""
 
 STYLES: Final = ("paper", "slides", "poster")
-"""Styles that come along, each a file of rcParams beside this module."""
+"""Styles that come along, each a file of rcParams next to this module."""
 
 NARROW: Final = 16.0
 """Panels narrower than this [sizes of the text] stand below each other."""
@@ -91,7 +91,7 @@ def sized(width: float, height: float) -> tuple[float, float]:
 
 
 def scaled(size: float) -> float:
-    """A `size` on paper [pt or in], as large beside the text of the present rcParams [the same]."""
+    """A `size` on paper [pt or in], in proportion to the present rcParams' text [the same]."""
     return size * float(plt.rcParams["font.size"]) / TEXT
 
 

@@ -14,7 +14,7 @@ from quasistatic_ref.model.urdf_xml import xml_root
 INDICES = ("p", "v", "h", "vcount")
 """Elements whose text is a list of indices, or of numbers of corners."""
 COUNTS = ("count", "offset", "stride")
-"""Attributes by which memory is asked for: none is larger than the words of the file."""
+"""Attributes by which memory is allocated: none is larger than the words of the file."""
 
 
 def check_dae(path: Path) -> None:

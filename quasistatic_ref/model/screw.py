@@ -31,24 +31,24 @@ def position(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
 
 
 def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
-    """q_next (-) q with the entries of some joints anew: delta_q, and :func:`change`.
+    """q_next (-) q: delta_q, in which :func:`change` replaces the entries of these joints.
 
     Parameters
     ----------
     joints : sequence of Joint
         Floating, planar or continuous.
     q, q_next : ndarray, shape (n_q,)
-    delta_q : ndarray, shape (n_v,), or (n_a,) if only the actuated coordinates are asked for
+    delta_q : ndarray, shape (n_v,), or (n_a,) for the actuated coordinates alone
 
     Returns
     -------
     ndarray, shape (n_v,) or (n_a,)
     """
-    anew, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
+    entries, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
     for joint in joints:
-        if joint.v.stop <= len(anew):
-            anew[joint.v] = change(joint, here, there, anew)
-    return np.array(anew)
+        if joint.v.stop <= len(entries):
+            entries[joint.v] = change(joint, here, there, entries)
+    return np.array(entries)
 
 
 def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[float]) -> list[float]:

@@ -245,7 +245,7 @@ class System:
         return tau
 
     def kinematics(self, q: Array) -> Kinematics:
-        """Pose and Jacobian of every link at q; those asked for last are kept.
+        """Pose and Jacobian of every link at q; the last ones are kept.
 
         Those of the end of a step are those of the start of the next.
         """

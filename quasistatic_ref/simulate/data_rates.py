@@ -33,10 +33,10 @@ def data_rates(
     """
     h, n_a, n_v, n_c = step.h, step.n_a, step.n_v, step.contacts.n_c
     by_q, by_target = difference_rates(simulator.system.joints, step.delta_q_bar_a)
-    gravity, weighs = np.array(simulator.gravity), simulator.weighs[:, None]
+    gravity, acts = np.array(simulator.gravity), simulator.gravity_acts[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
-    load_q = h * weighs * masses.gravity_rates(gravity)
+    load_q = h * acts * masses.gravity_rates(gravity)
     load_q[:n_a, :n_a] += h * step.K_q @ by_q
     if not simulator.system.rigid and n_a < n_v:
         load_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
@@ -47,7 +47,7 @@ def data_rates(
     tau = np.concatenate([step.tau_a, step.tau_u])
     tau[:n_a] += step.K_q @ (step.delta_q_bar_a - x[:n_a])
     tau[n_a:] += step.M_u @ x[n_a:] / h**2
-    weights = h * weighs * masses.by_masses(gravity)
+    weights = h * acts * masses.by_masses(gravity)
     weights[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
     return {
         "dq_dq": DataRates(load_q, rows.of_motion(x), rows.terms, rows.pull),

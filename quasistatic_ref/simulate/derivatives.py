@@ -42,11 +42,11 @@ def derivatives(
     q : ndarray, shape (n_q,)
     q_bar_a : ndarray, shape (n_q_a,)
     force : ndarray, shape (n_v,), optional
-        External generalised force besides gravity, which does not depend on q [N, N m].
+        External generalised force in addition to gravity, which does not depend on q [N, N m].
     towards : mapping, optional
         A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
         [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
-        derivatives are then those just beside, on the side to which it points.
+        derivatives are then those next to the kink, on the side to which it points.
 
     Returns
     -------

@@ -44,8 +44,8 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
     if callable(target):
-        asked = _returning(of_time_and_q(target, "target"), (n,), "target")
-        return lambda t, q: checked(asked(t, q))
+        goal = _returning(of_time_and_q(target, "target"), (n,), "target")
+        return lambda t, q: checked(goal(t, q))
     values = np.asarray(target, dtype=np.float64)
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
         problem = f"must hold finite numbers of shape ({n},) or ({steps}, {n})"
@@ -91,12 +91,12 @@ def of_time_and_q(function: Callable[..., Any], name: str) -> OfTimeAndQ:
         parameters = list(signature(function).parameters.values())
     except (TypeError, ValueError):  # compiled, and without a signature
         return lambda t, q: function(t)
-    asked = [p for p in parameters if p.default is p.empty and p.kind not in ANY_NUMBER]
+    needed = [p for p in parameters if p.default is p.empty and p.kind not in ANY_NUMBER]
     names = [p.name for p in parameters if p.kind in NAMED]
-    if names and names[0] != "q" and all(p.kind in NAMED for p in asked):
-        if len(asked) == 2:
+    if names and names[0] != "q" and all(p.kind in NAMED for p in needed):
+        if len(needed) == 2:
             return function
-        if len(asked) < 2:
+        if len(needed) < 2:
             return lambda t, q: function(t)
     written = str(signature(function)).partition(" ->")[0]
     raise InputError("must be a function of t, or of (t, q)", field=name, value=written)

@@ -110,9 +110,9 @@ class Derivatives(Plain):
         fields = {name: getattr(self, name) for name in FIELDS}
         widths = {name: value.size // len(self.dq_dq) for name, value in fields.items()}
         direction = directed(widths, directions, "along")
-        asked = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
+        used = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for found in self.reasons:
-            if found.kind != reason.WEAK and asked & set(found.fields):
+            if found.kind != reason.WEAK and used & set(found.fields):
                 raise InputError(
                     "has no one-sided derivative here: " + found.sentence, field="along"
                 )

@@ -98,7 +98,9 @@ class _Again:
 
     def _tau(self, q: Array, pushed: Array) -> Array:
         simulator = self.simulator
-        return simulator.weighs * simulator.system.gravity_force(q, simulator.gravity) + pushed
+        return (
+            simulator.gravity_acts * simulator.system.gravity_force(q, simulator.gravity) + pushed
+        )
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, Extension | None]:
         simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)

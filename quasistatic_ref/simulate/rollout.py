@@ -76,7 +76,7 @@ def rollout(
     ------
     InputError
         If the target or the force takes other arguments than these, or q is no configuration; if
-        the saved steps are of another run, or there are some and `resume` is not asked for.
+        the saved steps are of another run, or there are some and `resume` is false.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.

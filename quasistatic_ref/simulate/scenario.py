@@ -63,7 +63,7 @@ class Scenario(Plain):
     system : System
     pairs : tuple of ContactPair
     K_q : ndarray, shape (n_a, n_a)
-    feels_gravity : ndarray of bool, shape (n_a,)
+    gravity_acts : ndarray of bool, shape (n_a,)
     targets : Targets
         q_bar_a(t).
     wrenches : tuple of Wrenches
@@ -83,7 +83,7 @@ class Scenario(Plain):
     system: System
     pairs: tuple[ContactPair, ...]
     K_q: Array
-    feels_gravity: Array
+    gravity_acts: Array
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
     backend: str = DEFAULT_OF_RUNS
@@ -105,7 +105,7 @@ class Scenario(Plain):
             h=self.h,
             K_q=self.K_q,
             gravity=self.gravity.tolist(),
-            feels_gravity=self.feels_gravity,
+            gravity_acts=self.gravity_acts,
             solver=self.backend,
             engine=self.engine,
             accuracy=self.accuracy,
@@ -208,17 +208,17 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if system.rigid else 0
-    backend, engine = _asked(solver, certify, named, entries_of_J)
+    backend, engine = _backend_and_engine(solver, certify, named, entries_of_J)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
-    K_q, feels_gravity = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
+    K_q, gravity_acts = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
     tracks, wrenches = [], []
     for entry in entries.values():
         stiffness(system, entry, K_q)
         for joint in entry.actuated(system):
-            feels_gravity[joint.v] = not entry.gravity_compensated
+            gravity_acts[joint.v] = not entry.gravity_compensated
         tracks += joint_tracks(system, entry)
         if entry.wrenches is not None:
             wrenches.append(entry.wrenches)
@@ -230,7 +230,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         system=system,
         pairs=pairs,
         K_q=K_q,
-        feels_gravity=feels_gravity,
+        gravity_acts=gravity_acts,
         targets=Targets(system.q_start[: system.n_q_a], tracks),
         wrenches=tuple(wrenches),
         backend=backend,
@@ -244,12 +244,14 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     )
 
 
-def _asked(solver: Fields, certify: str, cone_name: str, entries: int) -> tuple[str, str]:
+def _backend_and_engine(
+    solver: Fields, certify: str, cone_name: str, entries: int
+) -> tuple[str, str]:
     """Names of the backend and the engine, looked up here rather than in the first step."""
-    asked = value(solver, SOLVER, "engine")
-    default = default_backend(asked, cone_name, certify, entries)
+    named = value(solver, SOLVER, "engine")
+    default = default_backend(named, cone_name, certify, entries)
     name = value(solver, SOLVER, "backend", default)
-    engine = asked or default_engine(name, cone_name)
+    engine = named or default_engine(name, cone_name)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
         raise solver.fail("backend", problem, name)

@@ -57,7 +57,7 @@ TABLES = Tables({
             "text", "what a trajectory holds; light leaves the quadratic programs out",
             default=RECORDS[0], choices=RECORDS,
         ),
-        "solver": Field("table", "who is asked, and what is proved", default={}, of=SOLVER),
+        "solver": Field("table", "the backend, and what is proved", default={}, of=SOLVER),
         "limits": Field("table", "where a run ends early", default={}, of=LIMITS),
         "bodies": Field("tables by name", "what moves", of=BODY, schema={"minProperties": 1}),
         "shapes": Field("tables by name", "solids that stand still", default={}, of=SHAPE),
@@ -65,9 +65,9 @@ TABLES = Tables({
     },
     SOLVER: {
         "backend": Field("text", "name of a solver; quasistatic-ref backends", default=None),
-        "engine": Field("text", "how the backend is asked", default=None, choices=ENGINES),
+        "engine": Field("text", "the interface to the backend", default=None, choices=ENGINES),
         "accuracy": Field(
-            "number", "asked of the backend, in natural units", "-", ACCURACY, above=0.0,
+            "number", "of the backend, in natural units", "-", ACCURACY, above=0.0,
         ),
         "certify": Field("text", "what is proved", default=CERTIFY[0], choices=CERTIFY),
     },

@@ -56,8 +56,8 @@ class Simulator:
         Joint stiffness [N/m, N m/rad], in the order of q_a.
     gravity : array_like, shape (3,)
         [m/s^2], world frame.
-    feels_gravity : ndarray of bool, shape (n_a,), optional
-        Actuated coordinates whose gravity is not compensated by the robot; none by default.
+    gravity_acts : ndarray of bool, shape (n_a,), optional
+        Whether gravity acts on each actuated coordinate; by default the robot compensates all.
     solver : str, optional
         Name of a backend, by default :func:`~quasistatic_ref.solve.engines.default_backend`'s, and
         Clarabel's where that fails; it, accuracy and certify are as in
@@ -100,7 +100,7 @@ class Simulator:
         h: float,
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
-        feels_gravity: Array | None = None,
+        gravity_acts: Array | None = None,
         solver: str | None = None,
         engine: str | None = None,
         accuracy: float = ACCURACY,
@@ -114,10 +114,11 @@ class Simulator:
         self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
         self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
-        self.weighs = np.ones(system.n_v)
-        self.weighs[: system.n_a] = False if feels_gravity is None else feels_gravity
+        self.gravity_acts = np.ones(system.n_v)
+        self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
         self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.named, self.asked, self.accuracy, self.certify = solver, engine, accuracy, certify
+        self.named, self.named_engine = solver, engine
+        self.accuracy, self.certify = accuracy, certify
         blocks = extension is None and system.rigid
         entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
         default = default_backend(engine, cone, certify, entries)
@@ -135,8 +136,8 @@ class Simulator:
     def __reduce__(self) -> tuple[Any, ...]:
         same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
-        settings |= {"solver": self.named, "engine": self.asked}
-        settings["feels_gravity"] = self.weighs[: self.system.n_a]
+        settings |= {"solver": self.named, "engine": self.named_engine}
+        settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
@@ -148,7 +149,7 @@ class Simulator:
         q_bar_a : ndarray, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
         force : ndarray, shape (n_v,), optional
-            External generalised force besides gravity [N, N m].
+            External generalised force in addition to gravity [N, N m].
 
         Returns
         -------
@@ -206,9 +207,9 @@ class Simulator:
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
-        tau = self.weighs * system.gravity_force(q, self.gravity) + force
-        if tau.shape != self.weighs.shape:
-            problem = f"must have shape {self.weighs.shape}"
+        tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
+        if tau.shape != self.gravity_acts.shape:
+            problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
@@ -232,7 +233,7 @@ class Simulator:
     def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
         """A step solved, perhaps with an extension that is more than rows."""
         own = self.fitting(step)
-        by_name = extension is not None and (self.asked or CVXPY) == CVXPY
+        by_name = extension is not None and (self.named_engine or CVXPY) == CVXPY
         solver = (self.named or DEFAULT) if by_name else own
-        asked = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
-        return self.spare.after(step, partial(asked, extension=extension))
+        first = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
+        return self.spare.after(step, partial(first, extension=extension))

@@ -36,7 +36,7 @@ def smoothed(
         Weight of the barriers, > 0 [N m s]: a contact at the distance s pushes with the impulse
         kappa / s.
     force : ndarray, shape (n_v,), optional
-        External generalised force besides gravity, which does not depend on q [N, N m].
+        External generalised force in addition to gravity, which does not depend on q [N, N m].
 
     Returns
     -------

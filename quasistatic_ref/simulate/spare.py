@@ -12,7 +12,7 @@ from quasistatic_ref.step.solution import StepSolution
 
 
 class Spare:
-    """A second backend, which is made when it is asked for.
+    """A second backend, which is made when it is needed.
 
     Parameters
     ----------
@@ -27,7 +27,8 @@ class Spare:
     """
 
     def __init__(self, default: str, engine: str, accuracy: float, certify: str) -> None:
-        self.default, self.engine, self.asked = default, engine, (accuracy, certify)
+        self.default, self.engine = default, engine
+        self.accuracy, self.certify = accuracy, certify
         self.solver: Solver | None = None
 
     def after(self, step: StepData, first: Callable[[], StepSolution]) -> StepSolution:
@@ -55,8 +56,7 @@ class Spare:
             raise failure
         if self.solver is None or not self.solver.fits(step):
             self.solver = solver_for(step, DEFAULT, self.engine)
-        accuracy, certify = self.asked
         try:
-            return solve_step(step, self.solver, accuracy=accuracy, certify=certify)
+            return solve_step(step, self.solver, accuracy=self.accuracy, certify=self.certify)
         except StepNotSolved:
             raise failure from None

@@ -70,7 +70,7 @@ def step_jax(
         If JAX is not installed, the option is unknown or lacks what it needs, or the step has no
         derivatives anywhere. The function raises it if its arguments are not float64.
     NotDifferentiable
-        By the function, where a derivative that is asked for does not exist.
+        By the function, where a derivative that JAX needs does not exist.
     """
     if kinks not in AT_KINKS:
         raise InputError(f"must be one of {', '.join(AT_KINKS)}", field="kinks", value=kinks)
@@ -146,16 +146,16 @@ def _differentiable(
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
 
-    def asked(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
+    def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
         q, q_bar_a, force, kappa = map(np.asarray, given)
         with lock:  # a system is for one thread, and JAX has several
             return _rates(system, found, instead, names, q, q_bar_a, force, float(kappa))
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
         if not any(isinstance(one, jax.core.Tracer) for one in given):
-            return tuple(map(jax.numpy.asarray, asked(names, *given)))  # errors come as they are
+            return tuple(map(jax.numpy.asarray, computed(names, *given)))  # errors come as they are
         what = ends + (matrices if names else ())
-        return jax.pure_callback(partial(asked, names), what, *given, vmap_method="sequential")
+        return jax.pure_callback(partial(computed, names), what, *given, vmap_method="sequential")
 
     step = jax.custom_jvp(partial(called, ()))
 
@@ -186,7 +186,7 @@ def _rates(
     system: System, found: Found, instead: Found | None, names: tuple[str, ...],
     q: Array, q_bar_a: Array, force: Array, kappa: float,
 ) -> tuple[Array, ...]:  # fmt: skip
-    """Where the step ends, its verdict, and, if any is asked for, the derivatives by entries."""
+    """Where the step ends, its verdict, and the derivatives by the entries of `names`."""
     at = system.checked(normalised(system.joints, q))
     whole = system.with_actuated(at, q_bar_a)
     goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
@@ -208,5 +208,5 @@ def _rates(
 
 
 def _lacking(of: Derivatives, names: tuple[str, ...]) -> tuple[Reason, ...]:
-    """Why some of the derivatives that are asked for do not exist."""
+    """Why the derivatives by some of `names` do not exist."""
     return tuple(why for why in of.reasons if {*why.fields} & {*names})

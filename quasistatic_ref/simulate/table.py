@@ -1,4 +1,4 @@
-"""A trajectory as a table of pandas, for whoever likes to look at one.
+"""A trajectory as a table of pandas.
 
 One row a step, by the time of its end; one column a number: ``delta_q.bunny/base.x`` by the name
 of the coordinate, ``q.0`` by its entry (after the step), ``phi.3`` by the contact,

@@ -35,9 +35,9 @@ class Backend:
         one of them solves the step.
     plain : callable or None
         Accuracy [-] -> its options in a study: residuals and duality gap at the same accuracy and
-        nothing else touched, as whoever reads its manual once would ask. None if it has none.
+        nothing else touched, as its manual suggests at first reading. None if it has none.
     floor : float
-        The accuracy that it can be asked for at most, in natural units [-].
+        The least accuracy that it takes, in natural units [-].
     time_limit : str
         Its option for that [s], if it can stop itself; in a study others are killed from outside.
     warm : tuple of str
@@ -60,7 +60,7 @@ class Backend:
         Whether steps are solved with it; otherwise it is in studies only.
     returns : bool
         Whether it returned from every step that it was given. One that loops for ever, or ends the
-        process, is asked only for steps whose rows are alike (``ALIKE`` in tolerances.py).
+        process, gets only steps whose rows are alike (``ALIKE`` in tolerances.py).
     """
 
     name: str
@@ -128,7 +128,7 @@ def _osqp(accuracy: float) -> Attempts:
 
 
 def _piqp(accuracy: float) -> Attempts:
-    # eps_abs alone leaves the duality gap at 1e-8: it must be asked for by name.
+    # eps_abs alone leaves the duality gap at 1e-8: it must be set by name.
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
     gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from

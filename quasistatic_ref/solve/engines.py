@@ -84,7 +84,7 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     check_solver(name, engine, step.cone)
     if name == NONE:
         return NoSolver(step)
-    # Others are imported when they are asked for: a short run takes less time than their packages.
+    # Others are imported when they are used: a short run takes less time than their packages.
     if engine == NATIVE:
         if not cone(step.cone).polyhedral:
             from quasistatic_ref.solve.second_order import ConeSolver

@@ -123,10 +123,10 @@ def extended_solution(
         if parameter.name() in ("K_q", "tau_k"):  # nothing is left of Eq. (1)
             parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
-    for asked in (k * accuracy for k in RELAXED):
-        for options in backend(name).attempts(asked):
+    for relaxed in (k * accuracy for k in RELAXED):
+        for options in backend(name).attempts(relaxed):
             try:
-                certificate, statistics = _solved(step, problem, name, asked, dict(options))
+                certificate, statistics = _solved(step, problem, name, relaxed, dict(options))
             except StepNotSolved as failed:
                 failure = failed
                 continue
@@ -140,7 +140,7 @@ def extended_solution(
 def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own, Own]:
     """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
 
-    @cache  # its terms are asked for once: further variables of its own are in both
+    @cache  # its terms are formed once: further variables of its own are in both
     def terms(problem: StepProblem) -> list[cp.Constraint | cp.Expression]:
         return list(extension.terms(_symbols(problem, step, units)))
 

@@ -16,7 +16,7 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, installed
-from quasistatic_ref.solve.scaled import NaturalStep, Scaled
+from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import Metric, Units, reach_of_rows
 from quasistatic_ref.step.cones import cone
@@ -115,7 +115,7 @@ class NativeSolver(Solver):
         self, step: StepData, form: StandardForm | None = None, units: Units | None = None
     ) -> NaturalStep:
         """The step in natural units; what H gives of them is kept while H is the same array."""
-        return Scaled(step, self.metric, form, units)
+        return DenseStep(step, self.metric, form, units)
 
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""

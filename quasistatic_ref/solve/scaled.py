@@ -37,8 +37,8 @@ class NaturalStep(Protocol):
         """A rigorous bound of the relative error of delta_q [-], where one is known."""
 
 
-class Scaled:
-    """A step, its standard form and its natural units.
+class DenseStep:
+    """A step of dense matrices in its natural units, with its standard form.
 
     Parameters
     ----------

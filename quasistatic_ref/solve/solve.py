@@ -1,6 +1,5 @@
 """One step, solved: natural units, a solver, the judge, and back to SI units."""
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -16,14 +15,14 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
 from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
-from quasistatic_ref.solve.scaled import NaturalStep, Scaled, out_of_range
+from quasistatic_ref.solve.scaled import DenseStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
+from quasistatic_ref.solve.uncertified import uncertified_solution
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -36,10 +35,9 @@ from quasistatic_ref.step.solution import (
     step_solution,
 )
 from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.tolerances import ACCURACY, BOUNDED, ILL_POSED, RESIDUAL_LIMIT
+from quasistatic_ref.tolerances import ACCURACY, ILL_POSED
 
 CERTIFY = ("full", "residual", "off")
-NOTHING_CLAIMED = Certificate("none")
 
 
 def solve_step(
@@ -63,7 +61,7 @@ def solve_step(
         compiled problem and is kept between steps of one kind. What is certified does not depend
         on it.
     accuracy : float
-        Asked of the backend, in natural units [-].
+        Of the backend's answer, in natural units [-].
     certify : str
         ``"full"``: the exact optimum, correctly rounded, the same bits whatever the backend said
         (in the ellipsoid, which has no rational optimum, enclosed to 1e-13 or better);
@@ -88,7 +86,7 @@ def solve_step(
     StepNotSolved
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
-        If the backend is unknown or not installed, or not able to do what is asked of it.
+        If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
         If a solver object does not fit the step, `certify` is no such word, or `accuracy` not
         greater than 0.
@@ -138,7 +136,7 @@ def solved(
     Raises
     ------
     BackendError
-        If the solver cannot do what is asked of it.
+        If the solver does not support `certify`.
     """
     if certify == "full" and not solver.certifies:
         problem = "of sparse matrices gives residuals at most; use certify = 'residual'"
@@ -161,8 +159,8 @@ def _solved(
 ) -> StepSolution | None:
     """The solution, or None if it is not finite."""
     scaled = solver.scaled(step, form, units)
-    if certify != "full" or not isinstance(scaled, Scaled):
-        solution = _as_said(scaled, solver, solver.answer(scaled, accuracy), certify)
+    if certify != "full" or not isinstance(scaled, DenseStep):
+        solution = uncertified_solution(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:
         certified = _enclosed if step.cone == ELLIPSOID else _exact
         solution = certified(scaled, solver, accuracy)
@@ -174,14 +172,7 @@ def _solved(
     return solution if good else None
 
 
-def _as_said(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) -> StepSolution:
-    """The backend's own answer, judged unless nothing is to be claimed."""
-    certificate = NOTHING_CLAIMED if certify == "off" else _judged(scaled, solver, answer)
-    delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
-    return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
-
-
-def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
+def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
@@ -200,7 +191,7 @@ def _exact(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
 
 
 def _proved(
-    scaled: Scaled, solver: Solver, answer: Answer, hessian: BallHessian
+    scaled: DenseStep, solver: Solver, answer: Answer, hessian: BallHessian
 ) -> ExactOptimum | None:
     """The optimum by compiled code, where there is any and the rows that bear load are a guess."""
     fast = compiled("certificate")
@@ -218,7 +209,7 @@ def _proved(
     return proved_nearby(prove, rows[bears], scaled.form, hessian.rough)
 
 
-def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
+def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
     """The optimum in the ellipsoid with a proved bound; where there is none, a judged answer."""
     step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
@@ -230,7 +221,7 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
         if answer is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        return _as_said(scaled, solver, answer, "residual")
+        return uncertified_solution(scaled, solver, answer, "residual")
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
@@ -240,7 +231,7 @@ def _enclosed(scaled: Scaled, solver: Solver, accuracy: float) -> StepSolution:
 
 
 def _certified(
-    scaled: Scaled,
+    scaled: DenseStep,
     answer: Answer | None,
     statistics: SolverStatistics,
     optimum: Any,
@@ -260,10 +251,10 @@ def _certified(
 
 
 def _attempt(
-    scaled: Scaled, solver: Solver, accuracy: float
+    scaled: DenseStep, solver: Solver, accuracy: float
 ) -> tuple[Answer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
-    said = solver.name, "not asked", None, None, accuracy
+    said = solver.name, "not called", None, None, accuracy
     statistics = SolverStatistics(*said, engine=solver.engine)
     if solver.name == NONE:
         return None, statistics
@@ -272,30 +263,3 @@ def _attempt(
     except StepNotSolved as failure:
         return None, statistics._replace(status=f"failed: {failure.status}", digits=0.0)
     return answer, answer.statistics
-
-
-def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
-    """The backend's answer judged by its residuals."""
-    residuals = scaled.residuals(answer.delta_q, answer.lam)
-    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
-        worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
-        status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
-        asked = answer.statistics.accuracy
-        raise StepNotSolved(solver.name, status, scaled.step, asked, residuals)
-    return Certificate(
-        "residual", dict(vars(residuals)), error_bound=_bound(scaled, solver, answer)
-    )
-
-
-def _bound(scaled: NaturalStep, solver: Solver, answer: Answer) -> float | None:
-    """A rigorous bound of an answer's error [-]: in float64, and in balls where that is open."""
-    x, lam, step = answer.delta_q, answer.lam, scaled.step
-    if isinstance(scaled, Scaled) and step.cone != ELLIPSOID:
-        form, (S, ell, rho) = scaled.natural_form, scaled.units
-        hessian = solver.kept_hessian(step)
-        if solver.bound is None or not solver.bound.fits(hessian, S):
-            solver.bound = FloatBound(hessian, form.H, S)
-        error = solver.bound.error(step, form, (ell, rho), x, lam)
-        if error is not None and error <= BOUNDED:
-            return error
-    return scaled.bound(x, lam)

@@ -18,7 +18,7 @@ from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
-from quasistatic_ref.solve.scaled import NaturalStep, Scaled
+from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -28,7 +28,7 @@ from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
-"""Accuracies tried in the ellipsoid, relative to the one asked for.
+"""Accuracies tried in the ellipsoid, relative to the one of the call.
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
@@ -164,7 +164,7 @@ class Solver(ABC):
         self, step: StepData, form: StandardForm | None = None, units: Units | None = None
     ) -> NaturalStep:
         """The step in natural units; with its matrices and units, where these are known."""
-        return Scaled(step, form=form)
+        return DenseStep(step, form=form)
 
     def kept_hessian(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -200,8 +200,8 @@ class Solver(ABC):
             entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
             least = max(accuracy, entry.floor)
             steps = RELAXED if self.like.cone == ELLIPSOID else (1.0,)
-            asked = [k * least for k in steps]
-            self._attempts[accuracy] = [Attempt(a, o) for a in asked for o in entry.attempts(a)]
+            tried = [k * least for k in steps]
+            self._attempts[accuracy] = [Attempt(a, o) for a in tried for o in entry.attempts(a)]
         return self._attempts[accuracy]
 
     def answer(self, scaled: NaturalStep, accuracy: float) -> Answer:
@@ -221,13 +221,13 @@ class Solver(ABC):
             not return and the rows of the step are unlike each other.
         """
         unsafe = self.name.removeprefix(QPSOLVERS) in UNSAFE
-        if unsafe and isinstance(scaled, Scaled) and not scaled.unlike <= ALIKE:
-            status = f"not asked: its rows differ by {scaled.unlike:.0e} in natural units"
+        if unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
+            status = f"not called: its rows differ by {scaled.unlike:.0e} in natural units"
             raise StepNotSolved(self.name, status, scaled.step, accuracy)
         idle = self.write(scaled)
         cause: Exception | None = None
         for attempt in self.attempts(accuracy):
-            asked, status = attempt.accuracy, "an answer that is not finite"
+            tried, status = attempt.accuracy, "an answer that is not finite"
             try:
                 reply = self.reply(attempt, scaled)
             except Exception as error:  # whatever another package raises
@@ -242,9 +242,9 @@ class Solver(ABC):
                 if idle is not None:
                     reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
                 cost = reply.iterations, reply.seconds
-                said = SolverStatistics(self.name, "optimal", *cost, asked, engine=self.engine)
+                said = SolverStatistics(self.name, "optimal", *cost, tried, engine=self.engine)
                 return Answer(reply.x, reply.lam, said)
-        raise StepNotSolved(self.name, status, scaled.step, asked) from cause
+        raise StepNotSolved(self.name, status, scaled.step, tried) from cause
 
 
 class NoSolver(Solver):
@@ -273,4 +273,4 @@ class NoSolver(Solver):
 
     def reply(self, attempt: Attempt, scaled: Any) -> Reply:
         """No reply."""
-        return Reply(None, None, False, "not asked")
+        return Reply(None, None, False, "not called")

@@ -38,7 +38,7 @@ def reachable(options: Options, rows: int) -> Options:
     """The same options, with a duality gap that rounding does not hide, or without iterations lost.
 
     The gap is a difference of sums over all rows, of terms near one in natural units: rounding
-    leaves some 2^-52 of each. Asked for less, Clarabel takes 20 to 30 more steps in search of a
+    leaves some 2^-52 of each. With a smaller gap Clarabel takes 20 to 30 more steps in search of a
     lucky one, and PIQP all that it may.
     """
     least = rows * float(np.finfo(np.float64).eps)

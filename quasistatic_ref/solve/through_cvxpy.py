@@ -11,7 +11,7 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend, cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -48,20 +48,20 @@ class CvxpySolver(Solver):
 
     def __init__(self, like: StepData, name: str = DEFAULT) -> None:
         if backend(name).name != name:
-            problem = f"is not asked through CVXPY; leave out {QPSOLVERS!r}"
+            problem = f"is not reached through CVXPY; leave out {QPSOLVERS!r}"
             raise BackendError(problem, field="backend", value=name)
         if like.cone == ELLIPSOID:
             cone_backend(name, "the ellipsoid")
         super().__init__(like, name)
         self.problem = cone_problem(like)
 
-    def write(self, scaled: Scaled) -> Mask:
+    def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
         self.problem.fill(within_reach(natural))
         return np.repeat(out_of_reach(natural), natural.counts)
 
-    def reply(self, attempt: Attempt, scaled: Scaled) -> Reply:
+    def reply(self, attempt: Attempt, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY

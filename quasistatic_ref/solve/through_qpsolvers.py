@@ -10,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend, cone_backend
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.cones import cone
@@ -45,13 +45,13 @@ class QpsolversSolver(Solver):
             cone_backend(name, f"the {like.cone}")
         super().__init__(like, name)
 
-    def write(self, scaled: Scaled) -> Mask:
+    def write(self, scaled: DenseStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
         self.form = standard_form(within_reach(natural))
         return np.repeat(out_of_reach(natural), natural.counts)
 
-    def reply(self, attempt: Attempt, scaled: Scaled) -> Reply:
+    def reply(self, attempt: Attempt, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         reply = qpsolvers_reply(self.form, name, attempt.options)
@@ -97,15 +97,15 @@ def qpsolvers_reply(
 
 
 def _account(solution: qpsolvers.Solution) -> tuple[float | None, float | None]:
-    """Seconds of solving and of setting up as the solver tells them, and not qpsolvers' clock."""
+    """Seconds of solving and of setting up as the solver reports them, and not qpsolvers' clock."""
     extras = solution.extras or {}
     info = extras.get("info", extras)
-    told: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
+    field: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
     package = type(info).__module__
     unit = 1e-3 if "setup_time" in extras else 1e-6 if "proxsuite" in package else 1.0  # SCS: ms
 
     def seconds(name: str) -> float | None:
-        time = told(name)
+        time = field(name)
         return unit * float(time) if time is not None and time > 0 else None
 
     return seconds("solve_time"), seconds("setup_time")

@@ -175,7 +175,7 @@ class SparseContacts(Points):
 
     @property
     def J(self) -> Array:
-        """All of J, shape (n_c, 4, n_v): formed whenever it is asked for, and not kept."""
+        """All of J, shape (n_c, 4, n_v): formed whenever it is read, and not kept."""
         return read_only(self.blocks.dense())
 
     @property

@@ -71,11 +71,11 @@ class SolverStatistics(NamedTuple):
     solve_time : float or None
         Time inside the solver [s], where it reports one.
     accuracy : float
-        What was asked for, in natural units [-].
+        What it was called with, in natural units [-].
     digits : float or None
         Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
     engine : str
-        The interface by which it was asked: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``; ``"none"``
+        The interface by which it was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``; ``"none"``
         without a backend.
     """
 

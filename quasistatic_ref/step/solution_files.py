@@ -81,7 +81,7 @@ class SolutionFile:
 
 
 def claims_in(cone: str) -> dict[str, tuple[str, ...]]:
-    """The kinds of certificate in a cone, each with the names of what it holds beside its kind."""
+    """The kinds of certificate in a cone, each with the names of its further fields."""
     return ELLIPSOID_CLAIMS if cone == ELLIPSOID else CLAIMS
 
 

@@ -91,7 +91,7 @@ def solution_page(solution: StepSolution) -> Page:
     largest = float(np.abs(solution.delta_q).max(initial=0.0))
     title = (
         f"StepSolution: {counted(len(solution.delta_q), 'coordinate')}, largest |delta_q_i| "
-        f"{number(largest)}; asked of {solution.backend}, certificate: {certificate.kind}"
+        f"{number(largest)}; backend {solution.backend}, certificate: {certificate.kind}"
     )
     rows = [(str(j), *row) for j, row in enumerate(force_rows(solution))]
     return title, certificate_facts(certificate), ("contact", *FORCE), rows

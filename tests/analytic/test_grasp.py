@@ -81,7 +81,7 @@ def test_the_bunny_starts_at_rest_and_drag_is_small_ever_after(runs, demo, case)
     assert "drag" not in demo.errors
 
 
-def test_drag_during_the_lift_is_that_of_the_target_over_what_the_squeeze_can_bear(runs):
+def test_drag_during_the_lift_is_that_of_the_target_over_the_friction(runs):
     # (R13): m v / h over the sum of mu_v f_n; the base rises by 40 mm in 2.2 s.
     run = runs["with_torsion"]
     for k in (150, 200, 250):

@@ -40,7 +40,7 @@ def test_a_push_without_friction_turns_by_its_arm():
 
 
 @pytest.mark.parametrize("sticks", [True, False])
-def test_the_support_moves_along_the_normal_of_its_limit_surface_at_any_speed(sticks):
+def test_the_support_moves_along_the_normal_of_its_limit_surface(sticks):
     of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.8, lifted=0.5, sticks=sticks)
     answer = solve_step(push_step(of), "clarabel")
     assert answer.certificate.kind == "enclosure"
@@ -57,7 +57,7 @@ def test_the_support_moves_along_the_normal_of_its_limit_surface_at_any_speed(st
 
 @pytest.mark.parametrize("lifted", [0.0, 1.0])
 def test_lynchs_law_with_the_wrong_c_is_told_apart(lifted):
-    # At Pi = 0.5 and rho = 30 mm beside c = 25 mm: 1.5 / (1 + 0.5 * 1.44) of Lynch's turn.
+    # At Pi = 0.5 and rho = 30 mm and c = 25 mm: 1.5 / (1 + 0.5 * 1.44) of Lynch's turn.
     of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.5, lifted=lifted, sticks=True)
     _, _, v_x, v_y, _, omega = solve_step(push_step(of), "clarabel").delta_q
     ratio = C**2 * omega / (X_C * v_y - Y_C * v_x)

@@ -73,7 +73,7 @@ def pulled(force, phi=0.0):
 @every_backend
 @every_gap
 @pytest.mark.parametrize("share", [1.2, 1.5, 3.0, 10.0])
-def test_beyond_the_limit_the_sphere_turns_and_lifts_off_by_the_closed_form(backend, phi, share):
+def test_beyond_the_limit_the_sphere_turns_by_the_closed_form(backend, phi, share):
     limit = LIMIT - M * MU_OMEGA * phi / H**2  # mu_omega N / h of the stuck sphere
     tau = share * limit if limit > 0 else (share - 1) * LIMIT
     step = spun(tau, phi)
@@ -152,7 +152,7 @@ def test_without_torsional_rows_the_least_torque_turns_it():
 @every_backend
 @every_gap
 @pytest.mark.parametrize("share", [1.2, 3.0])
-def test_beyond_the_limit_the_point_slides_and_lifts_off_by_the_closed_form(backend, phi, share):
+def test_beyond_the_limit_the_point_slides_by_the_closed_form(backend, phi, share):
     limit = MU_V * (M * G - M * phi / H**2)
     force = share * limit if limit > 0 else (share - 1) * MU_V * M * G
     step = pulled(force, phi)
@@ -201,7 +201,7 @@ def test_at_rest_the_multipliers_over_h_carry_the_weight(backend, m):
 
 @every_backend
 @pytest.mark.parametrize("phi", [-1e-3, -1e-5])
-def test_penetration_is_pushed_out_in_one_step_by_m_g_plus_m_phi_over_h_squared(backend, phi):
+def test_penetration_is_pushed_out_by_m_g_plus_m_phi_over_h_squared(backend, phi):
     step = point_on_floor(m=M, phi=phi, force=(0, 0, -M * G), h=H)
     answer = solve_step(step, backend)
     np.testing.assert_allclose(answer.delta_q[2], -phi, rtol=OPTIMUM, atol=0.0)

@@ -50,7 +50,7 @@ def test_every_column_is_a_central_difference(system, rng):
             np.testing.assert_allclose(J[j, :, k], expected, rtol=DIFFERENCE, atol=10 * DIFFERENCE)
 
 
-def test_erratum_the_transpose_of_J_maps_a_force_and_a_torque_to_generalized_forces(system, rng):
+def test_erratum_the_transpose_of_J_maps_wrenches_to_joint_forces(system, rng):
     # J, 4 x n_v, cannot multiply a force in R^3. At every velocity v the generalized forces
     # J'[f; tau_n] do the work that f and tau_n do on the motion (2): (J'[f; tau_n])'v.
     q = system.integrate(system.neutral(), rng.normal(size=system.n_v))

@@ -12,7 +12,7 @@ def printed_column(contacts, j, i):
     return [[entry] for entry in contact_row(contacts, j, i)]
 
 
-def test_A_is_contact_major_and_its_rows_are_the_transposes_of_the_printed_columns(rng):
+def test_A_is_contact_major_and_its_rows_are_the_printed_columns(rng):
     step = random_step(rng, rows=(6, 4, 6))
     expected = []
     for j, count in enumerate((6, 4, 6)):
@@ -38,12 +38,12 @@ def test_erratum_the_printed_columns_stacked_cannot_multiply_delta_q(rng):
     np.testing.assert_allclose(standard_form(step).A, transposed, rtol=ROUNDING, atol=ROUNDING)
 
 
-def test_erratum_six_rows_for_each_of_fifteen_points_are_ninety_and_not_eighty(rng):
+def test_erratum_six_rows_for_fifteen_points_are_ninety_not_eighty(rng):
     everywhere = standard_form(random_step(rng, n_a=7, n_u=6, rows=(6,) * 15))
     gripper_only = standard_form(random_step(rng, n_a=7, n_u=6, rows=(6,) * 10 + (4,) * 5))
     assert everywhere.A.shape == (90, 13)
     assert gripper_only.A.shape == (80, 13)
 
 
-def test_no_other_split_of_fifteen_contacts_into_four_and_six_rows_gives_eighty():
+def test_only_one_split_of_fifteen_contacts_gives_eighty_rows():
     assert [six for six in range(16) if 6 * six + 4 * (15 - six) == 80] == [10]

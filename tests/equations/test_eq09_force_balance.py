@@ -73,13 +73,13 @@ def test_erratum_the_optimum_of_13_satisfies_the_mended_equation(seed):
     [{"contact_sign": 1.0}, {"tau_a_factor": 1.0}, {"contact_sign": 1.0, "tau_a_factor": 1.0}],
 )
 @pytest.mark.parametrize("seed", range(5))
-def test_erratum_the_optimum_of_13_does_not_satisfy_the_equation_as_printed(seed, slip):
+def test_erratum_the_optimum_of_13_violates_the_printed_equation(seed, slip):
     step, _, _ = planted_step(np.random.default_rng(seed))
     optimum = solve_step(step)
     assert relative(step, balance(step, optimum.delta_q, optimum.lam, **slip)) > WRONG
 
 
-def test_erratum_the_sign_of_tau_a_alone_decides_which_way_a_free_joint_moves(rng):
+def test_erratum_the_sign_of_tau_a_decides_which_way_a_joint_moves(rng):
     # Without contacts (13) gives delta_q_a = delta_q_bar_a + K_q^-1 tau_a; (9) as printed gives
     # delta_q_bar_a - K_q^-1 tau_a / h.
     step = random_step(rng, n_a=1, n_u=1, rows=()).replace(
@@ -88,7 +88,7 @@ def test_erratum_the_sign_of_tau_a_alone_decides_which_way_a_free_joint_moves(rn
     np.testing.assert_allclose(solve_step(step).delta_q[0], 1.0 / 100.0, rtol=MULTIPLIERS, atol=0.0)
 
 
-def test_erratum_M_u_over_h_without_delta_q_u_is_a_matrix_and_cannot_be_added_to_a_force(rng):
+def test_erratum_M_u_over_h_without_delta_q_u_is_a_matrix_and_no_force(rng):
     step = random_step(rng, n_u=4)
     assert (step.M_u / step.h).shape == (4, 4)
     assert (step.h * step.tau_u).shape == (4,)

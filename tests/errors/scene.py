@@ -117,7 +117,7 @@ def dotted(record: dict[str, Any], path: str) -> str:
 
 
 def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
-    """A scenario file with its URDFs and a cloud beside it."""
+    """A scenario file with its URDFs and a cloud next to it."""
     written(folder, BALL, "ball.urdf")
     written(folder, RAIL, "rail.urdf")
     written(folder, CLOUD, "cloud.xyz")

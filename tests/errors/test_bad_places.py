@@ -22,7 +22,7 @@ LEAVES = "leaves the scenario's folder; put the file there, or give the path on 
 
 @pytest.fixture
 def outside(tmp_path):
-    """A scenario in a folder of its own, and a good URDF and cloud beside that folder."""
+    """A scenario in a folder of its own, and a good URDF and cloud next to that folder."""
     written(tmp_path, BALL, "outside.urdf")
     written(tmp_path, "0 0 0\n", "outside.xyz")
     (tmp_path / "inner").mkdir()

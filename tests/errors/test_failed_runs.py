@@ -69,7 +69,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cap
     assert trajectory.steps == steps
     assert trajectory.failed is not None
     assert trajectory.failed in captured.err
-    # Thrown by 10 m a step, it is warned of besides; the others fail in their first step.
+    # Thrown by 10 m a step, it is warned of as well; the others fail in their first step.
     assert warned == [f"quasistatic-ref: {sentence}" for sentence in trajectory.warnings]
     assert bool(warned) == (case == "out of the scene")
     assert trajectory["q"].shape[0] == steps + 1
@@ -154,7 +154,7 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
     sentences = (*trajectory.warnings, ended)
     assert complained.splitlines() == [f"quasistatic-ref: {sentence}" for sentence in sentences]
     assert os.listdir(out) == ["scene.npz"]
-    # The same steps as of a run that was told to end there, bit for bit.
+    # The same steps as of a run that was set to end there, bit for bit.
     short = load_scenario(path, [f"steps={min(n, 3)}"]).run(progress=False)
     for name in ("q", "delta_q", "lam"):
         length = len(short[name])
@@ -163,7 +163,7 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
 
 @pytest.fixture
 def listening():
-    """SIGINT as a terminal has it: whoever is started in the background ignores it."""
+    """SIGINT as a terminal has it: a process in the background ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

@@ -65,7 +65,7 @@ def numbers(name):
 
 
 def pairs(name, atol, rtol=0.0):
-    """Measured and expected stand beside each other in `main`: they must agree."""
+    """Measured and expected stand next to each other in `main`: they must agree."""
     found = list(numbers(name).values())
     np.testing.assert_allclose(found[0::2], found[1::2], rtol=rtol, atol=atol)
 
@@ -110,7 +110,7 @@ def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
     np.testing.assert_allclose(list(found.values()), expected, rtol=ROUNDING)
 
 
-def test_torque_and_force_share_the_normal_force_as_the_section_of_each_cone_says():
+def test_torque_and_force_share_the_load_by_the_section_of_each_cone():
     pairs("section_of_a_cone", atol=2 * section_of_a_cone.PRECISION)
 
 
@@ -120,7 +120,7 @@ def test_the_drawn_contact_is_that_of_the_definitions():
     np.testing.assert_array_less(defects, [ROUNDING, ROUNDING, FITTED])
 
 
-def test_the_smooth_block_slides_at_the_speed_of_the_formula_and_the_rough_one_stays():
+def test_the_smooth_block_slides_by_the_formula_and_the_rough_one_stays():
     rough, smooth, formula = numbers("block_on_an_incline").values()
     assert abs(rough) < SCENARIO
     np.testing.assert_allclose(smooth, formula, rtol=SCENARIO)
@@ -132,7 +132,7 @@ def test_the_push_is_friction_and_drag():
     np.testing.assert_allclose(layer, 1e6 * 0.4 * 0.01 * 0.01, rtol=SCENARIO)  # mu_v h v
 
 
-def test_the_gradient_of_a_push_is_that_of_its_difference_and_a_flat_finger_has_another():
+def test_the_gradient_of_a_push_is_that_of_its_difference():
     slope, difference, flat = numbers("gradient_of_a_push").values()
     np.testing.assert_allclose(slope, difference, rtol=DIFFERENCE_OF_STEPS)
     assert abs(flat - slope) > 0.9 * abs(slope)
@@ -142,7 +142,7 @@ def test_kinks_have_the_one_sided_derivatives_of_the_closed_forms():
     pairs("where_no_gradient_is", atol=ROUNDING)
 
 
-def test_a_smoothed_step_tends_to_the_exact_one_and_halves_its_derivative_at_a_kink():
+def test_a_smoothed_step_tends_to_the_exact_one_also_at_a_kink():
     step, slope, *middle = numbers("what_smoothing_does").values()
     # The distance of a pressed ball is 6 kappa over its impulse, but for terms of the second order.
     np.testing.assert_allclose([step, slope], 10, rtol=1e-2)
@@ -163,7 +163,7 @@ def test_a_slider_turns_as_lynch_says_when_it_is_slow():
     np.testing.assert_allclose(fast, law, rtol=ROUNDING)
 
 
-def test_the_ellipsoid_predicts_measured_pushes_far_better_than_the_pyramid():
+def test_the_ellipsoid_predicts_pushes_far_better_than_the_pyramid():
     ratio, moved, turned, *errors = numbers("which_cone_is_real").values()
     # A square of side a under a uniform pressure: a / 6 (sqrt 2 + log(1 + sqrt 2)), a = 90 mm.
     uniform = 90 / 6 * (np.sqrt(2) + np.log(1 + np.sqrt(2)))
@@ -182,13 +182,13 @@ def test_the_finger_lags_by_the_drag_and_stops_with_its_target():
     pairs("the_step_loop", atol=1e-8)
 
 
-def test_the_cloud_is_as_high_as_its_lowest_point_and_phi_is_predicted_to_first_order():
+def test_phi_of_the_cloud_is_predicted_to_first_order():
     least, lowest, exponent, order = numbers("phi_and_j_of_a_cloud").values()
     np.testing.assert_allclose(least, lowest, rtol=ROUNDING)
     np.testing.assert_allclose(exponent, order, atol=FITTED)
 
 
-def test_the_first_slip_is_shorter_than_coulomb_s_and_the_last_is_coulomb_s():
+def test_the_first_slip_is_below_coulomb_s_and_the_last_equals_it():
     # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
     pairs("coulomb_against_convex_slip", atol=0.0, rtol=ROUNDING)
 
@@ -246,7 +246,7 @@ def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
     assert needed < used < limit
 
 
-def test_all_distances_make_a_step_longer_and_the_share_of_its_solve_smaller():
+def test_all_distances_lengthen_a_step_but_not_its_solve():
     everything, tracked, *profiles = numbers("time_of_a_step").values()
     assert everything == 3 * 992 > 2 * tracked
     profiles = np.reshape(profiles, (-1, 2, 2))  # backends, tracker and brute force, time and share

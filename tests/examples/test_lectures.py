@@ -14,7 +14,7 @@ def test_every_answer_of_a_lecture_is_right_and_no_unfinished_task_is(name):
     assert not any(begun.values()), begun
 
 
-def test_there_are_five_lectures_and_each_task_has_its_answer_and_its_check():
+def test_there_are_five_lectures_and_each_task_has_answer_and_check():
     assert sorted(path.stem for path in FOLDER.glob("*.py")) == sorted(LECTURES)
     assert len(LECTURES) == 5
     for name in LECTURES:

@@ -14,7 +14,7 @@ QUICK = ("block_on_an_incline", "corner_loads")
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_a_figure_is_legible_in_a_column_on_slides_on_a_poster_and_in_a_grid(name):
+def test_a_figure_is_legible_in_columns_slides_posters_and_grids(name):
     made = in_styles(name)
     widths = {what: page.get_size_inches()[0] for what, (page, _) in made.items()}
     assert {what: found for what, (_, found) in made.items() if found} == {}

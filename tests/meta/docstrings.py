@@ -1,7 +1,7 @@
 """What the docstring of a public name must say, as a function of the source.
 
-Types, and whether an argument is optional, are in the signature and are not asked for again. What
-a signature cannot say is asked for: of an array its shape, of a number its unit, and which errors
+Types, and whether an argument is optional, are in the signature and are not required again. What
+a signature cannot say is required: of an array its shape, of a number its unit, and which errors
 are raised.
 """
 

@@ -29,6 +29,7 @@ ROOMS = (
     "__main__",
     "lab/grasp",
     "lab/runs",
+    "lab/measures",
     "lab/page",
     "lab/figures",
     "lab/scenes",
@@ -40,7 +41,7 @@ ROOMS = (
     "lab/commands",
 )
 
-# The only file of the core that may name the lab, as a string: it imports a command when asked.
+# The only file of the core that may name the lab, as a string: it imports one of its commands.
 DOOR = "cli/main.py"
 
 # The only file that may name compiled code, as a string: it gives nothing where there is no

@@ -36,7 +36,7 @@ def endless():
 
 
 def greedy():
-    bytearray(2**31)  # the limit, and the process has something besides
+    bytearray(2**31)  # the limit, and the process has more than that
 
 
 FAULTS = {

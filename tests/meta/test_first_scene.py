@@ -1,4 +1,4 @@
-"""Whoever types the page `from a URDF to a picture` gets what it says."""
+"""What the page `from a URDF to a picture` says comes of its commands."""
 
 import runpy
 import shlex
@@ -38,7 +38,7 @@ def test_the_page_has_five_files_and_a_command_for_each_step(folder):
     ]  # fmt: skip
 
 
-def test_the_can_rises_with_the_lift_less_what_its_weight_and_its_drag_stretch_the_spring(folder):
+def test_the_can_rises_with_the_lift_less_the_stretch_of_the_spring(folder):
     run = trajectory_read(folder / "results" / "scene.npz")
     assert run.header["warnings"] == []
     assert set(run["certificate"]) == {"exact"}

@@ -5,7 +5,7 @@ import numpy as np
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.solve.backends import NONE, UNSAFE
 from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import ALIKE
 from tests.tolerances import ROUNDING
@@ -34,12 +34,12 @@ def unlike_step(ratio):
 
 def test_how_unlike_rows_are_is_the_ratio_of_their_lengths():
     for ratio in (1.0, 100.0, 1e6):
-        np.testing.assert_allclose(Scaled(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
+        np.testing.assert_allclose(DenseStep(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
 
 
 def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():
     assert {"quadprog", "highs"} == UNSAFE
-    for ratio, status in ((0.9 * ALIKE, "optimal"), (1.1 * ALIKE, "failed: not asked: its rows ")):
+    for ratio, status in ((0.9 * ALIKE, "optimal"), (1.1 * ALIKE, "failed: not called: its rows ")):
         step = unlike_step(ratio)
         exact = solve_step(step, NONE).delta_q
         for name in UNSAFE:
@@ -50,7 +50,7 @@ def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():
                 np.testing.assert_array_equal(solution.delta_q, exact)
 
 
-def test_every_path_ends_exact_or_refused_on_a_sample_and_where_a_backend_was_held_up():
+def test_every_path_ends_exact_or_refused_also_where_it_was_held_up():
     held_up = [(name, i, 1) for part, i in HELD_UP.items() for name in names() if part in name]
     assert len(held_up) == 5  # but for ProxQP by two interfaces
     jobs = [(name, 0, SAMPLE) for name in names()] + held_up

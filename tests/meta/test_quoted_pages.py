@@ -1,14 +1,14 @@
 """Numbers and printed output in README and docs/ are those of the results that they come from."""
 
-import json
 import re
 
 import pytest
 
 from quasistatic_ref.cli.main import main
+from tests.chosen_numbers import CHOSEN
 from tests.quoted import NUMBER, ROOT, filled, flat, printed, stale
-from tests.quoted_pages import MEANT, OTHERS, QUOTED
-from tests.vectors.material import cases, runner
+from tests.quoted_pages import OTHERS, QUOTED
+from tests.vectors.material import answer_file, cases, runner
 
 FENCE = re.compile(r"^( *)(```+).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
 UNITS = r"(?:ms|us|µs|μs|%|degrees|deg|digits|MB|GB|mm/s|mm|µm|times|claims|cases|calls)(?![\w^])"
@@ -41,10 +41,10 @@ def held(page):
     return filled([*QUOTED.get(page, []), *others])
 
 
-def unheld(page, phrases, meant):
+def unheld(page, phrases, chosen):
     """Measured numbers of a text, each with its words, in none of the phrases; fences left out."""
     rest = flat(FENCE.sub(" ", page))
-    for phrase in sorted((*phrases, *meant), key=len, reverse=True):
+    for phrase in sorted((*phrases, *chosen), key=len, reverse=True):
         rest = rest.replace(phrase, " ; ")
     rest = re.sub(r"`[^`]*`", "`", rest)
     found = MEASURED.finditer(rest)
@@ -58,13 +58,13 @@ def test_every_quoted_number_is_that_of_its_source(page):
 
 
 @pytest.mark.parametrize("page", sorted(PAGES))
-def test_every_measured_number_of_a_page_has_a_source_or_is_meant(page):
-    assert unheld(text(page), held(page), MEANT.get(page, ())) == []
+def test_every_measured_number_of_a_page_has_a_source_or_was_chosen(page):
+    assert unheld(text(page), held(page), CHOSEN.get(page, ())) == []
 
 
-@pytest.mark.parametrize("page", sorted(MEANT))
-def test_what_is_meant_still_stands_on_its_page(page):
-    assert stale(text(page), MEANT[page]) == []
+@pytest.mark.parametrize("page", sorted(CHOSEN))
+def test_a_chosen_number_still_stands_on_its_page(page):
+    assert stale(text(page), CHOSEN[page]) == []
 
 
 def test_every_page_with_printed_text_has_a_test_of_it():
@@ -86,10 +86,7 @@ def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys)
         outputs = {
             c.id: module.plain(getattr(module, layer)(c.input | change)) for c in cases(layer)
         }
-        answers = [{"id": name, "output": output} for name, output in outputs.items()]
-        head = {"format": "quasistatic-ref/vectors-answers", "version": 1, "layer": layer}
-        record = head | {"implementation": "mine", "answers": answers}
-        (tmp_path / f"{layer}.json").write_text(json.dumps(record))
+        answer_file(tmp_path, layer, outputs, implementation="mine")
     layers = ["--layer", "rows", "--layer", "wrench"]
     assert main(["vectors", "check", str(tmp_path), *layers]) == 1
     said = capsys.readouterr()

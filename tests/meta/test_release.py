@@ -1,4 +1,4 @@
-"""The release command knows every committed result, and tells what became of each."""
+"""The release command knows every committed result, and says how each differs from its commit."""
 
 import subprocess
 from pathlib import Path
@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from validation import release
+from validation import remade
+from validation.release import RESULTS
 
 ROOT = Path(__file__).parents[2]
 # Written by a person who judged what was found, not by a command.
@@ -21,7 +22,7 @@ def committed():
 
 
 def test_every_committed_result_has_a_command():
-    written = [path for result in release.RESULTS for path in result.writes]
+    written = [path for result in RESULTS for path in result.writes]
     orphans = {
         name for name in committed() - BY_HAND if not any(name.startswith(w) for w in written)
     }
@@ -30,7 +31,7 @@ def test_every_committed_result_has_a_command():
 
 
 def test_the_four_kinds_of_result_are_made_where_their_commands_exist():
-    known = {result.name: result.available for result in release.RESULTS}
+    known = {result.name: result.available for result in RESULTS}
     assert known["claims"]
     assert known["figures"]
     vectors = (ROOT / "quasistatic_ref" / "lab" / "commands" / "vectors.py").exists()
@@ -40,7 +41,7 @@ def test_the_four_kinds_of_result_are_made_where_their_commands_exist():
 @pytest.fixture
 def repository(tmp_path, monkeypatch):
     """A repository with two committed files, a table and a picture."""
-    monkeypatch.setattr(release, "ROOT", tmp_path)
+    monkeypatch.setattr(remade, "ROOT", tmp_path)
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "table.txt").write_text("one\ntwo\n")
     image.imsave(tmp_path / "results" / "picture.png", np.zeros((4, 5, 3)))
@@ -52,7 +53,7 @@ def repository(tmp_path, monkeypatch):
 
 def test_what_is_as_committed_is_not_listed(repository):
     (repository / "table.txt").write_text("one\ntwo\n")
-    assert release.changes(("results",)) == []
+    assert remade.changes(("results",)) == []
 
 
 def test_a_picture_of_the_same_pixels_in_other_bytes_is_not_listed(repository):
@@ -60,26 +61,26 @@ def test_a_picture_of_the_same_pixels_in_other_bytes_is_not_listed(repository):
     before = picture.read_bytes()
     image.imsave(picture, np.zeros((4, 5, 3)), metadata={"Title": "another"})
     assert picture.read_bytes() != before
-    assert release.changes(("results",)) == []
+    assert remade.changes(("results",)) == []
 
 
-def test_changes_are_told_by_file(repository):
+def test_changes_are_listed_by_file(repository):
     pixels = np.zeros((4, 5, 3))
     pixels[0, 0] = 1.0  # one of twenty
     image.imsave(repository / "picture.png", pixels)
     (repository / "table.txt").write_text("one\nthree\nfour\n")
     (repository / "more.txt").write_text("")
-    assert sorted(release.changes(("results",))) == [
+    assert sorted(remade.changes(("results",))) == [
         "results/more.txt: new",
         "results/picture.png: 5.00 % of its pixels differ",
         "results/table.txt: 1 lines are now 2 others",
     ]
 
 
-def test_a_file_that_is_gone_and_a_picture_of_another_size_are_told(repository):
+def test_a_file_that_is_gone_and_a_picture_of_another_size_are_listed(repository):
     image.imsave(repository / "picture.png", np.zeros((4, 6, 3)))
     (repository / "table.txt").unlink()
-    assert sorted(release.changes(("results",))) == [
+    assert sorted(remade.changes(("results",))) == [
         "results/picture.png: 5 x 4 pixels are now 6 x 4",
         "results/table.txt: gone",
     ]

@@ -10,7 +10,7 @@ from validation.check_sdist import TESTS, differences, members
 
 ROOT = Path(__file__).parents[2]
 TARGETS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
-ALWAYS = {"pyproject.toml", ".gitignore"}  # taken by hatchling without being asked
+ALWAYS = {"pyproject.toml", ".gitignore"}  # always taken by hatchling
 READ = re.compile(r"\bROOT / \"([\w.]+)\"")
 
 

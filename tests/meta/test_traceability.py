@@ -71,7 +71,7 @@ def test_every_equation_of_the_paper_is_cited_in_the_code():
     assert everywhere == PAPER
 
 
-def test_every_equation_of_the_paper_is_labelled_once_in_the_docs_and_in_order():
+def test_every_equation_of_the_paper_is_labelled_once_and_in_order():
     # In order and in one page, because the site numbers equations as they come.
     labels = {
         path: [int(n) for n in LABEL.findall(path.read_text())] for path in DOCS.rglob("*.md")

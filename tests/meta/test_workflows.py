@@ -41,7 +41,7 @@ def test_every_part_is_a_function_and_the_workflows_call_each():
     assert len(parts()) > 5
 
 
-def test_the_tests_run_on_linux_and_macos_with_every_python_that_is_declared():
+def test_the_tests_run_on_linux_and_macos_with_every_python():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     declared = [line.rpartition(" ")[2] for line in project["classifiers"] if ":: 3." in line]
     (job,) = (job for job in JOBS.values() if [*called(job)] == ["tests"])

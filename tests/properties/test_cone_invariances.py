@@ -42,7 +42,7 @@ def test_a_quarter_turn_of_the_tangents_leaves_the_answer(name):
 
 
 @pytest.mark.parametrize("name", EIGHTH)
-def test_an_eighth_of_a_turn_leaves_the_round_ones_and_those_with_eight_facets(name):
+def test_an_eighth_of_a_turn_leaves_round_and_eight_sided_cones(name):
     # Turned tangents are rounded, cosines of the table too: answers differ by conditioning alone.
     for seed in SEEDS:
         step = step_number(seed).replace(cone=name)
@@ -83,7 +83,7 @@ def optimal_value(step, delta_q):
 
 
 @pytest.mark.parametrize("angle", [0.1, 0.2, 0.35])
-def test_facets_converge_like_one_over_K_squared_in_energy_and_one_over_K_in_motion(angle):
+def test_facets_converge_as_K_to_the_minus_2_and_motions_as_1_over_K(angle):
     # A point pushed across the floor. Friction of a K-gon in a direction is between mu cos(pi/K)
     # and mu, so the optimal value is off by O(1/K^2). By strong convexity the motion is off by the
     # root of that at most, and is: a facet turns the direction of slip by up to pi/K.

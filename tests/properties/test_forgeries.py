@@ -17,7 +17,8 @@ from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import pinch, point_on_floor
 from validation import forgeries
 from validation.forged_scenes import between_walls, scenes
-from validation.forgeries import at_random, good_file, outcomes, places, refused
+from validation.forgeries import at_random, good_file, outcomes, refused
+from validation.fuzzing.records import places
 from validation.solution_truth import truth_of, wrenches
 
 SCENES = scenes()
@@ -33,7 +34,7 @@ def path(tmp_path):
 
 def named(record):
     """The names of all fields that stand in a record."""
-    return {".".join(k for k in where if isinstance(k, str)) for where in places(record) if where}
+    return {".".join(k for k in where if isinstance(k, str)) for where in places(record)}
 
 
 @pytest.mark.parametrize(("kind", "name"), SCENES)

@@ -65,7 +65,7 @@ def test_a_contact_given_twice_leaves_delta_q(step, which):
 
 
 @given(steps(), seeds)
-def test_the_order_of_contacts_leaves_delta_q_and_each_contact_its_own_push(step, seed):
+def test_the_order_of_contacts_leaves_delta_q_and_each_push(step, seed):
     order = np.random.default_rng(seed).permutation(step.contacts.n_c)
     moved = step.replace(contacts=repeated(step.contacts, order))
     one, two = solved(step), solved(moved)
@@ -98,7 +98,7 @@ def test_the_world_may_be_turned(step, seed):
 
 
 @given(steps(), scales)
-def test_all_forces_and_inertias_times_c_leave_delta_q_and_give_lam_times_c(step, c):
+def test_forces_and_inertias_times_c_leave_delta_q_and_scale_lam(step, c):
     scaled = step.replace(
         K_q=c * step.K_q, M_u=c * step.M_u, tau_a=c * step.tau_a, tau_u=c * step.tau_u
     )
@@ -141,9 +141,7 @@ def test_another_unit_of_length_leaves_the_motion(step, s, seed):
 
 
 @given(seeds, shapes())
-def test_standing_still_is_allowed_without_penetration_so_the_optimum_is_not_above_zero(
-    seed, shape
-):
+def test_without_penetration_the_optimum_is_not_above_zero(seed, shape):
     step = random_step(np.random.default_rng(seed), *shape)
     assert step.contacts.phi.min() >= 0
     delta_q, form = solved(step).delta_q, standard_form(step)

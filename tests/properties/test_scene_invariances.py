@@ -43,7 +43,7 @@ def numbers(rng):
     """What a scene is made of: a slab and a cloud body on it, pressed and pulled."""
     R = random_frame(rng)
     return {
-        "R": R,  # of the slab; the cloud body starts beside it, turned a little further
+        "R": R,  # of the slab; the cloud body starts next to it, turned a little further
         "turn": random_frame(rng),
         "points": rng.uniform(-0.05, 0.05, (12, 3)),
         "mass": rng.uniform(0.2, 2.0, 2),

@@ -160,7 +160,7 @@ def one_pair(shape, points, k):
 
 
 @pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cone", "ellipsoid", "hull"])
-def test_a_sheet_that_slides_over_a_solid_brings_new_points_under_the_same_height(name, rng):
+def test_a_sliding_sheet_brings_new_points_to_the_same_height(name, rng):
     pairs = one_pair(SHAPES[name], sheet(30, 1 / 128), 5)
     tracker = ContactTracker(pairs)
     for x in np.cumsum(rng.uniform(0, 4e-3, size=30)) - 0.03:
@@ -168,7 +168,7 @@ def test_a_sheet_that_slides_over_a_solid_brings_new_points_under_the_same_heigh
 
 
 @pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cylinder"])
-def test_points_from_the_side_are_seen_when_they_have_come_nearer_than_those_above(name, rng):
+def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
     points = rng.uniform(-0.01, 0.01, size=(300, 3))
     above = cloud_tracker.WIDTH  # so that the first list is these, and the others are far
     points[:above, 2] += 0.4
@@ -206,7 +206,7 @@ def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
     assert tracker.clouds.lists_made == 1
 
 
-def test_a_sheet_that_lies_flat_is_a_list_of_all_its_points_and_the_first_are_kept():
+def test_of_a_flat_sheet_all_points_are_listed_and_the_first_kept():
     pairs = one_pair(HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), sheet(40, 1 / 256), 5)
     tracker = ContactTracker(pairs)
     assert tracker.closest_points(*poses((0, 0, 0), (0, 0, 0.1))).point.tolist() == [0, 1, 2, 3, 4]

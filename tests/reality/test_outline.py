@@ -23,7 +23,7 @@ def test_a_rectangle_has_the_area_centre_and_gyration_of_the_formulas(turn):
     assert outline.gyration == pytest.approx(np.sqrt((A**2 + B**2) / 12), rel=1e-9)
 
 
-def test_the_mean_distance_from_the_middle_of_a_square_is_that_of_the_formula():
+def test_the_mean_distance_from_the_middle_of_a_square():
     # a / 6 (sqrt 2 + log(1 + sqrt 2)) for a side a; of a polygon near a disc, two thirds of r.
     square = Outline(0.09 * np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
     law = 0.09 / 6 * (np.sqrt(2) + np.log(1 + np.sqrt(2)))

@@ -46,14 +46,14 @@ def test_the_report_on_the_grip_is_what_the_rows_beside_it_give():
     is_kept(STUDIES / "bunny_torsion", study_report(STUDIES / "bunny_torsion"))
 
 
-def test_the_committed_study_is_of_eight_solvers_and_three_hundred_problems(rows, facts):
+def test_the_committed_study_has_eight_solvers_and_300_problems(rows, facts):
     ids = {fact["id"] for fact in facts}
     assert len(ids) == study_read(DEFAULT)["problems"]["count"] >= 300
     assert len({row["solver"] for row in rows}) >= 8
     assert {row["problem"] for row in rows} == ids
 
 
-def test_the_default_study_is_a_fixed_selection_of_every_family_with_dense_rows(members):
+def test_the_default_study_selects_from_every_family_with_dense_rows(members):
     """310 of contact-qp-1: 15 of its 17 families; those with cones and sparse ones are left out."""
     path = study_path("default")
     study = solver_study(path, study_tables(path))

@@ -9,7 +9,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 FILE = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-def test_the_study_of_the_guide_asks_three_solvers_for_thirty_problems_in_four_ways(tmp_path):
+def test_the_study_of_the_guide_has_three_solvers_and_thirty_problems(tmp_path):
     (shown,) = FILE.findall((DOCS / "guides" / "run_a_study.md").read_text("utf-8"))
     path = tmp_path / "my_study.toml"
     path.write_text(shown, "utf-8")

@@ -61,7 +61,7 @@ def test_copies_multiply_rows_and_leave_the_answer():
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_exact_copies_cost_an_active_set_method_rows_and_neither_steps_nor_bits(seed):
+def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
     """Of 16 copies one bears; the others are then met without rounding."""
     forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
     own = [natural_form(form, units_of(forms[0])) for form in forms]

@@ -41,7 +41,7 @@ def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims
 
 
-def test_proxqp_through_cvxpy_still_raises_on_a_warm_start_after_a_gap_changed():
+def test_proxqp_through_cvxpy_raises_on_a_warm_start_of_another_gap():
     first = planted_step(np.random.default_rng(0))[0]
     second = first.replace(contacts=changed(first.contacts, phi=first.contacts.phi + 1e-5))
     problem = StepProblem(first)

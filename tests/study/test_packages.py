@@ -79,7 +79,7 @@ def test_it_is_in_every_table_and_one_problem_is_asked_of_it(planted, run, tmp_p
     assert json.loads(capsys.readouterr().out)["digits"]["delta_q"] > 12
 
 
-def test_names_that_are_not_clear_or_not_there_are_refused_before_anything_is_asked(planted, study):
+def test_names_that_are_not_clear_or_not_there_are_refused(planted, study):
     planted("planted-one", {"mine": "planted_package:solve"})
     planted("planted-two", {"mine": "planted_package:damped"})
     planted("planted-three", {"other": "planted_package:solve"})

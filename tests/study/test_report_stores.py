@@ -95,7 +95,7 @@ def test_nothing_is_drawn_of_calls_that_were_not_made(store, rows, tmp_path):
     assert "nothing to draw of `profiles`" in markdown_page(report)
 
 
-def test_a_report_and_a_packed_store_stand_by_default_next_to_what_they_are_of(tmp_path, capsys):
+def test_a_report_and_a_packed_store_stand_next_to_their_store(tmp_path, capsys):
     folder = tmp_path / "sweep"
     made_store.sweep_written(folder)
     assert main(["study", "report", str(folder)]) == 0

@@ -89,7 +89,7 @@ solvers = ["qpsolvers:daqp"]
 """
 
 
-def test_the_making_of_problems_is_shown_with_an_estimate_and_may_be_interrupted(tmp_path):
+def test_the_making_of_problems_is_shown_and_may_be_interrupted(tmp_path):
     path = tmp_path / "study.toml"
     path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + HARVESTED)
     estimate = r"exact answers: .*\d+/\d+ \[\d\d:\d\d<\d\d:\d\d"

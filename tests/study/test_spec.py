@@ -96,7 +96,7 @@ def test_the_default_study_is_as_large_as_it_is_said_to_be():
     assert QUICK * 0.8 < ratio <= QUICK
 
 
-def test_every_solver_of_the_table_is_installed_here_so_that_green_means_they_ran():
+def test_every_solver_of_the_table_is_installed_here():
     assert set(installed("qpsolvers")) == set(BACKENDS)
 
 
@@ -124,7 +124,7 @@ def test_all_solvers_are_asked_on_a_problem_before_the_next_and_take_turns(study
     assert [block[0].problem for block in blocks[:6]] != [p for p, _ in problems]  # scattered
 
 
-def test_settings_are_asked_in_an_order_that_is_drawn_anew_for_each_problem_and_the_same(study):
+def test_settings_come_in_an_order_that_is_drawn_for_each_problem(study):
     settings = ["default", "low", "mid", "high", "tuned"]
     spec = study(
         f"[problems]\nfamilies.contacts = 8\n{RUN}settings = {settings}\nagain = 0\n".replace(

@@ -129,7 +129,7 @@ def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):
     assert (row["outcome"], row["wrong"], row["digits"]["delta_q"]) == ("failed", False, None)
 
 
-def test_a_neighbour_differs_in_g_alone_by_a_hundredth_at_most_and_always_the_same(problem):
+def test_a_neighbour_differs_in_g_alone_by_one_percent_at_most(problem):
     near = neighbour(problem.form, problem.id)
     assert near.H is problem.form.H
     assert near.A is problem.form.A
@@ -138,5 +138,5 @@ def test_a_neighbour_differs_in_g_alone_by_a_hundredth_at_most_and_always_the_sa
     np.testing.assert_array_equal(near.g, neighbour(problem.form, problem.id).g)
 
 
-def test_the_slabs_gaps_are_never_negative_so_that_standing_still_is_allowed():
+def test_the_slabs_gaps_are_never_negative():
     assert min(slab(seed).step.contacts.phi.min() for seed in range(5)) >= 0

@@ -2,6 +2,7 @@
 
 import functools
 import importlib
+import json
 import sys
 import tomllib
 from pathlib import Path
@@ -74,3 +75,27 @@ def planted_bugs():
     """The mistakes that are put into the runners; not to be changed."""
     text = (ROOT / "validation" / "planted" / "bugs.toml").read_text(encoding="utf-8")
     return {bug["name"]: bug for bug in tomllib.loads(text)["bug"]}
+
+
+def answer_file(folder, layer, outputs, **head):
+    """Write a file of answers, by id; `head` replaces fields of its head."""
+    top = {
+        "format": "quasistatic-ref/vectors-answers",
+        "version": 1,
+        "layer": layer,
+        "implementation": "test 0.1",
+        "answers": [{"id": name, "output": output} for name, output in outputs.items()],
+        **head,
+    }
+    path = folder / f"{layer}.json"
+    path.write_text(json.dumps(top))
+    return path
+
+
+LIGHT = ("selection", "rows", "wrench")
+"""Layers that are checked in no time."""
+
+
+def by_layer(report):
+    """What a report says of each layer."""
+    return {layer.layer: layer for layer in report.layers}

@@ -40,7 +40,7 @@ def minus(case, q, other):
 
 
 def q_next(case):
-    """Configuration after a step of the runner, with a generalised force in ``tau`` besides."""
+    """Configuration after a step of the runner, with an additional generalised force in ``tau``."""
     right = runner().masses
 
     def loaded(case, at, n_a, n_v):

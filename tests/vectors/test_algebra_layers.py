@@ -78,7 +78,7 @@ def test_wrenches_are_sums_of_lam_over_h_and_act_at_beta_and_alpha():
     assert wrench.own(case)["net"]["b"] == on_b
 
 
-def test_the_multipliers_are_those_of_the_run_that_adds_the_first_violated_row():
+def test_the_multipliers_are_those_of_adding_the_first_violated_row():
     # x >= 0 is there three times; lam_i a_i = 1 in all: the first row of the three carries it.
     case = {"H": [[1.0]], "g": [-1.0], "A": [[2.0], [1.0], [4.0]], "b": [0.0, 0.0, 0.0]}
     answer = qp.expected(case)
@@ -143,7 +143,7 @@ def test_fractions_are_rounded_to_even_and_never_to_minus_zero():
     assert digits(x=exact(np.zeros(201))) == {}
 
 
-def test_a_body_held_fast_is_asked_for_eight_roundings_of_the_step_it_would_make():
+def test_a_body_held_fast_is_right_to_eight_roundings_of_its_free_step():
     # H = 100: ||H^-1 g||_H = |g| / 10, an entry of x is off by a tenth of the error in that norm,
     # one of A'lam by ten times it, and the rows (+-1/2, 1) by sqrt(5/4) as much as x.
     case = {

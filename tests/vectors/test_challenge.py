@@ -118,7 +118,7 @@ def test_shrinking_ends_where_no_single_move_fails_any_more():
     assert np.count_nonzero(small["contacts"][0]["J"]) == 1
 
 
-def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, capsys):
+def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
     out, asked = tmp_path / "found", command("wrong", tmp_path)
     given = ["vectors", "challenge", "--command", asked, "--layer", "selection", "--cases", "6"]
     assert main([*given, "--out", str(out), "--quiet"]) == 1
@@ -210,7 +210,7 @@ def test_a_planted_bug_is_found_named_and_small(name, bug):
     assert np.median(planted_bugs.digits(small)) <= 3
 
 
-def test_the_committed_table_of_planted_bugs_is_of_these_bugs_and_keeps_its_promises():
+def test_the_committed_table_of_planted_bugs_keeps_its_promises():
     rows = [row.strip("| ").split(" | ") for row in TABLE.read_text().splitlines() if "| " in row]
     rows = [row for row in rows if row[0] in planted_bugs.COMMANDS]
     names = [bug["name"] for bug in planted_bugs.bugs()]
@@ -225,7 +225,7 @@ def test_the_committed_table_of_planted_bugs_is_of_these_bugs_and_keeps_its_prom
     assert np.median([float(row[7]) for row in rows]) <= 3
 
 
-def test_the_committed_challenges_are_of_20_000_cases_each_and_found_nothing():
+def test_the_committed_challenges_of_20_000_cases_found_nothing():
     page = CHALLENGES.read_text()
     rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.count(" | ") == 7]
     for name in planted_bugs.COMMANDS:

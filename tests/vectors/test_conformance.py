@@ -83,7 +83,7 @@ def test_all_layers_passed_are_said_as_all_and_counted(whole):
     assert [layer["passed"] + layer["acceptable"] for layer in record["layers"]] == [*SIZE.values()]
 
 
-def test_layers_that_are_not_answered_are_not_in_the_badge_and_said_on_the_page(two):
+def test_layers_without_answers_are_on_the_page_and_not_in_the_badge(two):
     found, files = two
     assert found.message.startswith(f"2 of 9 layers: rows {SIZE['rows']}/{SIZE['rows']}, wrench ")
     silent = ", ".join(name for name in LAYERS if name not in ("rows", "wrench"))
@@ -117,7 +117,7 @@ def test_answers_in_part_are_not_counted_as_passed(tmp_path):
     assert "nothing is said of contacts, delta_q" in files["report.md"]
 
 
-def test_fewer_digits_are_in_the_badge_where_they_were_needed_and_only_there(tmp_path):
+def test_fewer_digits_are_in_the_badge_only_where_they_were_needed(tmp_path):
     def rounded(layer, output):  # as a program in float32 does; `integrate` is answered in float64
         return {k: np.float32(v).tolist() for k, v in output.items()} if layer == "rows" else output
 
@@ -220,7 +220,7 @@ def test_the_histogram_counts_each_answer_that_is_compared_once(two):
     )
 
 
-def test_freedoms_that_were_used_and_conventions_that_were_declared_are_said(whole, tmp_path):
+def test_used_freedoms_and_declared_conventions_are_on_the_page(whole, tmp_path):
     _, files = whole
     assert "Every answer that is right is the expected one." in files["report.md"]
     answers = answered(tmp_path / "answers", ["integrate"])
@@ -242,7 +242,7 @@ def test_layers_that_name_two_programs_are_said_to_be_of_both(tmp_path):
     assert "| name in the answers to selection | an other |" in page.read_text()
 
 
-def test_the_command_says_what_was_passed_and_ends_with_the_status_of_the_check(tmp_path, capsys):
+def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, capsys):
     answers, out = answered(tmp_path / "answers", ["selection"]), tmp_path / "out"
     given = ["vectors", "report", str(answers), "--out", str(out)]
     assert main([*given, "--implementation", "other 2"]) == 0

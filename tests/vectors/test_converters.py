@@ -20,7 +20,7 @@ def test_answers_in_another_tangent_space_are_converted_if_they_say_so(layer, ta
 
 
 @pytest.mark.parametrize(("layer", "field"), [("integrate", "q"), ("step", "q_next")])
-def test_quaternions_in_the_other_order_are_converted_if_the_answers_say_so(layer, field):
+def test_quaternions_in_the_declared_order_are_converted(layer, field):
     answers = {}
     for case in small_cases(layer):
         answer = right_answers(layer)[case.id]

@@ -143,7 +143,7 @@ def test_tangents_that_jump_are_turned_back_to_a_contact_s_own():
                 assert max(abs(x - y) for x, y in zip(row, was, strict=True)) < 2 * STEP
 
 
-def test_a_contact_that_another_candidate_replaces_is_compared_with_nothing():
+def test_a_contact_that_is_replaced_is_compared_with_nothing():
     one = step_of(squeezed(0.25, 0.5, 1.0))
     found = along(one, way(Y), [fmpq(0)] * 6)
     assert dependence_breaks(one, [found])

@@ -1,4 +1,4 @@
-"""Phenomena that engines are asked: data by their formulas, answers judged, committed results."""
+"""Phenomena for engines: data by their formulas, answers judged, committed results."""
 
 import json
 import math

@@ -22,7 +22,7 @@ from tests.vectors.material import ROOT, VECTORS, cases, expected
 MEBIBYTES = 25
 """Promised size of the folder."""
 SAMPLE = 4
-"""Cases of each layer that are computed anew: the first, the last and those between."""
+"""Cases of each layer that are computed again: the first, the last and those between."""
 
 
 def schema(name):
@@ -159,7 +159,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
     assert {name: reason for name, reason in refused.items() if reason} == {}
 
 
-def test_generating_twice_gives_identical_bytes_and_generating_in_place_too(tmp_path):
+def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     for layer in LAYERS:
         few = sorted(cases(layer), key=lambda case: len(line(case.json)))[:3]
         text_written(tmp_path / "a" / "inputs" / f"{layer}.json", inputs_text(layer, few))

@@ -149,7 +149,7 @@ def boxes_face_to_face():
     [
         ({}, "passed"),
         ({"alpha": [0.5, 0.3, -0.4], "beta": [1.5, 0.3, -0.4]}, "acceptable"),
-        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # beside alpha's box
+        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # outside of alpha's box
         ({"alpha": [0.4, 0.0, 0.0], "beta": [1.4, 0.0, 0.0]}, "failed"),  # inside it
         ({"beta": [1.5, 0.1, 0.0]}, "failed"),  # not opposite
         ({"n": [0.0, 1.0, 0.0]}, "failed"),
@@ -164,7 +164,7 @@ def test_another_witness_has_to_prove_the_distance(changes, verdict):
     assert case_verdict("distance", case, wanted, answer).verdict == verdict
 
 
-def test_near_a_unique_witness_there_is_no_other_but_far_from_it_there_may_be():
+def test_near_a_unique_witness_there_is_no_other():
     # Unique is said of exact numbers: a face that is parallel but for 1e-18 has one nearest corner.
     case, wanted = boxes_face_to_face()
     wanted["flags"]["unique"] = True

@@ -47,7 +47,7 @@ def test_a_program_that_is_right_is_left_alone(name, tmp_path):
         ("holds one answer back", "hang", "no answer within"),
         ("prints what is no text", "stray", "which is no JSON object on a line"),
         ("closes its output", "crash", "closed its output"),
-        ("answers out of order", "stray", "answered 'selection/another', which was not asked"),
+        ("answers out of order", "stray", "answered 'selection/another', which was not sent"),
         ("refuses", "error", "not today"),
         ("answers neither", "garbage", "an answer has output, error or unsupported"),
         ("wrong", "wrong", "indices"),
@@ -85,7 +85,7 @@ def test_a_layer_that_does_not_come_back_is_given_up(tmp_path):
     found = outcome("does not read", tmp_path)
     assert kinds(found) == {"hang"}
     assert found.asked["selection"] == GIVEN_UP
-    assert "selection was asked no longer: 3 cases came to no answer in time" in found.remarks
+    assert "selection got no further cases: 3 cases came to no answer in time" in found.remarks
 
 
 def test_a_flood_of_errors_holds_nothing_up_and_is_said(tmp_path):
@@ -108,7 +108,7 @@ def test_a_program_that_supports_nothing_is_asked_no_further(tmp_path):
     assert found.status == 0
 
 
-def test_layers_that_it_does_not_declare_are_not_asked_and_said_not_to_be_supported(tmp_path):
+def test_layers_that_a_program_does_not_declare_are_unsupported(tmp_path):
     program = Program(command("declares another layer", tmp_path))
     found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
     assert (found.findings, +found.asked) == ([], {"selection": 12})

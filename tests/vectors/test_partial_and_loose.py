@@ -1,4 +1,4 @@
-"""Answers in part, right to fewer digits, in another order; and what the checker is asked for."""
+"""Answers in part, right to fewer digits, in another order; and the checker's options."""
 
 import copy
 import json
@@ -105,7 +105,7 @@ def in_float32(value):
 
 
 @pytest.mark.parametrize("layer", LAYERS)
-def test_what_is_rounded_to_float32_is_right_to_six_digits_and_not_to_twelve(layer):
+def test_float32_is_right_to_six_digits_and_not_to_twelve(layer):
     # float32 rounds to 2^-24 = 6e-8 of a number: that is below 1e-6 and above 1e-12.
     inexact = 0
     for case in cases(layer):

@@ -1,11 +1,5 @@
-"""Bugs planted in a simulator that works: the checker names the layer and the mistake.
+"""Bugs planted in a simulator that works: the checker names the layer and the mistake."""
 
-The simulator is the NumPy runner, which shares no code with the package; the bugs are in its
-inputs, its functions or its outputs, written without a look at how mistakes are recognised.
-"""
-
-import copy
-import functools
 import sys
 import types
 
@@ -20,136 +14,29 @@ from tests.vectors.material import (
     report_on,
     right_answers,
     runner,
-    runner_answers,
     small_cases,
 )
-
-
-def each_contact(case, **changes):
-    """A case with numbers of every contact, or of every pair of a step, changed."""
-    case = copy.deepcopy(case)
-    for contact in case["contacts"] if "contacts" in case else case["pairs"]:
-        for name, change in changes.items():
-            contact[name] = change(contact)
-    return case
-
-
-@functools.cache
-def right_answers_of_runner(layer):
-    return runner_answers(layer)
-
-
-def outputs_changed(change):
-    def answers(layer, monkeypatch):
-        return {
-            name: change(copy.deepcopy(v)) for name, v in right_answers_of_runner(layer).items()
-        }
-
-    return answers
-
-
-def inputs_changed(change):
-    return lambda layer, monkeypatch: runner_answers(layer, change)
-
-
-def patched(module, name, replacement):
-    """A function of the runner replaced; `replacement` receives the one that was right."""
-
-    def answers(layer, monkeypatch):
-        right = getattr(runner(module), name)
-        for place in ("numpy_runner", "runner_mechanism", "runner_distance", "runner_qp"):
-            if hasattr(runner(place), name):
-                monkeypatch.setattr(runner(place), name, replacement(right))
-        return runner_answers(layer)
-
-    return answers
-
-
-def negative(*names):
-    def change(output):
-        return {
-            name: (-np.array(v)).tolist() if name in names and not isinstance(v, dict) else v
-            for name, v in output.items()
-        }
-
-    return outputs_changed(change)
-
-
-def multiplied(factor, *names):
-    def change(output):
-        return {
-            name: (factor * np.array(v)).tolist() if name in names else v
-            for name, v in output.items()
-        }
-
-    return outputs_changed(change)
-
-
-def world_twists(right):
-    """Kinematics whose floating bases move along the world's axes."""
-
-    def kinematics(mechanism, q):
-        found = right(mechanism, q)
-        at, _, _ = runner("runner_mechanism").slices(mechanism)
-        for body in mechanism["bodies"]:
-            if body["joint"] == "floating":
-                columns, R = at[body["name"]][1], found[body["name"]][0]
-                for _, _, J in found.values():
-                    J[:, columns] = J[:, columns] @ np.kron(np.eye(2), R.T)
-        return found
-
-    return kinematics
-
-
-def world_moves(right):
-    """(+) that takes a floating base's delta_q along the world's axes."""
-
-    def moved(body, q, d):
-        if body["joint"] == "floating":
-            R = runner("runner_mechanism").rotation(q[3:])
-            d = np.concatenate([R.T @ d[:3], R.T @ d[3:]])
-        return right(body, q, d)
-
-    return moved
-
-
-def straight_moves(right):
-    """(+) that moves a floating base by R v instead of along a screw."""
-
-    def moved(body, q, d):
-        found = right(body, q, d)
-        if body["joint"] == "floating":
-            found[:3] = q[:3] + runner("runner_mechanism").rotation(q[3:]) @ d[:3]
-        return found
-
-    return moved
-
-
-def interleaved(right):
-    """Rows in the order +d1 -d1 +d2 -d2 +spin -spin."""
-
-    def cone_table(cone, rows):
-        table = right(cone, rows)
-        return table[[0, 2, 1, 3, 4, 5][: len(table)]] if cone == "pyramid" else table
-
-    return cone_table
-
-
-def wrong_order(right):
-    """A rotation that takes its quaternion for [w, x, y, z]."""
-    return lambda quaternion: right([*quaternion[1:], quaternion[0]])
-
-
-def torsion_forgotten(output):
-    return {"wrench": [[*w[:3], 0.0] for w in output["wrench"]], "net": output["net"]}
-
-
-def unsigned_contacts(output):
-    contacts = [{**c, "phi": abs(c["phi"])} for c in output["contacts"]]
-    return {**output, "contacts": contacts}
-
+from tests.vectors.runner_faults import (
+    each_contact,
+    inputs_changed,
+    interleaved,
+    jacobians_read_by_columns,
+    mu_omega_times_mu_v,
+    multiplied,
+    negative,
+    normals_reversed,
+    outputs_changed,
+    patched,
+    straight_moves,
+    torsion_forgotten,
+    unsigned_contacts,
+    world_moves,
+    world_twists,
+    wrong_order,
+)
 
 FAULTS = {
+    # fault: (layer, how the runner is made wrong, mistake that is to be named)
     "distance: n from beta to alpha": ("distance", negative("n"), "normals reversed"),
     "distance: |phi|": (
         "distance",
@@ -184,7 +71,7 @@ FAULTS = {
     "jacobian: alpha relative to beta": ("jacobian", negative("J"), "alpha and beta swapped"),
     "jacobian: spin about -n": (
         "jacobian",
-        inputs_changed(lambda c: each_contact(c, n=lambda k: [-x for x in k["n"]])),
+        inputs_changed(normals_reversed),
         "spin sign",
     ),
     "jacobian: no spin": (
@@ -204,12 +91,12 @@ FAULTS = {
     ),
     "rows: mu_omega mu_v": (
         "rows",
-        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        inputs_changed(mu_omega_times_mu_v),
         "mu_omega multiplied by mu_v",
     ),
     "rows: n reversed": (
         "rows",
-        inputs_changed(lambda c: each_contact(c, n=lambda k: [-x for x in k["n"]])),
+        inputs_changed(normals_reversed),
         "normals reversed",
     ),
     "rows: |phi|": (
@@ -231,11 +118,7 @@ FAULTS = {
     ),
     "rows: J read by columns": (
         "rows",
-        inputs_changed(
-            lambda c: each_contact(
-                c, J=lambda k: np.reshape(k["J"], np.shape(k["J"])[::-1]).T.tolist()
-            )
-        ),
+        inputs_changed(jacobians_read_by_columns),
         "J transposed",
     ),
     "qp: lam <= 0": ("qp", negative("lam", "A_lam"), "sign of the contact term"),
@@ -248,7 +131,7 @@ FAULTS = {
     ),
     "wrench: mu_omega mu_v": (
         "wrench",
-        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        inputs_changed(mu_omega_times_mu_v),
         "mu_omega multiplied by mu_v",
     ),
     "wrench: no torque": ("wrench", outputs_changed(torsion_forgotten), "torsion rows missing"),
@@ -274,7 +157,7 @@ FAULTS = {
     ),
     "step: mu_omega mu_v": (
         "step",
-        inputs_changed(lambda c: each_contact(c, mu_omega=lambda k: k["mu_omega"] * k["mu_v"])),
+        inputs_changed(mu_omega_times_mu_v),
         "mu_omega multiplied by mu_v",
     ),
     "step: twists in the world": (

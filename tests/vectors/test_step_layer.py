@@ -42,7 +42,7 @@ def test_no_motion_is_exactly_zero():
     assert rounded(lambda: difference(tree, q, q, actuated=False))[0] == [0.0] * 10
 
 
-def test_a_box_on_a_floor_keeps_its_lower_corners_in_the_order_of_their_index():
+def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
     pose = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.01, 0.02, 0.0, 1.0]}
     found = chosen(FLOOR, BOX, HERE, pose, 4)
     assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]  # z < 0; x first
@@ -50,7 +50,7 @@ def test_a_box_on_a_floor_keeps_its_lower_corners_in_the_order_of_their_index():
     assert found.unique
 
 
-def test_a_closest_pair_between_corners_that_are_as_near_but_for_rounding_comes_after_them():
+def test_a_closest_pair_comes_after_corners_that_are_as_near():
     nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
     found = chosen(FLOOR, BOX, HERE, nearly_level, 4)  # the lower edge is 4e-11 m nearer
     assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
@@ -66,7 +66,7 @@ def test_where_rounding_decides_what_is_kept_it_is_said():
     assert chosen(FLOOR, BOX, HERE, tilted, 3).clear is False
 
 
-def test_a_solid_whose_corners_depend_on_the_other_is_refused_for_more_than_one_contact():
+def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
     with pytest.raises(InputError, match="use k = 1"):
         chosen(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, HERE, HERE, 2)
 

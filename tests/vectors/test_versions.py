@@ -46,7 +46,7 @@ def test_the_version_is_the_same_wherever_it_is_said():
     assert "\ntype: dataset\n" in citation
 
 
-def test_a_version_that_is_frozen_has_every_layer_and_the_present_one_is_the_last():
+def test_a_frozen_version_has_every_layer_and_the_last_is_the_present():
     known = tomllib.loads((ROOT / "quasistatic_ref/lab/vectors/versions.toml").read_text())
     assert all(set(layers) == set(LAYERS) for layers in known.values())
     assert max(map(int, known)) == RELEASE
@@ -72,7 +72,7 @@ def test_vectors_of_no_version_and_of_one_that_is_not_known_are_changed(copy):
     assert edition(copy).name == "quasi-dynamic vectors of no version"
 
 
-def test_the_archive_has_the_same_bytes_whatever_the_files_times_and_modes_are(copy, tmp_path):
+def test_the_archive_s_bytes_do_not_depend_on_times_and_modes(copy, tmp_path):
     path, code = packed(VECTORS, tmp_path / "one")
     for file in copy.rglob("*.json"):
         os.utime(file, (1e9, 1e9))

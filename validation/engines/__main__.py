@@ -5,12 +5,12 @@ temporary folder (``--environments`` keeps them in a folder of yours, and takes 
 its adapter for the layers of the reference vectors and for the phenomena, writes
 ``results/NAME.json`` in the folder ``--out`` (this one unless it is said), and runs the engine's
 reproductions in its environment. At the end the two tables, layers.md and phenomena.md, are written
-anew from all results that are there.
+again from all results that are there.
 
-Settings that are blamed for a red cell are changed, and the cell asked again (``tried``). It takes
-an hour on two busy cores, seven minutes of it computing, and three gigabytes. Exit status 1 if a
-red cell has no reproduction, or one that does not print the cell's number, or if a reproduction
-ended with an error.
+Settings that are named as causes of a red cell are changed, and the cell is measured again
+(``tried``). It takes an hour on two busy cores, seven minutes of it computing, and three
+gigabytes. Exit status 1 if a red cell has no reproduction, or one that does not print the cell's
+number, or if a reproduction ended with an error.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""How an adapter is asked: one JSON object a line in, one a line out. Needs NumPy alone.
+"""How an adapter is called: one JSON object a line in, one a line out. Needs NumPy alone.
 
 An adapter runs in its engine's own environment, where this package is not. It ends in
 ``answer(name, layers)``: the layers of the reference vectors that it answers, and ``phenomena``,
 whose question is a scene and a setting (docs/engines.md) and whose answer is where the bodies are
-at the times asked.
+at the scene's times.
 """
 
 from __future__ import annotations

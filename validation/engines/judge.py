@@ -1,4 +1,4 @@
-"""One engine judged: its environment made, its adapter asked for layers and phenomena."""
+"""One engine judged: its environment made, its adapter called for layers and phenomena."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ENGINES: dict[str, dict[str, Any]] = tomllib.loads((HERE / "engines.toml").read_
 TIMEOUT = 600.0
 """For one scene or case [s]: Newton compiles its kernels at the first."""
 HEAPS = 12
-"""Heaps of bodies whose rows MuJoCo is asked for."""
+"""Heaps of bodies whose rows MuJoCo makes."""
 
 
 def python_of(name: str, folder: Path) -> str:

@@ -1,4 +1,4 @@
-"""Phenomena that any engine can be asked through its own simulation, and what answers are worth.
+"""Phenomena that test any engine by its own simulation, and what its answers are worth.
 
 ``phenomena.toml`` has scenes, loads and what is expected, as plain data. An engine is a function of
 a scene that returns poses; :func:`cells` asks it everything. To ask your own, write such a
@@ -59,7 +59,7 @@ def scenes(phenomenon: dict[str, Any]) -> Iterator[tuple[float, dict[str, Any]]]
 
 
 def cells(simulate: Simulate, h: float, names: Collection[str] = ()) -> Iterator[Cell]:
-    """Every phenomenon, or those named, asked of an engine that takes steps of h [s]."""
+    """Every phenomenon, or those named, of an engine that takes steps of h [s]."""
     for name in names or PHENOMENA:
         phenomenon = PHENOMENA[name]
         xs, runs = [], []
@@ -180,7 +180,7 @@ def main() -> int:
     """Ask a program, and print what it answered; exit status 1 if a cell differs."""
     from quasistatic_ref.lab.vectors.challenge.program import Program
 
-    parser = argparse.ArgumentParser(description="Phenomena, asked of a program.")
+    parser = argparse.ArgumentParser(description="Phenomena, sent to a program.")
     parser.add_argument("--command", required=True)
     parser.add_argument("--h", type=float, default=0.001, help="its time step [s]")
     parser.add_argument("--timeout", type=float, default=600.0, help="for one scene [s]")

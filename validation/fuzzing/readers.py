@@ -68,7 +68,7 @@ are random, so that no failure is no proof.
 
 
 def readers(folder: Path) -> dict[str, Reader]:
-    """Every reader by name; what their files need beside them is written into the folder."""
+    """Every reader by name; what their files need is written into the folder."""
     return {
         **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(folder),
         **_stores(folder), **_studies(),

@@ -92,7 +92,7 @@ def outcome_of(read: Callable[[Path], object], path: Path) -> tuple[str, str]:
 
 
 def peak() -> float:
-    """Most memory of this process since it was asked before [MiB]."""
+    """Most memory of this process since the call before [MiB]."""
     status = Path("/proc/self/status").read_text()
     most = next(line for line in status.splitlines() if line.startswith("VmHWM"))
     Path("/proc/self/clear_refs").write_text("5")

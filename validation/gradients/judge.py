@@ -101,7 +101,7 @@ def _can_move(state: State, field: str) -> np.ndarray:
 
 
 def _directions(rng: np.random.Generator, known: np.ndarray, every_column: bool) -> list[Array]:
-    """Two random directions of the columns that are known; or each of the columns besides."""
+    """Two random directions of the columns that are known; or each of the other columns."""
     if not known.any():
         return []
     found = [np.eye(len(known))[j] for j in np.flatnonzero(known)] if every_column else []

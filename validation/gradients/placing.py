@@ -67,7 +67,7 @@ class Kink:
     simulator : Simulator
     q, q_bar_a, force : ndarray
     also : frozenset of str
-        Names that the verdict may have besides, as the same place is a kink for them too.
+        Names that the verdict may have as well, as the same place is a kink for them too.
     where : frozenset of str
         Pairs that the verdict names, or a joint.
     """

@@ -45,6 +45,7 @@ FORGED = (
     "properties/test_forgeries.py",
 )
 ENCLOSED = (
+    "unit/certify/test_interior.py",
     "unit/certify/test_newton.py",
     "unit/certify/test_enclosure.py",
     "unit/solve/test_native.py",
@@ -59,6 +60,7 @@ SOLIDS = (
     "unit/contact/test_distance.py",
     "unit/contact/test_curved_pairs.py",
 )
+LARGE = ("unit/certify/test_sparse_bound.py", "unit/certify/test_bound_formulas.py")
 SPARSE = ("unit/step/test_sparse.py", "unit/solve/test_solver.py")
 CLOUDS = ("unit/model/test_clouds.py", "unit/model/test_meshes.py")
 SCENES = (
@@ -123,23 +125,29 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/exact_step.py": ordered("farkas"),
     "certify/confirm.py": ("unit/certify/test_confirm.py",),
     "certify/bound.py": ("unit/certify/test_bound.py", *FORGED),
-    "certify/rounded_bound.py": ("unit/certify/test_rounded_bound.py",),
+    "certify/rounded_bound.py": (
+        "unit/certify/test_rounded_bound.py",
+        "unit/certify/test_bound_formulas.py",
+    ),
     "certify/exchange.py": ("unit/certify/test_exchange.py",),
-    "certify/least_eigenvalues.py": ("unit/certify/test_sparse_bound.py",),
-    "certify/opening.py": ("unit/certify/test_sparse_bound.py",),
-    "certify/outward.py": ("unit/certify/test_sparse_bound.py", "unit/certify/test_sizes.py"),
-    "certify/sizes.py": ("unit/certify/test_sizes.py", "unit/certify/test_sparse_bound.py"),
-    "certify/sparse_bound.py": ("unit/certify/test_sparse_bound.py",),
+    "certify/least_eigenvalues.py": LARGE,
+    "certify/opening.py": LARGE,
+    "certify/outward.py": ("unit/certify/test_sizes.py", *LARGE),
+    "certify/sizes.py": ("unit/certify/test_sizes.py", *LARGE),
+    "certify/sparse_bound.py": LARGE,
     "certify/gap.py": ("unit/certify/test_gap.py", *FORGED),
     "certify/impulses.py": ("unit/certify/test_impulses.py", *FORGED),
     "certify/judged.py": ("unit/certify/test_judged.py", *FORGED),
-    "certify/ellipsoid.py": FORGED,
-    "certify/apex.py": FORGED,
-    "certify/conic.py": FORGED,
+    "certify/ellipsoid.py": ("unit/certify/test_apex.py", *FORGED),
+    "certify/apex.py": ("unit/certify/test_apex.py", *FORGED),
+    "certify/conic.py": ("unit/certify/test_conic.py", *FORGED),
     "certify/verdict.py": ("unit/certify/test_certificate.py", *FORGED),
     "certify/warm.py": ("unit/certify/test_warm.py", *EXACT),
-    "certify/sensitivity.py": ("unit/certify/test_sensitivity.py",),
-    "certify/parameters.py": ("unit/certify/test_sensitivity.py",),
+    "certify/sensitivity.py": (
+        "unit/certify/test_sensitivity.py",
+        "unit/certify/test_obstacles.py",
+    ),
+    "certify/parameters.py": ("unit/certify/test_sensitivity.py", "unit/certify/test_obstacles.py"),
     "certify/rows.py": ("unit/certify/test_certificate.py", "unit/certify/test_farkas.py"),
     "certify/farkas.py": ("unit/certify/test_farkas.py",),
     "certify/certificate.py": ordered("certificate"),
@@ -228,6 +236,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/sparse.py": (*SPARSE, "unit/certify/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
     "solve/through_qpsolvers.py": SOLVED,
+    "solve/uncertified.py": (*SOLVED, "unit/certify/test_rounded_bound.py"),
     "solve/units.py": ("unit/solve/test_units.py", *SOLVERS),
     "step/arrays.py": DATA,
     "step/blocks.py": SPARSE,

@@ -115,5 +115,5 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
     print("\nMeasured pushes, predicted:")
     shared.print_rows(error_rows(record))
     print(certified_words(record))
-    print(f"wrote {file}, {summary} and reality.csv beside them")
+    print(f"wrote {file}, {summary} and reality.csv next to them")
     return 0 if good else 1

@@ -43,7 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
-        "--jobs", type=int, metavar="N", help="solvers asked at once (default: all cores)"
+        "--jobs", type=int, metavar="N", help="solvers called at once (default: all cores)"
     )
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
@@ -70,7 +70,7 @@ def _studies() -> list[str]:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Do what was asked for."""
+    """Run the action that was named."""
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
         "export": _export,

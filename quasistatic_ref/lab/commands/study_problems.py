@@ -50,7 +50,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run_problems(options: argparse.Namespace) -> int:
-    """Do what was asked for."""
+    """Run the action that was named."""
     runs = {"list": _list, "export": _export, "check": _check, "make": _make}
     return runs[options.problems](options)
 

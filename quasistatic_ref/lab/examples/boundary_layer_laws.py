@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
-from quasistatic_ref.lab.validate.measures import slope
+from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.validate.paper.boundary_layer import LIMIT, layer_at_rate, layer_at_torque
 from quasistatic_ref.step.data import Array
 

@@ -16,9 +16,9 @@ from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
-from quasistatic_ref.lab.validate.measures import threshold
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 

@@ -14,8 +14,8 @@ from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.rigid import sphere_step
-from quasistatic_ref.lab.validate.measures import threshold
 from quasistatic_ref.solve.solve import solve_step
 
 MU_V, MU_OMEGA, H = 0.5, 0.02, 0.01

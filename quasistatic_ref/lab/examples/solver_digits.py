@@ -1,6 +1,6 @@
 """What "optimal" is worth: correct digits of solvers on steps whose exact answer is known.
 
-Every solver reports success at every one of these steps, at every accuracy asked for. The certified
+Every solver reports success at every one of these steps, at every accuracy. The certified
 optimum of each step says how many digits of the answer are right. docs/exactness.md has the same
 for all 600 steps, and for problems that are not written in natural units.
 """
@@ -20,7 +20,7 @@ from quasistatic_ref.solve.solve import solve_step
 BACKENDS = ("clarabel", "osqp", "piqp")
 ACCURACIES = ("1e-3", "1e-6", "1e-9", "1e-12")
 EVERY = 25
-"""Which steps of the grasp are asked."""
+"""Which steps of the grasp are solved."""
 
 
 @cache
@@ -49,7 +49,7 @@ def main() -> Numbers:
 def figure(
     ax: Any = None, *, backends: Sequence[str] = BACKENDS, accuracies: Sequence[str] = ACCURACIES
 ) -> Figure:
-    """Digits against the accuracy asked for.
+    """Digits against the accuracy of the call.
 
     Parameters
     ----------

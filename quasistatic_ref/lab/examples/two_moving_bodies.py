@@ -1,6 +1,6 @@
 """Two bodies that move: J is that of beta's body less that of alpha's.
 
-A ball on springs beside a free box. What a contact feels is how its point beta moves relative to
+A ball on springs next to a free box. What a contact feels is how its point beta moves relative to
 its point alpha, Eq. (2), so the columns of alpha's body bear a minus. A motion of both as one body
 changes neither their distance nor their spin; along the surface alpha and beta then move apart by
 phi w x n, because they are two points.

@@ -1,4 +1,4 @@
-"""Correct digits of backends against the accuracy that they were asked for."""
+"""Correct digits of backends against the accuracy of the call."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The pictures of a report, drawn: as PNG beside a page and as SVG inside one."""
+"""The pictures of a report, drawn: as PNG next to a page and as SVG inside one."""
 
 from collections.abc import Callable, Mapping
 from io import BytesIO

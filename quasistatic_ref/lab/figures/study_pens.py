@@ -1,4 +1,4 @@
-"""Lines for many solvers, told apart by dashes and marks, in colour and without."""
+"""Lines for many solvers, distinguished by dashes and marks, in colour and without."""
 
 from collections.abc import Sequence
 from typing import Any, Final

@@ -115,7 +115,7 @@ def _duration(microseconds: float) -> str:
 
 
 def sliding_threshold(picture: Picture, within: Any = None) -> Figure:
-    """Least force that moves a point, by direction: the pyramid beside Coulomb's circle."""
+    """Least force that moves a point, by direction: the pyramid and Coulomb's circle."""
     figure, (axes,) = panels(4.6, 2.8, within=within)
     degrees = np.degrees(picture["angles"])
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")

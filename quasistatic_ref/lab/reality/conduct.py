@@ -1,6 +1,6 @@
 """Many pushes predicted in parallel, each kept in a file as soon as it is known.
 
-The file has a first line that says what was asked, and one line a push. A run that was ended goes
+The file has a first line with the settings, and one line a push. A run that was ended goes
 on from there; a last line that was cut off is dropped.
 """
 
@@ -177,12 +177,12 @@ def rows_read(path: Path) -> tuple[Row, dict[tuple[str, int], Row]]:
 
 def _begun(path: Path, header: Row) -> dict[tuple[str, int], Row]:
     """Rows that are there; the file, without a torn last line, is there after this."""
-    asked = json.loads(json_text(header))
+    settings = json.loads(json_text(header))
     if not path.exists():
         text_written(path, json_text(header) + "\n")
         return {}
     there, found = rows_read(path)
-    if there != asked:
+    if there != settings:
         problem = "holds predictions that were made with other settings; choose another folder "
         raise InputError(f"{problem}with --out, or remove it", file=path)
     text_written(path, "".join(json_text(row) + "\n" for row in (header, *found.values())))

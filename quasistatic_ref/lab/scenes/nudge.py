@@ -34,7 +34,7 @@ def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator,
 
 
 def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
-    """A ball at the origin and a finger beside it, at some x and y [m]; q has shape (14,).
+    """A ball at the origin and a finger next to it, at some x and y [m]; q has shape (14,).
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ def continued(there: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, A
     -------
     dict
         `asked`, with the settings, versions and machine of the rows that are there; ``removed``
-        names the solvers that had rows and are no longer asked.
+        names the solvers that had rows and are no longer in the study.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def _named(solvers: Any, like: Mapping[str, Any]) -> Mapping[str, Any] | None:
 
 
 def _same_solver(old: Mapping[str, Any] | None, new: Mapping[str, Any]) -> dict[str, Any]:
-    """A solver with the options of every setting that it was ever asked at."""
+    """A solver with the options of every setting that it was ever called with."""
     if old is None:
         return dict(new)
     shared = {name: options for name, options in new["options"].items() if name in old["options"]}

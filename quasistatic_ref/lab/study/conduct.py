@@ -1,4 +1,4 @@
-"""Who is asked when: all solvers on one problem before the next, one process a solver.
+"""Which solver is called when: all solvers on one problem before the next, one process a solver.
 
 The same loop serves the cores of this machine and a Dask cluster: both are executors that take
 blocks of measurements and give back rows. There is never more than one block of a solver under way.

@@ -1,6 +1,6 @@
 """A reply against the truth: correct digits, residuals, and whether its claim holds.
 
-Everything is measured in natural units, whichever units the solver was asked in: the conversion is
+Everything is measured in natural units, whichever units the solver was called in: the conversion is
 lossless, and digits, which are relative, do not notice.
 """
 
@@ -168,7 +168,7 @@ def _digits_of(size: float, paper: Exam, bound: float) -> float:
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:
-    """Primal and dual residual and duality gap, as qpbenchmark defines them, in units as asked."""
+    """Primal and dual residual and duality gap, defined as in qpbenchmark, in the call's units."""
     slack = form.A @ x - form.b
     primal = float(np.maximum(-slack, 0.0).max(initial=0.0))
     if lam is None:

@@ -31,7 +31,7 @@ from quasistatic_ref.lab.study.statistics import (
 from quasistatic_ref.solve.backends import BACKENDS
 
 WANTED = (6.0, 3.0, 9.0, 12.0)
-"""Digits to which times are told; the first are those that a simulator's step should have."""
+"""Digits for which times are given; the first are those that a simulator's step should have."""
 LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
 """Options that are not advice."""
 
@@ -73,7 +73,7 @@ def soonest(
 ) -> list[Soonest]:
     """Each solver at the setting that delivers so many digits soonest, the fastest first.
 
-    All are compared on the same problems, at every setting that each was asked at.
+    All are compared on the same problems, at every setting that each was called with.
 
     Parameters
     ----------

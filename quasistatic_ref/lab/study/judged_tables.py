@@ -44,12 +44,12 @@ def failing_clocks(columns: Columns) -> list[Block]:
     """Memory of every solver, and whose clock was not borne out by the keeper's."""
     rows = []
     for (label,), part in groups(columns, ["label"]):
-        told = part["memory"][np.isfinite(part["memory"])]
+        known = part["memory"][np.isfinite(part["memory"])]
         warm = part["warm_up"][np.isfinite(part["warm_up"])]
-        if len(told):
+        if len(known):
             disbelieved = int((~part["clock_agrees"]).sum())
             slowest = f"{warm.max():.3g}" if len(warm) else "-"
-            rows.append((label, f"{told.max() / 1e6:.0f}", str(disbelieved), slowest,
+            rows.append((label, f"{known.max() / 1e6:.0f}", str(disbelieved), slowest,
                          f"{warm.sum():.3g}"))  # fmt: skip
     if not rows:
         return []

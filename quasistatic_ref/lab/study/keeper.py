@@ -94,7 +94,7 @@ class Keeper:
     solver : Solver
         Or what another `worker` takes.
     folder : str or Path
-        Where a callable's module is looked for, besides the usual places.
+        Where a callable's module is looked for, in addition to the usual places.
     memory : float
         Most that it may hold, with its children [bytes].
     worker : str

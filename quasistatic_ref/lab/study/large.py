@@ -24,7 +24,7 @@ PILES = ((2, 2, 2), (3, 3, 3), (5, 5, 4))
 """In three dimensions factors fill up: no exponent is promised."""
 
 WARM_UP, STEPS, HEAP_STEPS = 2, 5, 50
-"""Steps that are not timed, that are, and that are of a heap, whose slowest ones are asked for."""
+"""Steps that are not timed, that are, and that are of a heap, whose slowest ones are listed."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from quasistatic_ref.lab.study.columns import Columns, chosen, groups, size
 from quasistatic_ref.lab.study.statistics import shifted_geometric_mean
 
 FEWEST = 5
-"""Pairs of one solver from which a mean is told."""
+"""Pairs of one solver from which a mean is given."""
 MOST_OF = 90.0
 """The percentile of solvers that the floor is [%]."""
 
@@ -26,7 +26,7 @@ class Noise:
         Median of |t_1 / t_2 - 1| of one measurement [-].
     floor : float or None
         Of the shifted geometric mean of a solver's times, the 90th percentile of solvers [-]:
-        smaller differences between solvers are ties. None where nothing was asked twice.
+        smaller differences between solvers are ties. None where nothing was measured twice.
     """
 
     pairs: int

@@ -1,6 +1,6 @@
 """Stores of version 1, read as those of today: what they did not measure is null.
 
-Their rows called an interface a road, their times are of one call each, cold, in one fixed order;
+Their rows name the interface ``road``, their times are of one call each, cold, in one fixed order;
 and a false claim that there is no solution, which their own status still tells, counted as a
 failure.
 """

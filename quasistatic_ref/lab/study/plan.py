@@ -1,8 +1,8 @@
 """Every measurement of a study, in an order in which times can be compared.
 
 Problems come in one scattered order, the same for all solvers, so that what a budget cuts off is
-no family but a part of all; on each problem all solvers are asked before the next one, they and
-their settings in an order that is drawn anew: whoever comes first finds cold caches.
+no family but a part of all; each problem goes to all solvers before the next one, they and
+their settings in an order that is drawn for each: the first one finds cold caches.
 """
 
 from collections.abc import Iterator, Sequence
@@ -78,7 +78,7 @@ def plan(study: Study, problems: Sequence[tuple[str, str]]) -> list[Measurement]
                 stride = part.every * (part.again if repetition else 1)
                 if not stride or place % stride:
                     continue
-                here |= {_key(m): m for m in _asked(part, *problems[int(p)], repetition)}
+                here |= {_key(m): m for m in _measurements(part, *problems[int(p)], repetition)}
             solvers = list(dict.fromkeys(m.solver.label for m in here.values()))
             turn = {label: i for i, label in enumerate(rng.permutation(solvers).tolist())}
             scattered = [list(here.values())[i] for i in rng.permutation(len(here))]
@@ -87,7 +87,7 @@ def plan(study: Study, problems: Sequence[tuple[str, str]]) -> list[Measurement]
     return list(planned.values())
 
 
-def _asked(part: Part, problem: str, family: str, repetition: int) -> Iterator[Measurement]:
+def _measurements(part: Part, problem: str, family: str, repetition: int) -> Iterator[Measurement]:
     """What a part asks of one problem."""
     for solver, setting, units, warm in product(part.solvers, part.settings, part.units, part.warm):
         if solver.takes(setting) and (solver.warm or not warm):

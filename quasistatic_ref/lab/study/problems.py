@@ -16,11 +16,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_read, json_text, text_written, written_whole
 from quasistatic_ref.lab.study.families.harvest import (
     Count,
-    asked_again,
     harvested,
     no_count,
     scenario_of,
     scenario_run,
+    stepped_again,
 )
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.scaled import slabs, towers
@@ -53,7 +53,7 @@ BEGUN = "begun"
 NAMES: Final = ("H", "g", "A", "b", "delta_q", "net")
 FARKAS: Final = "farkas"  # one array more, where some problems have no solution
 AGAIN = "bunny_grasp"
-"""The scenario that is asked again at other h and k: the paper's own."""
+"""The scenario whose steps are formed again at other h and k: the paper's own."""
 CLOSEST = (1, 2, 3, 5, 8, 13, 20, 32, 50)
 TIME_STEPS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 MOST_CONTACTS, MOST_RATIO, MOST_BODIES = 1000, 1e9, 40
@@ -94,12 +94,12 @@ def made(test_set: TestSet, count_steps: Count = no_count) -> Iterator[Made]:
         yield from slabs("time_step", "h", _scale(TIME_STEPS[0], TIME_STEPS[-1], -(-n // 2)), seed)
         share = _shares(n // 2, len(TIME_STEPS))
         for i, (h, c) in enumerate(zip(TIME_STEPS, share, strict=True)):
-            yield from asked_again("time_step", AGAIN, [f"h={h}"], c, i)
+            yield from stepped_again("time_step", AGAIN, [f"h={h}"], c, i)
     if n := count["closest_points"]:
         share = _shares(n, len(CLOSEST))
         for i, (k, c) in enumerate(zip(CLOSEST, share, strict=True)):
             changes = [f"contacts.grip.k={k}", f"contacts.floor.k={k}"]
-            yield from asked_again("closest_points", AGAIN, changes, c, i)
+            yield from stepped_again("closest_points", AGAIN, changes, c, i)
     if n := count["bodies"]:
         bodies = _scale(2, most.get("bodies", MOST_BODIES), n)
         yield from towers([int(v) for v in bodies.round()], seed)
@@ -151,10 +151,10 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
         After Ctrl-C. The problems made so far are kept, and their answers not sought again.
     """
     folder = Path(folder)
-    asked = _asked(test_set)
+    made_of = _made_of(test_set)
     if (folder / HEADER).exists():
         there = _head(folder)
-        if {name: there.get(name) for name in asked} != json.loads(json_text(asked)):
+        if {name: there.get(name) for name in made_of} != json.loads(json_text(made_of)):
             raise InputError(
                 "holds another test set; choose another folder with --out, or remove this one",
                 file=folder,
@@ -162,7 +162,7 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
         return problems_read(folder)
     if test_set.source:
         taken = problems_taken(test_set)
-        _written(taken, asked, folder)
+        _written(taken, made_of, folder)
         return taken
     # The bar counts steps: those of the runs that problems are taken from, and the problems.
     total = sum(test_set.families.values())
@@ -177,9 +177,9 @@ def problem_set(test_set: TestSet, folder: str | Path, progress: bool = True) ->
                 bar.update()
         except KeyboardInterrupt:
             if problems:
-                _written(list((kept | problems).values()), asked, begun)
+                _written(list((kept | problems).values()), made_of, begun)
             raise
-    _written(list(problems.values()), asked, folder)
+    _written(list(problems.values()), made_of, folder)
     shutil.rmtree(begun, ignore_errors=True)
     return list(problems.values())
 
@@ -247,7 +247,7 @@ def set_record(problems: Sequence[Problem]) -> dict[str, Any]:
     }
 
 
-def _asked(test_set: TestSet) -> dict[str, Any]:
+def _made_of(test_set: TestSet) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -259,7 +259,7 @@ def _asked(test_set: TestSet) -> dict[str, Any]:
     }
 
 
-def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -> None:
+def _written(problems: Sequence[Problem], made_of: dict[str, Any], folder: Path) -> None:
     """Write the header last: a folder that has one is complete."""
     lines = []
     for problem in problems:
@@ -280,7 +280,7 @@ def _written(problems: Sequence[Problem], asked: dict[str, Any], folder: Path) -
     arrays: dict[str, Any] = _flat(problems)
     text_written(folder / FACTS, "\n".join(lines) + "\n")
     written_whole(folder / NUMBERS, lambda file: np.savez_compressed(file, **arrays))
-    text_written(folder / HEADER, json_text(asked | set_record(problems)) + "\n")
+    text_written(folder / HEADER, json_text(made_of | set_record(problems)) + "\n")
 
 
 def _flat(problems: Sequence[Problem]) -> dict[str, np.ndarray]:

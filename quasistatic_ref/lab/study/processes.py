@@ -1,6 +1,6 @@
-"""What Linux tells of a solver's process: its memory, its children, also those that detached.
+"""What Linux knows of a solver's process: its memory, its children, also those that detached.
 
-On other systems there is no `/proc`: memory is not told, and only the process's own group is ended.
+On other systems there is no `/proc`: memory is not known, and only the process's own group ends.
 """
 
 import contextlib
@@ -58,7 +58,7 @@ def end(pids: list[int]) -> None:
 
 
 def resident(pid: int) -> int:
-    """Resident memory of a process and of its descendants [bytes]; 0 where it is not told."""
+    """Resident memory of a process and of its descendants [bytes]; 0 where it is not known."""
     return sum(_resident(one) for one in (pid, *descendants(pid)))
 
 
@@ -69,7 +69,7 @@ def reset_peak(pid: int) -> None:
 
 
 def peak(pid: int) -> int | None:
-    """Most resident memory of a process since its peak was reset [bytes]; None if not told."""
+    """Most resident memory of a process since its peak was reset [bytes]; None if not known."""
     with contextlib.suppress(OSError, ValueError):
         for line in (PROC / str(pid) / "status").read_text().splitlines():
             if line.startswith("VmHWM:"):
@@ -80,7 +80,7 @@ def peak(pid: int) -> int | None:
 def computed_and_waited(pid: int) -> tuple[float, float]:
     """Seconds on a core of a process, and those that it and this thread waited for one [s].
 
-    Both are 0 where they are not told.
+    Both are 0 where they are not known.
     """
     computed, waited = _scheduled(PROC / str(pid))
     return computed, waited + _scheduled(PROC / "thread-self")[1]

@@ -1,6 +1,6 @@
 """One problem of a study: a quadratic program in float64, and its exact answer.
 
-The problem is the four arrays as they are: whoever reads them from a file has the same
+The problem is the four arrays as they are: a reader of the file has the same
 numbers, and the exact answer belongs to these, not to the step that they were rounded from.
 """
 
@@ -19,7 +19,7 @@ INFEASIBLE = "infeasible"
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """What is known of a problem besides its numbers.
+    """What is known of a problem in addition to its numbers.
 
     Parameters
     ----------

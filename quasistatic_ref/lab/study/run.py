@@ -40,7 +40,7 @@ def run_study(
     folder : str or Path
         The store; one that was begun with the same study is continued.
     jobs : int, optional
-        Solvers asked at once; by default as many as there are cores.
+        Solvers called at once; by default as many as there are cores.
     scheduler : str, optional
         Address of a Dask scheduler, in place of this machine's cores.
     progress : bool

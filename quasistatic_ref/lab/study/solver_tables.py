@@ -245,5 +245,5 @@ def _span(values: Sequence[float]) -> str:
 
 
 def _median_told(values: np.ndarray) -> str:
-    told = values[np.isfinite(values)]
-    return f"{np.median(told):g}" if len(told) else "-"
+    known = values[np.isfinite(values)]
+    return f"{np.median(known):g}" if len(known) else "-"

@@ -1,4 +1,4 @@
-"""The solvers of a study, by the interface through which they are asked, and their settings."""
+"""The solvers of a study, by the interface through which they are called, and their settings."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ class Setting:
     ----------
     name : str
     accuracy : float or None
-        Asked of residuals and gap, in the units of the problem as asked [-]; None: the default.
+        Of residuals and gap, in the units of the problem as given [-]; None: the default.
     promised : float
         Correct digits [-] of delta_q that an "optimal" promises.
     tuned : bool

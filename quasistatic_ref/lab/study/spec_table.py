@@ -70,7 +70,7 @@ TABLES = Tables({
                           f"or others in place of {', '.join(s.name for s in SETTINGS)}"),
         "solvers": Field("tables by name", "solvers that are not listed, or have options of their "
                          "own", default={}, of=SOLVER),
-        "runs": Field("list of tables", "who is asked in which way", default=[{}], least=1, of=RUN),
+        "runs": Field("list of tables", "solvers, and in which way", default=[{}], least=1, of=RUN),
     },
     PROBLEMS: {
         "seed": Field("integer", "everything else is a function of it", default=1, least=0,
@@ -97,7 +97,7 @@ TABLES = Tables({
                       above=0.0, most=LARGE),
     },
     SETTING: {
-        "accuracy": Field("number", "asked of residuals and gap; a new name needs it", "-", None,
+        "accuracy": Field("number", "of residuals and gap; a new name needs it", "-", None,
                           above=0.0, most=LARGE),
         "promised": Field("number", "digits that \"optimal\" promises; 3 for a new name", "-", None,
                           least=0.0, most=LARGE),

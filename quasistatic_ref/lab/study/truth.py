@@ -19,7 +19,7 @@ EXACT_COORDINATES = 60
 60, but 11 s at 120, where the enclosure takes 0.2 s."""
 
 WITNESSES = ("daqp", "clarabel", "piqp")
-"""Solvers that are asked, in this order, for the rows that the exact method starts from."""
+"""Solvers that are called, in this order, for the rows that the exact method starts from."""
 
 
 class NoAnswer(QuasistaticError):
@@ -46,7 +46,7 @@ def answer_of(form: StandardForm) -> Truth:
     natural = natural_form(form, units_of(form))
     warm: list[int] = []
     for solver in WITNESSES:
-        reply = asked(natural, solver)
+        reply = reply_of(natural, solver)
         if reply is None or reply.x is None or reply.lam is None or not reply.solved:
             continue
         warm = warm_rows(natural.A, reply.lam, natural.A @ reply.x - natural.b)
@@ -61,7 +61,7 @@ def answer_of(form: StandardForm) -> Truth:
     return Truth(optimum.delta_q, optimum.net, 0.0)
 
 
-def asked(natural: StandardForm, solver: str) -> Reply | None:
+def reply_of(natural: StandardForm, solver: str) -> Reply | None:
     """What a solver says to a problem in natural units; None if it is not installed."""
     if solver not in installed("qpsolvers"):
         return None

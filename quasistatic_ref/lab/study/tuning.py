@@ -25,7 +25,7 @@ MOST_SETTINGS = 40
 MOST_SECONDS = 1200.0
 """...and what it may take [s]."""
 WANTED = 6.0
-"""Digits that the time is told to."""
+"""Digits that the time is given for."""
 LIMITS = Limits(0.5, 5.0, 1)
 """A call that takes longer does not deliver: of the problems here most take 1 ms."""
 ASKED = Setting("searched", None, 3.0)

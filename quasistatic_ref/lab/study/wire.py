@@ -42,7 +42,7 @@ class Told:
 
 
 def to_bytes(told: Told, sizes: tuple[int, int]) -> bytes:
-    """A message; arrays of other shapes than (n,) and (m,) are told by their shapes alone."""
+    """A message; arrays of other shapes than (n,) and (m,) are sent as their shapes alone."""
     reply, arrays, shapes = told.reply, [], []
     for array, size in zip((reply.x, reply.lam), sizes, strict=True):
         shapes.append(None if array is None else list(array.shape)[:8])

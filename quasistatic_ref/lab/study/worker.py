@@ -2,7 +2,7 @@
 
 ``python -m quasistatic_ref.lab.study.worker READ WRITE`` is started by
 :mod:`~quasistatic_ref.lab.study.keeper` with two pipes. It receives a solver, then programs and
-requests, and sends each reply as it is. It is never told an answer: who grades is elsewhere.
+requests, and sends each reply as it is. It never gets an answer: grading is done elsewhere.
 """
 
 import signal

@@ -138,7 +138,7 @@ class Claim:
     engine : str, optional
         A distribution without which it cannot be measured: its version is a part of the finding.
     setting : str
-        At which settings that engine is asked; others are its defaults.
+        At which settings that engine runs; others are its defaults.
     """
 
     name: str

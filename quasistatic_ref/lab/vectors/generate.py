@@ -1,4 +1,4 @@
-"""The folder of vectors from its inputs: every output anew, identical bytes on any machine."""
+"""The folder of vectors from its inputs: every output computed, identical bytes on any machine."""
 
 import hashlib
 import json

@@ -122,6 +122,6 @@ def _manifest(folder: Path) -> tuple[int, dict[str, str]]:
 
 
 def frozen_lines(folder: Path) -> str:
-    """What ``versions.toml`` would say of a folder: for whoever makes a new version."""
+    """What ``versions.toml`` would say of a folder, when a new version is made."""
     lines = [f"{name} = {json.dumps(layer_hash(folder, name))}" for name in LAYERS]
     return "\n".join([f"[{release_of(folder)}]", *lines, ""])

@@ -149,8 +149,8 @@ class Adapter(Protocol):
     WARM : bool
         Whether its start from the answer before differs from a cold one.
     NEAR : bool
-        Whether it loses digits on gaps of 1e6 beside numbers of size one. An active-set method
-        does not: rows that are far are never in its set.
+        Whether it loses digits where gaps of 1e6 stand with numbers of size one. An active-set
+        method does not: rows that are far are never in its set.
     """
 
     ORDER: Literal["C", "F"] = "F"

@@ -19,7 +19,9 @@ from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
-from tests.helpers import pinch, planted_step, random_step, sphere_on_floor
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import changed, pinch, planted_step, random_step, sphere_on_floor
+from tests.tolerances import ROUNDING
 from tests.unit.certify.test_exact import resting_point
 from validation import confirmed_bits
 from validation.confirmed_bits import CONES, checked, differing, random_case
@@ -57,7 +59,7 @@ def test_the_right_working_set_is_confirmed_with_the_same_bits(step):
 
 
 @pytest.mark.parametrize("block", range(4))
-def test_random_steps_of_every_cone_have_the_same_bits_and_wrong_sets_are_refused(block):
+def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused(block):
     """A sample of validation/confirmed_bits.py."""
     outcomes = [checked(seed) for seed in range(block, 120, 4)]
     assert [faults for _, _, faults in outcomes if faults] == []
@@ -91,6 +93,39 @@ def test_a_row_that_touches_and_bears_nothing_is_left_to_the_exact_method():
     assert answer is None
     assert not truth.differentiable
     assert differing(exact_step(step, truth.working_set, BallHessian(step)), truth) == []
+
+
+def test_a_row_guessed_to_press_that_bears_nothing_is_no_proof():
+    """Without friction all six rows are one: that row spans the others, and says nothing of x."""
+    step = resting_point(weight=0.0, mu_v=0.0, mu_omega=0.0)
+    truth, _ = optimum_and_answer(step)
+    assert not truth.differentiable
+    assert confirmed(step, [0], BallHessian(step)) is None
+
+
+def test_the_first_violated_row_is_named():
+    """A body is pressed into one floor, the second of three contacts; the others are far."""
+    step = resting_point(weight=2.0, contacts=3)
+    step = step.replace(contacts=changed(step.contacts, phi=np.array([1.0, 0.0, 1.0])))
+    found = confirmed(step, [], BallHessian(step))
+    form = standard_form(step)
+    slack = form.A @ np.linalg.solve(form.H, form.g) - form.b
+    assert isinstance(found, Violated)
+    assert found.row == np.flatnonzero(slack < 0)[0] == 6
+    # With a row that touches and is not violated before it: 0 = slack < those of the others.
+    own = step.replace(extra=Extra(("idle", "shut"), [[1.0, 0, 0, 0], [0, 0, 1.0, 0]], [0.0, 0.0]))
+    far = own.replace(contacts=changed(step.contacts, phi=np.ones(3)))
+    assert confirmed(far, [], BallHessian(far)).row == 19
+
+
+def test_the_net_impulse_is_what_the_balance_says():
+    """H delta_q - g of Eq. (9), in float64."""
+    step = random_step(np.random.default_rng(4))
+    form, delta_q = standard_form(step), np.random.default_rng(5).standard_normal(7)
+    with ctx.workprec(200):
+        found = [float(v) for v in BallHessian(step).net(step, [arb(v) for v in delta_q.tolist()])]
+    expected = form.H @ delta_q - form.g
+    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING * np.abs(expected).max())
 
 
 def test_without_any_of_its_rows_a_unique_working_set_is_refused():
@@ -133,7 +168,7 @@ def test_another_bit_is_noticed_by_the_script(monkeypatch, field):
     assert all(fault.startswith(f"{kind}, step 0") and field in fault for fault in faults)
 
 
-def test_a_hessian_that_is_not_positive_definite_without_rounding_is_refused():
+def test_a_hessian_that_is_not_exactly_positive_definite_is_refused():
     """1 and 1, and between them the float64 next to 1: the determinant is less than 0."""
     step = StepData(1.0, np.eye(0), np.eye(2), [], [0.0, 0.0], [], no_contacts(2))
     M_u = np.array([[1.0, np.nextafter(1.0, 2.0)], [np.nextafter(1.0, 2.0), 1.0]])
@@ -184,7 +219,7 @@ def test_rows_that_are_seen_to_be_spanned_are_spanned():
     assert not seen[(0, 1, 4), 5]
 
 
-def test_contacts_with_one_spin_have_it_in_common_and_those_with_none_have_none():
+def test_contacts_with_one_spin_share_its_generator():
     step = pinch()
     c = step.contacts
     np.testing.assert_array_equal(c.J[0, 3], -c.J[1, 3])  # opposite normals

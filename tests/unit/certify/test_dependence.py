@@ -39,7 +39,7 @@ def test_rows_that_are_equal_modulo_the_prime_only_are_independent():
 
 
 @pytest.mark.usefixtures("prime")
-def test_working_sets_that_are_dependent_modulo_the_prime_only_are_independent():
+def test_sets_dependent_modulo_the_prime_alone_are_independent():
     """(2, 101) = 2 (1, 0) + 101 (0, 1)."""
     form = rows([1, 0], [1, UNLUCKY], [2, UNLUCKY], [0, 1])
     assert combination(form, [0, 1], 2) == [1, 1]

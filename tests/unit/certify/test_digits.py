@@ -7,9 +7,11 @@ import pytest
 
 from quasistatic_ref.certify.digits import correct_digits, digits_of_error
 from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
+from tests.tolerances import ROUNDING
 from tests.unit.certify.test_farkas import EAST, point_between_walls
 
 HALF_DIGIT = 0.5
@@ -50,7 +52,7 @@ def test_wrench_is_measured_by_the_displacement_that_it_causes(k):
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
-def test_slack_is_measured_by_the_displacement_that_changes_it_however_long_its_row(scale):
+def test_slack_is_measured_as_a_displacement_for_rows_of_any_length(scale):
     """A row scale * y >= -1 and an error of 1e-7 along y: seven digits."""
     step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
     step = step.replace(extra=Extra(("y",), scale * np.eye(3)[1:2], np.array([-1.0])))
@@ -82,6 +84,15 @@ def test_row_without_coefficients_has_no_say():
     found = correct_digits(step.replace(extra=empty), exact * (1 + 1e-9), exact)
     assert found == correct_digits(step, exact * (1 + 1e-9), exact)
     assert found.slack == 16.0
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])
+def test_norms_neither_underflow_nor_overflow(scale):
+    """H = 4: ||H^-1 p||_H = ||p|| / 2, and 3, 4, 5 is a right triangle."""
+    norm, p = energy_norm(4 * np.eye(2)), scale * np.array([3.0, 4.0])
+    assert norm.impulses(p[None]) == pytest.approx([2.5 * scale], rel=ROUNDING)
+    assert norm.impulse(p) == pytest.approx(2.5 * scale, rel=ROUNDING)
+    assert norm.displacement(p) == pytest.approx(10 * scale, rel=ROUNDING)
 
 
 def test_answer_that_is_not_finite_has_no_digits():

@@ -1,15 +1,18 @@
 """Steps in the ellipsoid: enclosed in balls, exact at apexes, verified, refused where they lie."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from flint import arb, arb_mat
 
 from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.certificate import in_words, verify
-from quasistatic_ref.certify.enclosure import enclosure
+from quasistatic_ref.certify.enclosure import _of_interior, enclosure
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.interior import Pair
 from quasistatic_ref.certify.optimality import ellipsoid_residuals
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -180,7 +183,7 @@ def test_an_infeasible_step_is_not_solved():
 
 
 @pytest.mark.parametrize("backend", ["osqp", "piqp", "daqp", "qpsolvers:clarabel"])
-def test_a_backend_without_cones_is_refused_in_a_sentence_that_names_others(backend):
+def test_a_backend_without_cones_is_refused_with_the_names_of_others(backend):
     with pytest.raises(BackendError, match="the ellipsoid needs one of clarabel, scs"):
         solve_step(round_step(pinch()), backend)
 
@@ -256,3 +259,18 @@ def test_a_light_or_heavy_bar_is_enclosed_just_as_well(scale):
     answer, usual = solve_step(heavy), solve_step(round_step(pinch(grip=5.0, offset=0.2)))
     assert answer.certificate.kind == "enclosure"
     assert error(heavy, answer.delta_q, usual.delta_q) < ROUNDING
+
+
+def test_what_an_interior_point_shows_is_read_by_shares_of_the_largest():
+    """The largest multiplier is 2^-30 and IDLE 2^-40: up to 2^-70 a block bears nothing.
+
+    Slacks of the program are of about one, and below 2^-40 of a block at its apex.
+    """
+    slacks = [2.0**-50, 1.0, 2.0**-40, np.nextafter(2.0**-40, 0)]
+    pushes = [2.0**-30, 2.0**-80, 2.0**-70, np.nextafter(2.0**-70, 1)]
+    s = [[arb(v), arb(0)] for v in slacks]
+    y = [[arb(v), -arb(v) / 2] for v in pushes]
+    frame = SimpleNamespace(pair=lambda pair: pair)
+    guess = _of_interior(frame, Pair(arb_mat(0, 1), s, y))
+    assert guess.held == [True, False, False, True]
+    assert guess.loaded == [True, False, False, True]

@@ -7,6 +7,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.degeneracy import (
+    differentiable,
+    multipliers_unique,
+    strictly_active,
+)
 from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
@@ -75,6 +80,20 @@ def test_frictionless_rows_are_one_row():
     assert len(optimum.working_set) == 1
     assert not optimum.multipliers_unique
     assert optimum.differentiable
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
+def test_idle_rows_of_which_two_are_opposite_differ_from_the_third(order):
+    """X_0 >= 0, x_1 >= 0 and -x_1 >= 0: lam = (0, t, t) is optimal for all t >= 0.
+
+    The first can open alone, so x = (0, 0) has a kink.
+    """
+    A = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])[list(order)]
+    form = exact_form_of(np.eye(2), np.zeros(2), A, np.zeros(3))
+    free = range(3)
+    assert strictly_active(form, (), free) == sorted(order.index(i) for i in (1, 2))
+    assert not differentiable(form, (), free)
+    assert not multipliers_unique(form, (), (), free)
 
 
 def chain(b, H=None):

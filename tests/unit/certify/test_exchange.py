@@ -79,6 +79,30 @@ def test_a_walk_adds_the_row_and_drops_what_stops_pressing():
     assert walked(form, np.eye(1), Violated(1, np.array([0]), np.ones(1), np.ones(1))) is None
 
 
+@pytest.mark.parametrize(
+    ("short", "left"),
+    [(0.5, [0, 1, 2]), (2.5, [1, 2]), (3.5, [2])],
+)
+def test_a_walk_drops_one_row_after_the_other(short, left):
+    """X >= 1 and y >= 2 hold with lam = (1, 2); x + y + z >= 3 + s takes one of each as it grows.
+
+    At the rate 1 it closes s up to 1, where x >= 1 bears nothing; then at the rate 2 up to 3, where
+    the next unit of y >= 2 is used up.
+    """
+    form = StandardForm(
+        np.eye(3), np.zeros(3), np.array([[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]),
+        np.array([1.0, 2.0, 3.0 + short]),
+    )  # fmt: skip
+    held = Violated(2, np.array([0, 1]), np.array([1.0, 2.0]), np.array([1.0, 2.0, 0.0]))
+    assert walked(form, np.eye(3), held).tolist() == left
+
+
+def test_a_row_without_coefficients_that_is_violated_has_no_end():
+    form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [0.0]]), np.ones(2))
+    none = np.zeros(0, np.int64)
+    assert walked(form, np.eye(1), Violated(1, none, np.zeros(0), np.zeros(1))) is None
+
+
 def test_a_guess_is_given_up_after_some_walks():
     asked = []
 

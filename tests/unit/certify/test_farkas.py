@@ -1,15 +1,17 @@
 """Contradictory steps: the proof, its words, and steps that are only nearly contradictory."""
 
+from dataclasses import replace
 from fractions import Fraction as F
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
 
@@ -99,6 +101,43 @@ def test_nearly_contradictory_walls_are_ill_posed():
     assert "contradict" in str(failure.value)
 
 
+@pytest.mark.parametrize(("k", "is_refused"), [(19, False), (21, True)])
+def test_length_counts_from_the_push_that_the_step_wants(k, is_refused):
+    """X + e y >= b and -x + e y >= b with e = 2^-k: x = 0, y = b / e, M = 1.
+
+    Each row alone is satisfied at the distance b, nearly, and the force f = b / h^2 along z moves
+    by b: y is 2^k times longer. 2^19 < 1e6 < 2^21 < 4e6.
+    """
+    b, e = 2.0**-10, 2.0**-k
+    pair = Extra(("one", "two"), np.array([[1.0, e, 0], [-1.0, e, 0]]), np.full(2, b))
+    step = free_step(np.eye(3), [0.0, 0.0, 4 * b], no_contacts(3), 0.5).replace(extra=pair)
+    if is_refused:
+        with pytest.raises(StepIllPosed) as failure:
+            exact_step(step)
+        assert failure.value.length == pytest.approx(2.0**k, rel=1e-9)
+    else:
+        assert exact_step(step).delta_q.tolist() == [0.0, b / e, b]
+
+
+def test_a_step_exactly_as_long_as_allowed_is_certified():
+    """H = h = 1, and the force 1 moves by 1: 1e6 is a million times as long."""
+    step = free_step(np.eye(1), [1.0], no_contacts(1), 1.0)
+    optimum, norm = exact_step(step), energy_norm(np.eye(1))
+    assert optimum.delta_q.tolist() == [1.0]
+    longest = replace(optimum, delta_q=np.array([ILL_POSED]))
+    assert well_posed(step, longest, norm, 0.0) is longest
+    longer = replace(optimum, delta_q=np.nextafter(longest.delta_q, np.inf))
+    with pytest.raises(StepIllPosed):
+        well_posed(step, longer, norm, 0.0)
+
+
+def test_a_row_without_coefficients_asks_for_nothing():
+    """0 x >= 0 holds; out of the wall it is 1 mm, the length that counts."""
+    nothing = Extra(("nothing",), np.zeros((1, 3)), np.zeros(1))
+    step = point_between_walls([EAST], [-1e-3]).replace(extra=nothing)
+    assert exact_step(step).delta_q.tolist() == [1e-3, 0.0, 0.0]
+
+
 @pytest.mark.parametrize("force", [0.0, 1e-12, 1e-300])
 def test_push_out_is_not_ill_posed_however_small_the_forces(force):
     step = point_between_walls([EAST], [-1e-3], force=(0.0, 0.0, force))
@@ -139,3 +178,12 @@ def test_length_is_relative_to_the_largest_of_the_loads(target, tau_a, tau_u):
     largest = np.sqrt(2) * max(target, tau_a, tau_u)
     delta_q = np.array([5.0, 0.0])
     assert relative_length(step, delta_q) == pytest.approx(np.sqrt(2) * 5 / largest, rel=1e-12)
+
+
+@pytest.mark.parametrize("target", [(3.0, 4.0), (0.0, 3.0)])
+def test_all_coordinates_of_the_target_count(target):
+    """K_q = 4, h = 1/2, so H = 2 in both: the target alone moves to itself."""
+    none = np.zeros(2)
+    step = actuated_step(4 * np.eye(2), none, target, no_contacts(2), 0.5)
+    found = relative_length(step, np.array([0.0, 10.0]))
+    assert found == pytest.approx(10 / np.hypot(*target), rel=1e-12)

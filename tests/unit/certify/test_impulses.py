@@ -55,7 +55,7 @@ def test_a_ball_s_boundary_is_inside_and_what_is_beyond_it_is_not():
     assert inside(fmpq(0), [])
 
 
-def test_a_normal_part_is_raised_by_no_more_than_rounding_and_nothing_else_is_changed():
+def test_only_normal_parts_are_raised_and_only_by_rounding():
     step = step_of()
     lam = np.array([0.7, 0.3, 0.4, 0.125, 1.0, 0.25, 0.75, 0.0, 1.0])
     up = raised(step, lam)

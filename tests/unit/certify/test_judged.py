@@ -77,7 +77,7 @@ def test_in_the_ellipsoid_no_bound_is_proved():
     assert "without a bound" in bound_verdict(ellipsoid, EXACT.delta_q, np.zeros(4), 1.0).reason
 
 
-def test_a_step_without_contacts_has_a_bound_and_one_without_solution_has_none():
+def test_a_free_step_has_a_bound_and_an_infeasible_one_has_none():
     none = free_step(np.eye(3), np.ones(3), contacts_of((), (), np.zeros((0, 4, 3)), ()), 1.0)
     assert bound_verdict(none, np.ones(3), np.zeros(0), 0.0)
     assert not bound_verdict(none, np.ones(3) + 1e-15, np.zeros(0), 0.0)

@@ -75,7 +75,7 @@ def test_what_a_push_claims_is_proved_by_the_interior_point():
     assert RESERVE > 4 * GAP
 
 
-def test_contacts_that_stick_by_dependent_rows_are_held_beside_one_that_slides():
+def test_contacts_stick_by_dependent_rows_while_another_slides():
     # Four soft contacts at one point stick: sixteen rows of rank four. The push is shared by them.
     step = planar_push()
     c = step.contacts

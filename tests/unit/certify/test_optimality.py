@@ -63,7 +63,7 @@ def test_an_actuated_force_too_much_counts_too(size, k):
 
 @every_size
 @pytest.mark.parametrize("j", range(3))
-def test_a_contact_too_deep_is_the_primal_residual_times_lam_in_complementarity(size, j):
+def test_penetration_times_lam_is_the_residual_of_complementarity(size, j):
     # The active row of contact j had slack 0: it is now -size, and its product -size lam.
     step, delta_q, lam, _ = plant()
     phi = step.contacts.phi.copy()

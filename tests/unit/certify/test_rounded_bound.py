@@ -15,7 +15,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import Units, from_natural, to_natural
 from quasistatic_ref.step.friction import cone_matrix
@@ -43,7 +43,7 @@ class Judged:
     """A step and an answer, with what the bound makes of it; x and lam in natural units."""
 
     def __init__(self, step, x, lam):
-        self.step, scaled = step, Scaled(step)
+        self.step, scaled = step, DenseStep(step)
         self.form, self.units = scaled.natural_form, scaled.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
@@ -89,7 +89,7 @@ class Judged:
 
 def some_answer(rng, step):
     """An answer that is nearly right, or anything."""
-    scaled = Scaled(step)
+    scaled = DenseStep(step)
     n, m = step.n_v, int(step.offsets[-1])
     x, lam = rng.standard_normal(n), rng.standard_normal(m) * (rng.random(m) < 0.3)
     try:
@@ -195,7 +195,7 @@ def test_sums_lose_less_than_is_given_back(monkeypatch):
     step = free_step(np.eye(1), np.array([-1.0]), floors, 1.0)
     lam = np.full(8000, 0.4 * 2.0**-73)
     lam[0] = 2.0**-20
-    S, ell, rho = Scaled(step).units
+    S, ell, rho = DenseStep(step).units
     for factor, holds in ((rounded_bound.MORE, True), (1.0, False)):
         monkeypatch.setattr(rounded_bound, "MORE", factor)
         judged = Judged(step, np.array([-1.0]) / (rho * S), lam * (ell / rho))
@@ -258,13 +258,13 @@ def wall(*directions):
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
     step = grasp_step(np.random.default_rng(4))
     quick = solve_step(step, "daqp", certify="residual")
-    monkeypatch.setattr("quasistatic_ref.solve.solve.BOUNDED", 0.0)
+    monkeypatch.setattr("quasistatic_ref.solve.uncertified.BOUNDED", 0.0)
     slow = solve_step(step, "daqp", certify="residual")
-    balls = error_bound(Scaled(step).natural, *natural(slow)).error
+    balls = error_bound(DenseStep(step).natural, *natural(slow)).error
     assert slow.certificate.error_bound == balls < quick.certificate.error_bound < 1e-6
 
 
 def natural(solution):
     """delta_q and lam of a solution in the natural units of its step."""
-    S, ell, rho = Scaled(solution.step).units
+    S, ell, rho = DenseStep(solution.step).units
     return solution.delta_q / (rho * S), solution.lam * (ell / rho)

@@ -145,7 +145,7 @@ def found_at(step):
     return sensitivity(step, solve_step(step).certificate)
 
 
-def test_a_sticking_contact_with_six_dependent_rows_is_differentiable_in_everything():
+def test_a_sticking_contact_with_dependent_rows_is_differentiable():
     step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
     found = found_at(step)
     assert found.why_not == {}
@@ -173,7 +173,7 @@ def test_a_sliding_point_has_the_derivatives_of_its_closed_form():
     assert found.why_not == {}
 
 
-def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative_but_forces_do():
+def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative():
     step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
     step = step.replace(contacts=repeated(step.contacts, [0, 0]))
     found = found_at(step)
@@ -215,7 +215,7 @@ def test_two_rows_that_press_only_against_each_other_are_strictly_active():
     np.testing.assert_allclose(found.tau_u[:, 0], 0.0, rtol=EXACT, atol=EXACT)
 
 
-def test_exactly_at_the_limit_of_friction_a_push_has_no_derivative_but_far_things_do():
+def test_at_the_limit_of_friction_a_push_has_no_derivative():
     # mu W = 1.5 exactly: rows stick without using all of their share.
     step = point_on_floor(0.3, 0.5, force=(1.5, 0.0, -3.0))
     far = changed(step.contacts, phi=[1.0])

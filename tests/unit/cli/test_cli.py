@@ -10,34 +10,15 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate import simulator
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read, step_sha256, step_written
-from tests.helpers import point_on_floor
+from tests.helpers import one_sentence, point_on_floor
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import EXACT, MULTIPLIERS, ROUNDING
 from tests.unit.model.urdf_texts import CHAIN, written
 
 
 @pytest.fixture
-def scene(tmp_path):
-    return str(written_scenario(tmp_path))
-
-
-@pytest.fixture
 def swing(tmp_path):
     return str(written_scenario(tmp_path, SWING, "swing.toml"))
-
-
-@pytest.fixture
-def out(tmp_path):
-    return tmp_path / "out"
-
-
-def one_sentence(errors):
-    """The one line on standard error, without the program's name."""
-    lines = errors.splitlines()
-    assert len(lines) == 1, errors
-    assert lines[0].startswith("quasistatic-ref: ")
-    assert "Traceback" not in errors
-    return lines[0].removeprefix("quasistatic-ref: ")
 
 
 def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):

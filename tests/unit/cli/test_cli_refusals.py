@@ -8,27 +8,8 @@ import sys
 import pytest
 
 from quasistatic_ref.cli.main import main
+from tests.helpers import one_sentence
 from tests.scenes import PUSH, written_scenario
-
-
-@pytest.fixture
-def scene(tmp_path):
-    return str(written_scenario(tmp_path))
-
-
-@pytest.fixture
-def out(tmp_path):
-    return tmp_path / "out"
-
-
-def one_sentence(errors):
-    """The one line on standard error, without the program's name."""
-    lines = errors.splitlines()
-    assert len(lines) == 1, errors
-    assert lines[0].startswith("quasistatic-ref: ")
-    assert "Traceback" not in errors
-    return lines[0].removeprefix("quasistatic-ref: ")
-
 
 STEP = json.dumps({"format": "quasistatic-ref/step", "version": 1, "h": -1})
 BAD = {
@@ -124,7 +105,7 @@ def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
     assert (tmp_path / "bench" / "scene.npz").is_file()
 
 
-def test_a_file_that_cannot_be_used_is_named_and_not_taken_for_standard_output(monkeypatch, capsys):
+def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsys):
     def full(options):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
 

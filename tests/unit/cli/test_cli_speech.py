@@ -9,17 +9,6 @@ import pytest
 from quasistatic_ref.cli.main import COMMANDS, main
 from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.resources import scenario_names
-from tests.scenes import written_scenario
-
-
-@pytest.fixture
-def scene(tmp_path):
-    return str(written_scenario(tmp_path))
-
-
-@pytest.fixture
-def out(tmp_path):
-    return tmp_path / "out"
 
 
 @pytest.mark.parametrize("command", COMMANDS)

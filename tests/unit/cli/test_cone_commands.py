@@ -91,7 +91,7 @@ def test_the_figure_of_limit_surfaces_shows_each_with_its_name():
     plt.close(figure)
 
 
-def test_the_figure_of_the_pinch_draws_the_formulas_and_no_step_against_them():
+def test_the_figure_of_the_pinch_draws_the_formulas():
     figure = pinch_threshold.figure(levers=4)
     (axes,) = figure.axes
     lines = [line for line in axes.lines if line.get_linestyle() != "None"]

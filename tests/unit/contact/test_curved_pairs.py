@@ -42,7 +42,7 @@ def enlarged(solid: Solid, scale: float) -> Solid:
 
 
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
-def test_a_pair_enlarged_has_its_distance_enlarged_and_its_normal_as_it_was(names) -> None:
+def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> None:
     a, b = (SOLIDS[name] for name in names)
     answered = 0
     for R, t in closest.poses(6, 23):

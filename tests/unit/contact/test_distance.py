@@ -7,19 +7,17 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.shapes import (
     Box,
     Capsule,
     Cylinder,
     HalfSpace,
-    PlacedShape,
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.model.system import Kinematics
 from tests.scenes import chain_scene
 from tests.tolerances import CURVED_PAIR, EXACT, ROUNDING, SIGNED_DISTANCE
+from tests.unit.contact.still import found_for, pair, placed, standing
 
 Z = np.eye(3)[2]
 CONVEX = {
@@ -36,25 +34,6 @@ HARD = [
     for a in ("box", "capsule", "cylinder", "half-space")
     for b in ("box", "capsule", "cylinder")
 ]
-
-
-def placed(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
-    return PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t, dtype=float), shape)
-
-
-def standing(*poses):
-    """Links at given poses (R, t), the world first; nothing moves."""
-    R = np.array([np.eye(3), *(pose[0] for pose in poses)])
-    t = np.array([np.zeros(3), *(pose[1] for pose in poses)])
-    return Kinematics(R, t, np.zeros((6, 0)))
-
-
-def pair(alpha, beta, k=1):
-    return ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
-
-
-def found_for(alpha, beta, kinematics, k=1):
-    return closest_points([pair(alpha, beta, k)], kinematics)
 
 
 def random_pose(rng, distance):
@@ -192,7 +171,7 @@ STACKED = {
 
 @pytest.mark.parametrize("gap", [1e-3, 0.0, -1e-3])
 @pytest.mark.parametrize(("shape", "height"), STACKED.values(), ids=STACKED)
-def test_what_stands_on_a_box_has_its_normal_upwards_apart_touching_or_sunk(shape, height, gap):
+def test_the_normal_on_a_box_is_upwards_apart_touching_or_sunk(shape, height, gap):
     table = placed(Box(np.array([1.0, 1.0, 0.5])))
     for turn in np.linspace(0, 3, 7):
         R = Rotation.from_rotvec(turn * Z).as_matrix()

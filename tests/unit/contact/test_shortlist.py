@@ -59,9 +59,7 @@ def dumb_bells(rng):
 
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("kind", ["dumb bells", "random", "sheet"])
-def test_points_that_are_left_out_lie_beyond_a_bound_by_the_room_for_rounding(
-    name, kind, rng, small_leaves
-):
+def test_points_left_out_lie_beyond_a_bound_with_room_for_rounding(name, kind, rng, small_leaves):
     shape, tightest = SHAPES[name], np.inf
     for _ in range(5):
         points = dumb_bells(rng) if kind == "dumb bells" else rng.uniform(-1, 1, size=(300, 3))
@@ -95,9 +93,7 @@ def test_a_ball_is_as_far_and_a_box_as_high_as_its_nearest_point(shape, axis, rn
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_box_is_as_high_as_its_lowest_corner_however_cloud_and_floor_are_turned(
-    seed, small_leaves
-):
+def test_a_box_is_as_high_as_its_lowest_corner_however_it_is_turned(seed, small_leaves):
     # Pairs of points far from each other, each pair at the lowest and highest corner of its box.
     rng = np.random.default_rng(seed)
     n, R = rng.normal(size=3), Rotation.random(rng=rng).as_matrix()
@@ -138,7 +134,7 @@ def test_points_that_are_farther_by_less_than_the_room_are_in_the_list(axis):
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_wherever_a_cloud_is_moved_no_point_that_is_left_out_comes_below_the_limit(name, rng):
+def test_no_point_left_out_comes_below_the_limit_at_any_motion(name, rng):
     shape, tightest = SHAPES[name], np.inf
     points = rng.uniform(-0.2, 0.2, size=(300, 3))
     n, phi = Z, points[:, 2]
@@ -159,7 +155,7 @@ def test_wherever_a_cloud_is_moved_no_point_that_is_left_out_comes_below_the_lim
     assert tightest < 1e-2
 
 
-def test_the_limit_of_a_cloud_that_comes_down_is_the_height_of_the_next_point_less_the_room():
+def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
     # A column of points above a floor, each 1 mm above the other, of which the lowest 32 are
     # listed: the next is at 32 mm, and comes down with the cloud.
     points = np.outer(1e-3 * np.arange(100), Z)

@@ -128,7 +128,7 @@ def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place() -> None:
         np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
 
 
-def test_a_closest_pair_that_is_no_corner_is_kept_where_corners_are_farther() -> None:
+def test_a_closest_pair_is_kept_where_corners_are_farther() -> None:
     # Two beams crossed at right angles, 0.01 m apart: no corner faces the other beam.
     beam, across = Box(np.array([0.5, 0.02, 0.02])), Box(np.array([0.02, 0.5, 0.02]))
     points = found(beam, across, np.eye(3), np.array([0.0, 0.0, 0.05]), 4)
@@ -153,7 +153,7 @@ def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
     np.testing.assert_allclose(around, 0.03, rtol=EXACT, atol=CLOSED_FORM)
 
 
-def test_parallel_and_crossing_capsules_have_a_normal_at_right_angles_to_both() -> None:
+def test_parallel_and_crossing_capsules_have_a_normal_to_both_axes() -> None:
     one = Placed(Capsule(0.03, 0.1), np.eye(3), np.zeros(3))
     crossing = Rotation.from_rotvec([0, np.pi / 3, 0]).as_matrix()
     for R in (np.eye(3), crossing):

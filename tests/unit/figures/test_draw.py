@@ -115,7 +115,7 @@ def test_a_body_s_outline_is_where_the_body_is(incline, page):
         np.testing.assert_allclose(outline.min(axis=0), corners.min(axis=0), rtol=ROUNDING)
 
 
-def test_the_circle_of_torsion_has_the_radius_mu_omega_and_closes_at_the_limit():
+def test_the_circle_of_torsion_has_radius_mu_omega():
     scenario = load_scenario("sphere_spin", ["h=0.05", "steps=9"])
     run = scenario.run(progress=False)
     figure, (axes,) = panels(4, 4)
@@ -205,9 +205,7 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
         assert film.info["duration"] == 100
 
 
-def test_slow_motion_has_a_frame_for_every_step_and_shows_each_four_times_as_long(
-    incline, tmp_path
-):
+def test_slow_motion_shows_every_step_four_times_as_long(incline, tmp_path):
     path = animate(*incline, tmp_path / "slow.gif", fps=20, speed=0.25)
     with Image.open(path) as film:
         assert film.n_frames == 30  # 20 / 0.25 frames in a second of the run: of 10 ms, each one

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.bench.grasp import (
 )
 from quasistatic_ref.lab.study.bench.report import page, promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.units import from_natural
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET, OPTIMUM
@@ -64,7 +64,7 @@ def test_the_interfaces_lead_to_the_same_step(at):
         step, delta_q = result.step, result.solution.delta_q
         assert error(step, hand_step(at.scenario, q, goal), delta_q) <= OPTIMUM
         x = bare_daqp(native.solver.program)()[0]
-        alone, _ = from_natural(x, np.zeros(0), Scaled(step).units)
+        alone, _ = from_natural(x, np.zeros(0), DenseStep(step).units)
         assert error(step, alone, delta_q) <= ACTIVE_SET
 
 

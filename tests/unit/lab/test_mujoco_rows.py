@@ -13,7 +13,7 @@ from tests.helpers import changed, random_frame
 from tests.tolerances import ROUNDING
 
 
-def test_one_point_midway_instead_of_two_changes_tangential_rows_by_the_formula(rng):
+def test_one_point_midway_changes_tangential_rows_by_the_formula(rng):
     # Rows with alpha = p - phi/2 n and beta = p + phi/2 n, minus rows with both at p, are
     # +- mu_k (phi/2) (n x t_k).(omega_1 + omega_2); torsional rows do not differ.
     system = heap(3).system
@@ -34,7 +34,7 @@ def test_one_point_midway_instead_of_two_changes_tangential_rows_by_the_formula(
     np.testing.assert_allclose(difference, expected, rtol=0.0, atol=ROUNDING)
 
 
-def test_the_tangent_map_keeps_lengths_and_moves_the_actuated_hinge_to_the_end():
+def test_the_tangent_map_keeps_lengths_and_moves_the_hinge_last():
     scene = heap(5)
     T = tangent_map(scene.system, scene.bodies)
     np.testing.assert_allclose(T.T @ T, np.eye(len(T)), rtol=0.0, atol=ROUNDING)

@@ -54,7 +54,7 @@ def test_brute_force_evaluates_every_point_against_every_object():
     assert all_distances(grasp_scenario("clarabel", "off")) == 3 * 992
 
 
-def test_every_backend_is_profiled_with_both_kinds_of_distances_and_the_default_is_certified():
+def test_every_backend_is_profiled_with_both_kinds_of_distances():
     found = profiles(STEPS)
     names = [(p.backend, p.certify, p.distances) for p in found.all]
     runs = [*((name, "off") for name in BACKENDS), ("clarabel", "full")]

@@ -12,6 +12,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import validate as command
 from quasistatic_ref.lab.figures.validation import PICTURES
+from quasistatic_ref.lab.measures import slope, threshold
 from quasistatic_ref.lab.validate.claim import (
     FAILS,
     HOLDS,
@@ -23,7 +24,6 @@ from quasistatic_ref.lab.validate.claim import (
     sum_of_terms,
     within,
 )
-from quasistatic_ref.lab.validate.measures import slope, threshold
 from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
 
@@ -81,7 +81,7 @@ def test_a_claim_without_its_engine_is_not_run_and_says_so():
     assert NOT_RUN in claims_page({"Engines": [found]})
 
 
-def test_a_claim_fails_with_its_worst_comparison_or_with_an_error_of_the_package():
+def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
     good, bad = comparison("good", 1.0, 1.0, 0.0), comparison("bad", 1.0, 2.0, 0.1)
     assert finding(claim_of(good)).verdict == HOLDS
     assert finding(claim_of(good, bad)).verdict == FAILS
@@ -106,14 +106,14 @@ def test_slopes_are_exponents():
     np.testing.assert_allclose(slope(x, 3 * x**1.5), 1.5, rtol=1e-12, atol=0.0)
 
 
-def test_there_are_at_least_fifteen_closed_forms_and_every_figure_has_a_claim():
+def test_there_are_fifteen_closed_forms_and_each_figure_has_a_claim():
     assert len(CLAIMS["Closed forms"]) >= 15
     assert sum(map(len, CLAIMS.values())) == len(BY_NAME)
     assert set(PICTURES) <= set(BY_NAME)
     assert {"grasp", "contact_geometry", "boundary_layer", "step_time"} <= set(PICTURES)
 
 
-def test_every_closed_form_cites_a_derivation_and_every_derivation_is_cited():
+def test_closed_forms_and_derivations_cite_each_other():
     text = (DOCS / "derivations.md").read_text()
     derived = [int(n) for n in re.findall(r"^\*\*\(R(\d+)\)", text, re.MULTILINE)]
     assert derived == sorted(set(derived))

@@ -122,7 +122,7 @@ def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(
     assert "a.dae" in str(caught.value)
 
 
-def test_a_mesh_that_cannot_be_read_is_named_without_places_in_a_library_s_source(tmp_path: Path):
+def test_an_unreadable_mesh_is_named_without_places_in_a_library(tmp_path: Path):
     written(tmp_path, "solid\nendsolid\n", "a.stl")
     body = written(tmp_path, robot(link("a", collision('<mesh filename="a.stl"/>'))))
     with pytest.raises(ModelError, match=r"a\.stl") as caught:

@@ -46,7 +46,7 @@ def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle)
     np.testing.assert_allclose(screw(v, w)[1], LINEAR, rtol=0, atol=4 * ROUNDING)
 
 
-def test_the_translation_is_right_to_the_last_digits_where_the_linear_part_is_along_the_axis():
+def test_the_translation_is_right_where_it_is_along_the_axis():
     # Along its own axis a screw carries a base by v, whatever the angle.
     v = (0.25 * AXIS).tolist()
     for angle in ANGLES:

@@ -13,7 +13,7 @@ def found(folder, address):
 
 @pytest.fixture
 def share(tmp_path, monkeypatch):
-    """A package `arms` with one file, and a file beside it, under a path of Python's."""
+    """A package `arms` with one file, and a file next to it, under a path of Python's."""
     folder = tmp_path / "site" / "cmeel.prefix" / "share"
     (folder / "arms").mkdir(parents=True)
     (folder / "arms" / "arm.urdf").write_text("<robot/>")

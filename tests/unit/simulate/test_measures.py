@@ -42,7 +42,7 @@ def test_driven_bodies_are_not_among_the_free_ones():
     assert list(free_body_motions(scenario.system, scenario.run(progress=False))) == ["bunny"]
 
 
-def test_settings_of_demo_reach_both_cases_and_never_give_torsion_to_the_one_without():
+def test_settings_of_demo_reach_both_cases_but_not_their_torsion():
     cases = grasp_scenarios(["contacts.grip.mu_omega=0.005", "contacts.grip.mu_v=0.3"])
     grip = {
         case: {(p.mu_v, p.mu_omega) for p in scenario.pairs if p.name.startswith("grip")}

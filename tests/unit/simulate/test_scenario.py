@@ -85,7 +85,7 @@ def test_an_actuated_base_has_a_stiffness_too(load, value, expected):
     np.testing.assert_allclose(K_q[:2, 2:], np.zeros((2, 6)), rtol=EXACT)
 
 
-def test_stiffness_is_filled_in_by_joint_where_the_order_of_bodies_is_another(tmp_path):
+def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
     # In pinocchio's order "b" comes first; each body's matrix belongs to its own joints.
     text = robot(link("a"), link("b"), joint("j", "a", "b"), link("c"), joint("i", "b", "c"))
     written(tmp_path, text, "two.urdf")
@@ -192,7 +192,7 @@ SETTINGS = {
     "a word in quotes": ('record="light"', lambda s: s.record == "light"),
     "a table that was not there": ("solver.backend=osqp", lambda s: s.backend == "osqp"),
     "an inline table's field": ("bodies.rail.K_q.slide=600", lambda s: s.K_q[0, 0] == 600),
-    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.feels_gravity.all()),
+    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.gravity_acts.all()),
 }
 
 

@@ -168,10 +168,10 @@ def test_a_compensated_joint_does_not_feel_gravity(lift):
 
 
 @pytest.mark.parametrize("certify", ["residual", "full"])
-def test_a_joint_that_is_not_compensated_sags_by_its_weight_over_its_stiffness(lift, certify):
+def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift, certify):
     feels = np.array([True])
     K_q = np.array([[400.0]])
-    simulator = Simulator(lift, [], h=0.01, K_q=K_q, feels_gravity=feels, certify=certify)
+    simulator = Simulator(lift, [], h=0.01, K_q=K_q, gravity_acts=feels, certify=certify)
     run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)

@@ -146,9 +146,7 @@ def test_with_all_points_of_the_faces_the_same_scene_warns_of_no_contact(hostile
     assert risen(run) > 0.012  # of 0.014 m, at t = 1.2 s
 
 
-def test_the_command_prints_each_sentence_once_and_strict_makes_it_a_failure(
-    hostile, tmp_path, capsys
-):
+def test_warnings_are_printed_once_and_strict_makes_them_a_failure(hostile, tmp_path, capsys):
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
     told = capsys.readouterr().err.splitlines()

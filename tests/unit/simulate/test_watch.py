@@ -57,9 +57,7 @@ def made(scenario, steps=3, **changes):
     (1.01, -1.01 * SUNK * 0.1, False),  # as deep as the step before predicted
     (1.01, -0.02 * SUNK * 0.1, False),  # all but 0.99 of it was
 ])  # fmt: skip
-def test_a_contact_that_sinks_against_the_prediction_asks_for_shorter_steps(
-    scene, share, gap, warned
-):
+def test_a_contact_that_sinks_unpredicted_needs_shorter_steps(scene, share, gap, warned):
     phi = np.zeros((3, 2))
     phi[2, 0] = -share * SUNK * 0.1
     said = made(load_scenario(scene), phi=phi, gap=np.full((3, 2), gap))

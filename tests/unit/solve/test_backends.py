@@ -23,6 +23,7 @@ from tests.helpers import (
     INTERFACES,
     JUDGE,
     REQUIRED,
+    SHAPES,
     changed,
     error,
     pinch,
@@ -35,13 +36,6 @@ from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM
 solve_step = functools.partial(solve.solve_step, certify="residual")  # what backends say
 
 every_interface = pytest.mark.parametrize("interface", INTERFACES)
-SHAPES = [
-    (7, 6, (6,) * 10 + (4,) * 5),
-    (3, 4, (6, 4)),
-    (0, 6, (4, 6, 4)),
-    (4, 0, (6, 6)),
-    (2, 2, ()),
-]
 
 
 def opposing_walls():
@@ -81,7 +75,7 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
             assert answer.certificate.kind == "residual"
 
 
-def test_every_other_installed_backend_agrees_or_says_that_it_did_not_solve():
+def test_other_backends_agree_or_say_that_they_did_not_solve():
     step, delta_q, _ = planted_step(np.random.default_rng(0), *SHAPES[0])
     for name in set(installed_backends()) - set(INTERFACES):
         try:
@@ -228,7 +222,7 @@ def test_solutions_carry_statistics_and_name_the_cone(rng):
 
 
 def by_hand(accuracy):
-    """What has to be asked of each solver for its answer to have `accuracy`."""
+    """The options that each solver needs for its answer to have `accuracy`."""
     gap = 1e-2 * accuracy  # ||x - x*||_H^2 <= 2 gap
     return {
         "clarabel": {"tol_feas": accuracy, "tol_gap_abs": gap, "tol_gap_rel": gap},

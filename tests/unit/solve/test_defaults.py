@@ -33,7 +33,7 @@ def test_the_default_is_native_where_it_reaches():
     assert default_engine("none", "pyramid") == "cvxpy"
 
 
-def test_the_default_of_uncertified_rows_is_daqp_and_from_some_size_on_piqp():
+def test_the_default_of_uncertified_rows_is_daqp_then_piqp():
     for certify, least in (("off", DENSE_BELOW), ("residual", SPARSE_FROM_PIQP)):
         assert default_backend(None, "pyramid", certify, least - 1) == "daqp"
         assert default_backend("native", "product", certify, least) == "piqp"
@@ -51,7 +51,7 @@ def test_the_default_of_uncertified_rows_is_daqp_and_from_some_size_on_piqp():
         assert answer.certificate.error_bound < 1e-4
 
 
-def test_the_default_backend_is_daqp_where_certified_rows_are_solved_natively():
+def test_the_default_backend_of_certified_native_rows_is_daqp():
     assert default_backend(None, "pyramid", "full") == "daqp"
     assert default_backend("native", "facets-8", "full") == "daqp"
     for others in (("cvxpy", "pyramid", "full"), (None, "ellipsoid", "off")):
@@ -98,7 +98,7 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by
     assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
 
 
-def test_a_failure_of_both_backends_or_of_another_one_is_told_of_the_one_asked(monkeypatch):
+def test_a_failure_of_both_backends_is_that_of_the_first(monkeypatch):
     monkeypatch.setattr(Daqp, "reply", lambda *_: FAILED)
     monkeypatch.setattr(Clarabel, "reply", lambda *_: FAILED)
     monkeypatch.setattr(Piqp, "reply", lambda *_: FAILED)

@@ -16,22 +16,15 @@ from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.extended import extension_rows, with_rows
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.scaled import Scaled
+from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import changed, error, pinch, planted_step, random_step
+from tests.helpers import SHAPES, changed, error, pinch, planted_step, random_step
 from tests.tolerances import ACTIVE_SET, EXACT, FOUR_ULP, OPTIMUM
 
-SHAPES = [
-    (7, 6, (6,) * 10 + (4,) * 5),
-    (3, 4, (6, 4)),
-    (0, 6, (4, 6, 4)),
-    (4, 0, (6, 6)),
-    (2, 2, ()),
-]
 every_backend = pytest.mark.parametrize("backend", installed("native"))
 
 
@@ -56,7 +49,7 @@ def by_cvxpy(step, limits):
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("shape", SHAPES[:2], ids=str)
-def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_included(shape, seed):
+def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp(shape, seed):
     # CVXPY's rows go through i first, ours through the contacts; an equation is two rows of ours.
     step = random_step(np.random.default_rng(seed), *shape)
     form = standard_form(with_rows(step, extension_rows(step, Extension(some_limits))))
@@ -79,13 +72,13 @@ def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp_extensions_include
 @every_backend
 @pytest.mark.parametrize("far", [False, True])
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
-    # Written anew, it holds nothing of the step before.
+    # Written again, it holds nothing of the step before.
     solver = NativeSolver(random_step(rng), backend)
-    solver.answer(Scaled(random_step(rng)), 1e-9)
+    solver.answer(DenseStep(random_step(rng)), 1e-9)
     step = random_step(rng)
     if far:
         step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
-    solver.answer(Scaled(step), 1e-9)
+    solver.answer(DenseStep(step), 1e-9)
     natural = to_natural(step, natural_units(step))
     expected = standard_form(within_reach(natural) if solver.adapter.NEAR else natural)
     program = solver.program
@@ -184,7 +177,7 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
     if own:
         step = with_rows(step, extension_rows(step, Extension(lambda s: [s.delta_q_a <= 1e-2])))
     solver = solver_for(step, "clarabel", "native")
-    solver.write(Scaled(step))
+    solver.write(DenseStep(step))
     natural = within_reach(to_natural(step, natural_units(step)))
     problem = cone_problem(natural)
     problem.fill(natural)
@@ -242,7 +235,7 @@ def test_an_engine_that_there_is_not_is_refused(rng):
         load_scenario("sphere_spin", ["solver.engine=native", "solver.backend=highs"])
 
 
-def test_a_simulator_passes_curved_extensions_to_cvxpy_unless_told_otherwise():
+def test_a_simulator_passes_curved_extensions_to_cvxpy_by_default():
     scenario = load_scenario("sphere_spin", ["solver.certify=residual"])
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
     settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual"}

@@ -63,7 +63,7 @@ EVERY = [
 every_solver = pytest.mark.parametrize(("kind", "name", "engine"), EVERY)
 
 
-def test_every_interface_and_backend_of_these_tests_is_installed_so_that_green_means_they_ran():
+def test_every_backend_of_these_tests_is_installed_by_every_interface():
     assert {(kind, name.rpartition(":")[2]) for kind, name, _ in EVERY} >= {
         (kind, name) for kind in (CvxpySolver, QpsolversSolver, NativeSolver) for name in REQUIRED
     } | {(NativeSolver, "quadprog"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
@@ -200,12 +200,12 @@ def test_a_sparse_solver_refuses_a_step_of_another_pattern(large_step, step):
 def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="gives no answer of its own"):
         solve_step(step, NoSolver(step), certify="residual")
-    with pytest.raises(StepNotSolved, match="not asked"):
+    with pytest.raises(StepNotSolved, match="not called"):
         NoSolver(step).answer(NoSolver(step).scaled(step), 1e-9)
 
 
 @pytest.mark.parametrize("engine", ["cvxpy", "native"])
-def test_a_simulator_keeps_its_solver_while_steps_fit_and_makes_another_where_not(engine):
+def test_a_simulator_keeps_its_solver_while_steps_fit(engine):
     some = load_scenario("two_finger_pinch", [f"solver.engine={engine}", "solver.certify=off"])
     run, q = some.simulator(), some.system.q_start
     result = run.step(q, some.targets(some.h))
@@ -247,7 +247,7 @@ def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypat
     assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
 
 
-def test_the_table_has_one_line_for_each_backend_and_one_file_for_each_adapter():
+def test_a_backend_is_one_line_of_the_table_and_an_adapter_one_file():
     # A second line of the same name would be lost in the dictionary.
     assert len(re.findall(r"\bBackend\(\n?\s*\"", inspect.getsource(backends))) == len(BACKENDS)
     files = {path.stem for path in ADAPTERS.glob("*.py")} - {"__init__", "program"}

@@ -101,7 +101,7 @@ def pulled_without_turning(share, m=0.3, mu_v=0.5, radius=0.04):
 
 
 @pytest.mark.parametrize("share", [1.02, 1.5, 4.0])
-def test_on_its_own_weight_a_body_s_share_of_drag_is_its_quasi_dynamic_number(share):
+def test_the_share_of_drag_under_weight_is_the_quasi_dynamic_number(share):
     step, x = pulled_without_turning(share)
     solution, body = solve_step(step), free_body(0.3)
     Pi = (x / H) / (0.5 * G * H)
@@ -114,7 +114,7 @@ def test_on_its_own_weight_a_body_s_share_of_drag_is_its_quasi_dynamic_number(sh
 
 
 @pytest.mark.parametrize("grip", [10.0, 40.0])
-def test_the_share_of_a_body_that_fingers_lift_is_drag_over_what_their_squeeze_can_bear(grip):
+def test_the_share_of_a_lifted_body_is_drag_over_the_grip_s_friction(grip):
     # (R13): m v / h over mu_v 2 N. A third coordinate lifts both fingers through a stiffness K:
     # K (target - z) = m g + m z / h^2.
     m, mu_v, K, target = 0.2, 0.4, 2000.0, 3e-3
@@ -141,7 +141,7 @@ def test_the_drag_of_a_falling_body_is_its_weight():
     np.testing.assert_allclose(found, 1.0, rtol=ROUNDING, atol=0.0)
 
 
-def test_a_body_that_is_not_free_or_neither_rubs_nor_weighs_has_no_share_of_drag():
+def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
     step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
     solution, body = solve_step(step), free_body(0.3)
     assert drag_share(body, step, solution, 0.0) is None
@@ -151,7 +151,7 @@ def test_a_body_that_is_not_free_or_neither_rubs_nor_weighs_has_no_share_of_drag
         assert drag_share(body, step, solution, G) is None
 
 
-def test_contacts_of_other_bodies_do_not_bear_a_body_and_the_largest_share_counts():
+def test_contacts_of_other_bodies_do_not_count_in_a_body_s_share():
     # Two bodies side by side: one slides on the floor, one rests on another contact.
     slides, _ = pulled_without_turning(1.5)
     rests = sphere_on_floor(m=9.0, wrench=(0, 0, -9.0 * G, 0, 0, 0), h=H)

@@ -117,7 +117,7 @@ def test_a_cone_function_combines_the_gap_and_the_motions(name):
 
 
 @pytest.mark.parametrize("name", POLYHEDRAL)
-def test_numbers_expressions_rows_and_exact_numbers_go_through_a_cone_alike(name, rng):
+def test_numbers_expressions_and_rows_go_through_a_cone_alike(name, rng):
     # Multiples of 1/8 times float64 coefficients: sums of them are exact in 200 bits, not in 53.
     motion = rng.integers(-64, 64, size=4) / 8.0
     row_of = [[Fraction(c) for c in row] for row in cone_matrix(name).tolist()]

@@ -80,7 +80,7 @@ def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, name, t
 
     again = sorted(locked(trip(things[name])))
     kept = sorted(key for key in locked(things[name]))
-    derived = {"H", "mu", "wrench"}  # a copy forms them when they are asked for
+    derived = {"H", "mu", "wrench"}  # a copy forms them when they are read
     assert [key for key in again if key not in derived] == [k for k in kept if k not in derived]
 
 
@@ -157,7 +157,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "h": 0.002,
         "K_q": np.diag([3.0, 4.0]),
         "gravity": (1.0, 2.0, 3.0),
-        "feels_gravity": np.array([True, False]),
+        "gravity_acts": np.array([True, False]),
         "solver": "osqp",
         "engine": "cvxpy",
         "accuracy": 1e-7,

@@ -124,7 +124,7 @@ def test_a_row_of_the_user_s_own_holds_a_coordinate_back(backend, rng):
     assert answer.lam.shape == (0,)
 
 
-def test_multipliers_are_contact_major_although_cvxpy_lists_them_row_by_row(rng):
+def test_multipliers_are_contact_major_though_cvxpy_s_are_not(rng):
     step, _, lam = planted_step(rng, 3, 4, rows=(4, 6, 4, 6))
     answer = solve_step(step, JUDGE)
     np.testing.assert_allclose(answer.lam, lam, rtol=0.0, atol=MULTIPLIERS * lam.max())
@@ -141,7 +141,7 @@ def test_multipliers_are_contact_major_although_cvxpy_lists_them_row_by_row(rng)
     np.testing.assert_allclose(push, H_delta_q, rtol=0.0, atol=MULTIPLIERS * np.abs(push).max())
 
 
-def test_multipliers_of_the_step_s_own_rows_come_after_those_of_the_contacts(rng):
+def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
     # The row is far from tight: its multiplier is zero, the others are the planted ones.
     step, delta_q, lam = planted_step(rng)
     far = float(np.abs(delta_q).sum()) + 1.0
@@ -193,7 +193,7 @@ def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
         StepProblem(random_step(rng).replace(cone=name))
 
 
-def test_further_constraints_come_after_the_rows_of_the_contacts_and_of_the_step(rng):
+def test_further_constraints_come_after_all_rows_of_the_step(rng):
     step = random_step(rng, rows=(4, 4)).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
     problem = StepProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
     # Four row indices of two contacts, one row of the step, one bound for each coordinate.

@@ -1,6 +1,5 @@
 """Solutions as JSON: the documented fields, bit for bit; what is no solution is refused."""
 
-import copy
 import json
 from dataclasses import replace
 
@@ -14,24 +13,10 @@ from quasistatic_ref.step.files import (
     step_sha256,
 )
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
-from tests.helpers import random_step
+from tests.helpers import random_step, record_changed
 from tests.tolerances import EXACT, ROUNDING
 
 PLAIN = random_step(np.random.default_rng(11), n_a=2, n_u=3, rows=(6, 4))
-
-
-def changed(record, path, value=None):
-    """A deep copy with the field at a path replaced, or removed where no value is given."""
-    new = copy.deepcopy(record)
-    *way, last = path
-    at = new
-    for key in way:
-        at = at[key]
-    if value is None:
-        del at[last]
-    else:
-        at[last] = value
-    return new
 
 
 def test_the_solution_has_the_documented_fields():
@@ -106,7 +91,7 @@ SOLUTION_REFUSED = {
 def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
     record = json.loads(solution_text(PLAIN, solve_step(PLAIN)))
     file = tmp_path / "solution.json"
-    file.write_text(json.dumps(changed(record, path, value)))
+    file.write_text(json.dumps(record_changed(record, path, value)))
     with pytest.raises(InputError) as caught:
         solution_read(file, PLAIN)
     assert str(caught.value).startswith(f"{file}: {says}")

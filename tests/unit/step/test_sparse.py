@@ -43,7 +43,7 @@ def step_after(some, count):
 
 
 @pytest.mark.parametrize("scene", ["pile", "grasp"])
-def test_blocks_are_the_columns_of_the_dense_jacobian_and_the_others_are_zero(scene):
+def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
     if scene == "pile":
         made = pile(BOXES).simulator
         system, pairs, layout = made.system, made.pairs, made.layout
@@ -79,9 +79,7 @@ def test_the_sparse_form_is_the_standard_form(always_sparse):
 
 
 @pytest.mark.parametrize("backend", [b.name for b in BACKENDS.values() if b.sparse])
-def test_a_sparse_answer_is_the_certified_one_to_the_accuracy_of_its_backend(
-    always_sparse, backend
-):
+def test_a_sparse_answer_is_the_certified_one_to_its_accuracy(always_sparse, backend):
     result = step_after(pile(BOXES, backend=backend, certify="residual"), 3)
     assert result.solution.certificate.kind == "residual"
     exact = solve_step(result.step, certify="full")
@@ -96,7 +94,7 @@ def test_a_sparse_answer_is_the_certified_one_to_the_accuracy_of_its_backend(
     )
 
 
-def test_the_size_of_a_step_and_its_certificate_decide_whether_it_is_sparse(monkeypatch):
+def test_size_and_certificate_decide_whether_a_step_is_sparse(monkeypatch):
     # 2 x 1 x 2 boxes: 2 pairs with the floor, 2 side by side, 2 above each other, 4 contacts each
     entries = 4 * 24 * 24
     for limit, certify, sparse in (
@@ -128,7 +126,7 @@ def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sp
     assert run.steps == 3
     assert not formed
     assert step_after(some, 1).step.contacts.J.shape[1:] == (4, 24)
-    assert len(formed) == 1  # asked for, it is
+    assert len(formed) == 1  # read, it is
 
 
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
@@ -160,9 +158,7 @@ def test_a_large_step_without_solution_is_no_answer(always_sparse):
 
 
 @pytest.mark.parametrize(("within", "solvable"), [(1.0, False), (0.9, True)])
-def test_edges_of_aligned_boxes_ask_for_opposite_motions_and_inner_points_do_not(
-    monkeypatch, within, solvable
-):
+def test_edges_of_aligned_boxes_contradict_and_inner_points_do_not(monkeypatch, within, solvable):
     monkeypatch.setattr(piles, "WITHIN", within)
     some = pile((2, 1, 1), 16, certify="full")
     q = some.q.copy()

@@ -1,6 +1,5 @@
 """Steps and solutions as JSON: bit for bit, every unknown or missing field refused by name."""
 
-import copy
 import hashlib
 import json
 
@@ -17,7 +16,7 @@ from quasistatic_ref.step.files import (
     step_text,
     step_written,
 )
-from tests.helpers import point_on_floor, random_step
+from tests.helpers import point_on_floor, random_step, record_changed
 from tests.tolerances import EXACT
 
 RNG = np.random.default_rng(11)
@@ -43,20 +42,6 @@ CONTACT_FIELDS = ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows
 
 def record_of(step):
     return json.loads(step_text(step))
-
-
-def changed(record, path, value=None):
-    """A deep copy with the field at a path replaced, or removed where no value is given."""
-    new = copy.deepcopy(record)
-    *way, last = path
-    at = new
-    for key in way:
-        at = at[key]
-    if value is None:
-        del at[last]
-    else:
-        at[last] = value
-    return new
 
 
 @pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
@@ -108,12 +93,12 @@ def test_the_hash_tells_steps_apart_by_their_bits():
 
 
 def test_cone_and_extra_may_be_left_out():
-    record = changed(record_of(PLAIN), ["cone"])
+    record = record_changed(record_of(PLAIN), ["cone"])
     assert step_from_record(record) == PLAIN
 
 
 def test_whole_numbers_are_read_as_floats():
-    record = changed(record_of(PLAIN), ["contacts", 0, "phi"], 1)
+    record = record_changed(record_of(PLAIN), ["contacts", 0, "phi"], 1)
     np.testing.assert_allclose(step_from_record(record).contacts.phi[0], 1.0, rtol=EXACT)
 
 
@@ -127,7 +112,7 @@ MISSING += [["contacts", 1, f] for f in CONTACT_FIELDS] + [
 
 @pytest.mark.parametrize("path", MISSING, ids=[".".join(map(str, p)) for p in MISSING])
 def test_a_missing_field_is_named(path):
-    record = changed(record_of(STEPS["with rows of one's own"]), path)
+    record = record_changed(record_of(STEPS["with rows of one's own"]), path)
     name = ".".join(str(p) for p in path).replace(".1.", "[1].")
     with pytest.raises(StepDataError) as caught:
         step_from_record(record)
@@ -144,7 +129,7 @@ UNKNOWN = {
 
 @pytest.mark.parametrize(("path", "says"), UNKNOWN.values(), ids=UNKNOWN)
 def test_an_unknown_field_is_refused_by_name(path, says):
-    record = changed(record_of(STEPS["with rows of one's own"]), path, 1.5)
+    record = record_changed(record_of(STEPS["with rows of one's own"]), path, 1.5)
     with pytest.raises(StepDataError) as caught:
         step_from_record(record)
     assert str(caught.value).startswith(says)
@@ -190,7 +175,7 @@ REFUSED = {
 
 @pytest.mark.parametrize(("path", "value", "says"), REFUSED.values(), ids=REFUSED)
 def test_a_wrong_value_is_refused_with_its_field(path, value, says):
-    record = changed(record_of(STEPS["with rows of one's own"]), path, value)
+    record = record_changed(record_of(STEPS["with rows of one's own"]), path, value)
     with pytest.raises(StepDataError) as caught:
         step_from_record(record)
     assert str(caught.value).startswith(says)
@@ -204,7 +189,7 @@ def test_what_is_no_table_is_no_step(record):
 
 def test_an_error_in_a_file_names_the_file(tmp_path):
     path = tmp_path / "step.json"
-    path.write_text(json.dumps(changed(record_of(PLAIN), ["h"], -1.0)))
+    path.write_text(json.dumps(record_changed(record_of(PLAIN), ["h"], -1.0)))
     with pytest.raises(InputError) as caught:
         step_read(path)
     assert str(caught.value) == f"{path}: h: must be greater than 0 (got -1.0)"

@@ -22,7 +22,7 @@ ASKED = (
 EXAMPLE = re.compile(r"^```\{doctest\}\n(.*?)^```", re.MULTILINE | re.DOTALL)
 BEFORE_OR_AFTER = """
 import sys, importlib
-import cvxpy, pinocchio, coal  # once: what is imported anew below is the package alone
+import cvxpy, pinocchio, coal  # once: what is imported again below is the package alone
 import quasistatic_ref
 names = [name for name in quasistatic_ref.__all__ if name != "__version__"]
 rooms = ["simulate", "step", "model", "solve", "certify", "contact", "cli.main", "lab"]

@@ -58,7 +58,7 @@ def places(steps: int, backend: str = "daqp") -> Places:
 
 
 def interfaces(at: Places, repeat: int) -> dict[str, Any]:
-    """The step with DAQP natively, beside other interfaces and DAQP alone on the same program."""
+    """The step with DAQP natively, next to other interfaces and DAQP alone on the same program."""
     run = _Run(by_numpy(at.scenario), at)
     native, through = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
     run.step(0)  # builds the program that both solve
@@ -76,7 +76,7 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
-    told: dict[str, float] = {}
+    medians: dict[str, float] = {}
     ratios: dict[str, float] = {}
     for name, other in others.items():
         rounds: list[dict[str, Job]] = [
@@ -87,10 +87,10 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         # The slow ones wait for their turn on a busy machine, and that is not their time.
         clock = time.perf_counter if name == "DAQP alone" else time.thread_time
         times = in_turn(rounds, repeat, clock)
-        told.setdefault("step, native", microseconds(times["native"]))
-        told[name], ratios[name] = microseconds(times[name]), ratio(times[name], times["native"])
+        medians.setdefault("step, native", microseconds(times["native"]))
+        medians[name], ratios[name] = microseconds(times[name]), ratio(times[name], times["native"])
     return {
-        "microseconds": told,
+        "microseconds": medians,
         "over_solver": 1 / ratios["DAQP alone"],
         "cvxpy_over_native": ratios["step, through CVXPY"],
         "rebuilt_over_native": ratios["step, CVXPY rebuilt each time"],
@@ -194,7 +194,7 @@ def _selection(simulator: Simulator, q: Array) -> float:
 
 
 UNFIT = ("highs", "qpsolvers:highs")
-"""At the accuracy asked for HiGHS leaves a third of the grasp unsolved (docs/conventions.md)."""
+"""At the accuracy of a run HiGHS leaves a third of the grasp unsolved (docs/conventions.md)."""
 
 
 def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:

@@ -121,7 +121,17 @@ HARVESTED = {
 
 
 class Ends(TypedDict):
-    """Where a dial begins and ends, in its unit; the hard end is `most`, whichever is larger."""
+    """Where a dial begins and ends.
+
+    Parameters
+    ----------
+    name : str
+    unit : str
+    first : float
+        The easy end [the dial's unit].
+    most : float
+        The hard end, whichever is larger [the dial's unit].
+    """
 
     name: str
     unit: str

@@ -14,7 +14,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, StepData
 
 POSES = 40
-"""Configurations of a run at which a scenario is asked again with another h or k."""
+"""Configurations of a run at which a scenario's step is formed again with another h or k."""
 
 
 Count = Callable[[int], object]
@@ -84,7 +84,7 @@ def harvested(name: str, count: int) -> Iterator[Made]:
         yield Made(f"{name}/{s}", name, step, mass_ratio(step), k)
 
 
-def asked_again(
+def stepped_again(
     family: str, name: str, settings: list[str], count: int, first: int
 ) -> Iterator[Made]:
     """A scenario with other settings, at configurations of its own run.

@@ -1,4 +1,4 @@
-"""Sequences: steps of a scenario's run one after the other, to be asked in order."""
+"""Sequences: steps of a scenario's run one after the other, to be solved in order."""
 
 from collections.abc import Iterator
 

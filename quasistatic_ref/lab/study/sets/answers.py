@@ -13,7 +13,7 @@ from quasistatic_ref.certify.sparse_bound import LargeForm, Metric, sparse_error
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.sets.member import BOUNDED, ENCLOSED, EXACT, Answer
 from quasistatic_ref.lab.study.sets.plain_sizes import PlainSizes
-from quasistatic_ref.lab.study.truth import asked
+from quasistatic_ref.lab.study.truth import reply_of
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -21,7 +21,7 @@ from quasistatic_ref.tolerances import KNOWN
 
 NONE = np.zeros(0)
 LARGE_SOLVERS = ("piqp", "clarabel")
-"""Those that are asked for the answer of a sparse problem; the sharper bound is kept."""
+"""Solvers of a sparse problem; the sharper bound is kept."""
 
 
 class NotKnown(QuasistaticError):
@@ -99,6 +99,6 @@ def bounded_answer(H: csr_matrix, g: Array, A: csr_matrix, b: Array, units: Unit
 
 def _answers(form: StandardForm) -> Iterator[tuple[Array, Array]]:
     for solver in LARGE_SOLVERS:
-        reply = asked(form, solver)
+        reply = reply_of(form, solver)
         if reply is not None and reply.x is not None and reply.lam is not None:
             yield reply.x, np.maximum(reply.lam, 0.0)

@@ -113,7 +113,7 @@ def _json(path: Path, members: Sequence[Member]) -> Path:
 
 
 def _parquet(name: str, members: Sequence[Member], folder: Path) -> list[Path]:
-    """What qpbenchmark's command takes, and beside it what answers are graded by."""
+    """What qpbenchmark's command takes, and what answers are graded by."""
     stem = name.replace("-", "_")
     programs = [Program(one.id, *one.form, one.answer.x) for one in members]
     title = "".join(part.title() for part in stem.split("_"))

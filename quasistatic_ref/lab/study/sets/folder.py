@@ -38,7 +38,7 @@ DATE = (1980, 1, 1, 0, 0, 0)
 
 
 def family_written(folder: Path, family: str, members: Sequence[Member]) -> list[Path]:
-    """Write one family: its numbers, and its lines beside them until the set is whole."""
+    """Write one family: its numbers, and its lines until the set is whole."""
     lines = "".join(json_text(_line(one)) + "\n" for one in members)
     numbers = bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(members)))
     return [numbers, text_written(_begun(folder, family), lines)]

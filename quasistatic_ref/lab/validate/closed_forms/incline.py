@@ -3,6 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.measures import grid
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import (
     body_text,
@@ -13,7 +14,6 @@ from quasistatic_ref.lab.scenes.systems import (
     world_plane,
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact, threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.measures import exact, threshold
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M, INERTIA, MU_V, MU_OMEGA = 0.3, 3e-4, 0.4, 0.015

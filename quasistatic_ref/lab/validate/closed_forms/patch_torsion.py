@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact, slope, threshold
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.measures import exact, slope, threshold
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import FITTED
 

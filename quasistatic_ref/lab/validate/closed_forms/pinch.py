@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact, grid, threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.validate.measures import exact, grid, threshold
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.2

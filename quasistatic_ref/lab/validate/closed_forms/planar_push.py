@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact, grid, slope
 from quasistatic_ref.lab.scenes.slider import (
     GYRATION,
     STIFFNESS,
@@ -15,7 +16,6 @@ from quasistatic_ref.lab.scenes.slider import (
     turned,
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.validate.measures import exact, grid, slope
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CLOSED_FORM, FITTED

@@ -3,6 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.measures import grid
 from quasistatic_ref.lab.scenes.systems import (
     body_text,
     on_link,
@@ -12,7 +13,6 @@ from quasistatic_ref.lab.scenes.systems import (
     world_plane,
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.validate.measures import grid
 from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -35,7 +35,7 @@ UNIT = np.array([1e-4, 1e-4, 1e-4, 1e-4, 2e-3, 2e-3, 2e-3])
 """What the unknowns are divided by before qpsolvers sees them [m, rad]."""
 
 QP_TOLERANCE = 1e-9
-"""Of positions after 60 steps, over the way: Clarabel is asked for 1e-11 in these units, and the
+"""Of positions after 60 steps, over the way: Clarabel's accuracy is 1e-11 in these units, and the
 errors of single steps add up; measured 5e-13."""
 
 

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.lab.validate.claim import Claim, Comparison, Evidence, comparison, within
-from quasistatic_ref.lab.validate.measures import exact
 from quasistatic_ref.step.data import Array
 
 M, INERTIA, RADIUS, MU_V, MU_OMEGA, H = 0.3, 3e-4, 0.05, 0.5, 0.01, 1e-3

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact, slope
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.validate.measures import exact, slope
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import FITTED

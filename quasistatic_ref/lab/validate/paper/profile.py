@@ -22,7 +22,7 @@ SOLVE: Final = ("solver's call", "rest of the solve")
 """The lap ``solve`` of the simulator's stopwatch, in two. The call is that of the solver's own
 interface: new data handed over, solution, its arrays copied. The rest makes the program (A and b of
 Eq. (8), H and g of Eq. (13), natural units) and the answer (SI units, checks, and the certificate
-where one is asked for)."""
+where one is given)."""
 
 PARTS: Final = (*SOLVE, "distances", "rows", "integrate")
 """Parts of a step. ``distances`` are the closest points, their selection and normals; ``rows`` are
@@ -91,8 +91,8 @@ class Profiles(NamedTuple):
 
     def profile(self, backend: str, distances: str, certify: str = UNCERTIFIED) -> Profile:
         """The one profile with these properties."""
-        asked = (backend, certify, distances)
-        return next(p for p in self.all if (p.backend, p.certify, p.distances) == asked)
+        wanted = (backend, certify, distances)
+        return next(p for p in self.all if (p.backend, p.certify, p.distances) == wanted)
 
 
 @cache

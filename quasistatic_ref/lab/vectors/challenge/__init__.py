@@ -1,1 +1,1 @@
-"""New cases for as long as one likes, asked of a program that answers line by line."""
+"""New cases for as long as one likes, sent to a program that answers line by line."""

@@ -7,7 +7,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_read
 from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
-from quasistatic_ref.lab.vectors.challenge.live import asked_again, challenge
+from quasistatic_ref.lab.vectors.challenge.live import challenge, sent_again
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.serve import served
@@ -40,7 +40,7 @@ def challenged(options: argparse.Namespace) -> int:
         record = json_read(options.again)
         if not isinstance(record, dict) or record.get("format") != FORMAT:
             raise InputError("is no counterexample", file=options.again)
-        outcome = asked_again(program, record, options.digits)
+        outcome = sent_again(program, record, options.digits)
     else:
         outcome = challenge(
             program,

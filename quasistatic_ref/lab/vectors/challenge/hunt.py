@@ -30,7 +30,7 @@ MORE: Final = 12
 MOST: Final = 10
 """Findings that are written at most."""
 GIVEN_UP: Final = 3
-"""Crashes, hangs, late answers or lines of garbage after which a layer is no longer asked."""
+"""Crashes, hangs, late answers or lines of garbage after which a layer gets no further cases."""
 
 Task = tuple[str, tuple[int, ...], int]
 """Layer, seed, level."""
@@ -70,7 +70,7 @@ class Hunt:
         return len(self.outcome.findings) >= MOST
 
     def goes_on(self, layer: str) -> bool:
-        """Whether a layer is asked further."""
+        """Whether a layer gets further cases."""
         answered = self.outcome.verdicts[layer, "unsupported"] < self.outcome.asked[layer]
         known = layer in self.program.layers
         return known and answered and self._troubles[layer] < GIVEN_UP
@@ -98,7 +98,7 @@ class Hunt:
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
-                    f"{layer} was asked no longer: {GIVEN_UP} cases came to no answer in time"
+                    f"{layer} got no further cases: {GIVEN_UP} cases came to no answer in time"
                 )
             elif layer in self._wanted and not self.goes_on(layer):
                 self.outcome.remarks.append(f"{layer} is not supported")

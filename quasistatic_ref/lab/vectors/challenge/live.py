@@ -68,16 +68,16 @@ def challenge(
     Outcome
     """
     names = [check_layer(name) for name in layers or LAYERS]
-    asked = program if isinstance(program, Program) else Function(program)
+    player = program if isinstance(program, Program) else Function(program)
     with ExitStack() as stack:
-        if isinstance(asked, Program):
-            stack.enter_context(asked)
+        if isinstance(player, Program):
+            stack.enter_context(player)
         makers: Callable[[Iterable[Task]], Iterator[tuple[Task, Json, Json]]] = _made_here
         if jobs > 1:
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
             makers = partial(pool.map, _made)
-        hunt = Hunt(asked, digits, makers)
+        hunt = Hunt(player, digits, makers)
         began = time.monotonic()
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
@@ -112,7 +112,7 @@ def _made_here(tasks: Iterable[Task]) -> Iterator[tuple[Task, Json, Json]]:
     return map(_made, tasks)
 
 
-def asked_again(program: Program, finding: Json, digits: float | None = None) -> Outcome:
+def sent_again(program: Program, finding: Json, digits: float | None = None) -> Outcome:
     """Ask the case of a counterexample once more.
 
     Parameters

@@ -1,7 +1,7 @@
 """A program that answers line by line, started again whenever it has to be.
 
-Whatever it does, crash, hang, print what is no answer, answer twice, late or what nobody asked, or
-flood its standard error, is survived and said.
+Whatever it does, crash, hang, print what is no answer, answer twice, late or to a case that was not
+sent, or flood its standard error, is survived and reported.
 """
 
 import contextlib
@@ -50,7 +50,7 @@ class Reply:
     said : str
         Of an error, or of what went wrong.
     strays : tuple of str
-        What else it answered meanwhile: twice, to a case that nobody asked.
+        What else it answered meanwhile: twice, or to a case that was not sent.
     """
 
     kind: str
@@ -146,7 +146,7 @@ class Program:
         name = record.get("id")
         if name != id:
             twice = str(name) in self._answered
-            what = f"{name!r} twice" if twice else f"{str(name)[:40]!r}, which was not asked"
+            what = f"{name!r} twice" if twice else f"{str(name)[:40]!r}, which was not sent"
             strays.append(f"answered {what}")
             return None
         self._answered.add(id)
@@ -170,9 +170,9 @@ class Program:
             tangent=top.text("tangent", "body", choices=TANGENTS),
             quaternion=top.text("quaternion", "xyzw", choices=QUATERNIONS),
         )
-        asked = top.take("layers", list(LAYERS))
+        supported = top.take("layers", list(LAYERS))
         top.close()
-        self.layers = tuple(name for name in LAYERS if name in asked)
+        self.layers = tuple(name for name in LAYERS if name in supported)
 
     def _crash(self, strays: list[str]) -> Reply:
         process, heard = self._process, self._heard
@@ -255,7 +255,7 @@ def _late(reply: Reply, took: float, allowed: float) -> Reply:
 
 
 def _fed(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:
-    """Write what is asked: a program that does not read holds up nobody else."""
+    """Send the cases: a program that does not read holds up nobody else."""
     with contextlib.suppress(OSError, ValueError):
         while (line := lines.get()) is not None:
             pipe.write(line)

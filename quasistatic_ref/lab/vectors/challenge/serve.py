@@ -29,14 +29,14 @@ def served(lines: IO[str], out: IO[str], kind: str = "exact") -> None:
     for line in lines:
         try:
             case = json.loads(line)
-            asked = {"id": case["id"]}
+            head = {"id": case["id"]}
         except (ValueError, TypeError, KeyError) as error:
             _say(out, {"id": None, "error": f"is no case: {error}"})
             continue
         try:
-            _say(out, {**asked, "output": _output(case["layer"], case["input"], kind)})
+            _say(out, {**head, "output": _output(case["layer"], case["input"], kind)})
         except (QuasistaticError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-            _say(out, {**asked, "error": f"{type(error).__name__}: {error}"})
+            _say(out, {**head, "error": f"{type(error).__name__}: {error}"})
 
 
 def _output(name: str, case: Json, kind: str) -> Json:

@@ -20,7 +20,7 @@ def shrunk(case: Json, fails: Callable[[Json], bool], budget: int = BUDGET) -> J
     fails : callable
         Whether an input is valid and fails in the same way.
     budget : int
-        How often `fails` may be asked.
+        How often `fails` may be called.
     """
     tried: set[str] = {repr(case)}
     again = True

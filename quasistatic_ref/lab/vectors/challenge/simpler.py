@@ -1,6 +1,6 @@
 """Inputs that are simpler than one: fewer contacts and bodies, poses that are none, fewer digits.
 
-A move need not give a valid input: what is none is not asked.
+A move need not give a valid input; an invalid one is not sent.
 """
 
 import copy

@@ -11,7 +11,7 @@ SQUARE = 1e-9
 
 
 def is_valid(name: str, case: Json) -> bool:
-    """Whether a layer may be asked that.
+    """Whether an input is valid for a layer.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     record : dict
         What is expected: ``output``, ``flags``, ``tolerance``.
     answer : object
-        The output of somebody else.
+        The output of another implementation.
 
     Returns
     -------

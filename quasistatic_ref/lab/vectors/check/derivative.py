@@ -51,7 +51,7 @@ def _kink(expected: Sequence[Json], answer: Json) -> Verdict:
     if given == wanted:
         return Verdict("", PASSED)
     if given > wanted:
-        return acceptable("further reasons besides the right ones")
+        return acceptable("the right reasons and further ones")
     return failure("reasons", f"the reason is another one: {why}")
 
 
@@ -71,13 +71,13 @@ def _numbers(record: Json, answer: Json) -> Verdict:
         if name not in FIELDS.values():
             known = ", ".join((*SAID, *FIELDS.values()))
             return failure(name, f"{name} is no field of this output; its fields are {known}")
-    asked = {name: value for name, value in expected.items() if name in given}
-    if not asked:
+    wanted = {name: value for name, value in expected.items() if name in given}
+    if not wanted:
         return failure("dq_dq", "no derivative is answered")
-    judged = {name: given[name] for name in asked}
-    if problem := shape_problem("derivative", asked, judged):
+    judged = {name: given[name] for name in wanted}
+    if problem := shape_problem("derivative", wanted, judged):
         return failure(*problem, digits=0.0)
-    found = differences(asked, judged, record["tolerance"])
+    found = differences(wanted, judged, record["tolerance"])
     failing = [d for d in found.values() if not d.holds]
     if failing:
         return failure(failing[0].field, failing[0].sentence, failing[0].digits)

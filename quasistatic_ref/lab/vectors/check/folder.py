@@ -58,8 +58,8 @@ def check_answers(
         raise InputError("is no folder of answers", file=folder)
     if only and layers is None:
         layers = [only.partition("/")[0]]
-    asked = LAYERS if layers is None else [check_layer(name) for name in layers]
-    known = [name for name in asked if (Path(vectors) / "expected" / f"{name}.json").exists()]
+    named = LAYERS if layers is None else [check_layer(name) for name in layers]
+    known = [name for name in named if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
         raise InputError("holds no expected/LAYER.json", file=vectors)
     found = {name: answers_read(folder, name) for name in known}
@@ -150,7 +150,7 @@ def answer_judged(
     record : dict
         What is expected.
     given : object
-        The output of somebody else, in the conventions that are declared in `answers`.
+        The output of another implementation, in the conventions that are declared in `answers`.
     answers : Answers
     digits : float, optional
         [-].

@@ -39,7 +39,7 @@ def another_witness(case: Json, record: Json, answer: Json, failing: Failing) ->
 
     Exactly, they may be unique and still be decided by the last bit of a pose: a face that is
     parallel to another but for 1e-18. Far from the expected ones they have to prove themselves;
-    a little beside them they are wrong where those are unique.
+    a little off them they are wrong where those are unique.
     """
     if "phi" in failing or (record["flags"].get("unique", True) and not _far(failing)):
         return plain_failure(failing)

@@ -1,4 +1,4 @@
-"""What is asked of programs that are right to fewer digits than float64 holds."""
+"""What is required of programs that are right to fewer digits than float64 holds."""
 
 from quasistatic_ref.lab.vectors.check.compare import leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import NEGLIGIBLE

@@ -1,4 +1,4 @@
-"""Classic mistakes, recognised by what somebody who makes them would have answered.
+"""Classic mistakes, recognised by what a program that makes them would have answered.
 
 Each hypothesis is tried on the failing answers of a layer. It is named if it predicts at least half
 of them to within a multiple of their tolerance where the right answer is another, and more of them
@@ -21,7 +21,7 @@ from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
 SAMPLE: Final = 12
-"""Failing cases that are tried, and right ones: mistakes are systematic, some predictions dear."""
+"""Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""
 SAME: Final = 1e-9
 """Difference from a prediction, relative to the field's largest number, that still matches: a
 mistake leaves the other digits right, but not to the last bit."""
@@ -108,8 +108,8 @@ def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
         return False
     expected = one.record["output"]
     for prediction in _predictions(layer, hypothesis, one):
-        told = _told(layer, one, prediction)
-        wrong = {name: v for name, v in told.items() if not _same(one, name, v, expected)}
+        fields = _comparable(layer, one, prediction)
+        wrong = {name: v for name, v in fields.items() if not _same(one, name, v, expected)}
         if wrong and all(_same(one, name, value, one.output) for name, value in wrong.items()):
             return True
     return False
@@ -130,7 +130,7 @@ def _would_spoil(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
     )
 
 
-def _told(layer: str, one: Failed, prediction: Json) -> dict[str, Json]:
+def _comparable(layer: str, one: Failed, prediction: Json) -> dict[str, Json]:
     """The fields to compare: of a whole step the first that fails, the others follow from it."""
     fields = parts(prediction)
     if layer != "step":

@@ -116,7 +116,7 @@ def farkas_verdict(case: Json, record: Json, y: Json) -> Verdict:
     """Whether y proves that A x >= b has no solution.
 
     Fractions ``"p/q"`` are checked without rounding; float64 numbers too, and if they fail only by
-    A'y = 0, by how small that is beside |A|'y.
+    A'y = 0, by how small that is compared with |A|'y.
     """
     m = len(case["b"])
     if not isinstance(y, list) or len(y) != m:

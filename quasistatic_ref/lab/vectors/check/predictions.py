@@ -1,4 +1,4 @@
-"""What somebody who makes a classic mistake answers, from a case and its right answer.
+"""What a program with a classic mistake answers, from a case and its right answer.
 
 A prediction is a part of an output, or several where a mistake comes in variants. Of a whole step
 only the field that fails first is compared, so that what follows from it need not be predicted.

@@ -73,7 +73,7 @@ class Verdict:
     without : tuple of str
         Fields of a whole step that are not answered, of which nothing is said.
     loose : bool
-        Whether it is acceptable only because fewer digits than float64's were asked for.
+        Whether it is acceptable only because fewer digits than float64's are required.
     """
 
     id: str

@@ -18,7 +18,7 @@ class Standing:
     right : int
         Whole answers, right as far as float64 can be, by a documented freedom or without.
     loose : int
-        Whole answers that are right to the digits that were asked for alone.
+        Whole answers that are right to the required digits alone.
     partial : int
         Answers that leave fields out, and are right in what they contain.
     failed, missing : int

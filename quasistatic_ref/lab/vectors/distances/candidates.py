@@ -1,7 +1,7 @@
 """Candidate contacts of a pair of shapes in the world, and those that are kept.
 
 Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
-and the closest pair, in that order; where one contact is asked for, the closest pair alone. The k
+and the closest pair, in that order; for one contact, the closest pair alone. The k
 of least signed distance are kept, those that repeat an earlier one after all others, and so the
 closest pair where k corners are as near. Everything is decided on distances, points and normals
 that are rounded to float64.
@@ -60,7 +60,7 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
     Raises
     ------
     InputError
-        If k > 1 is asked of a solid whose corners depend on where the other is.
+        If k > 1 for a solid whose corners depend on where the other is.
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     candidates = [one for part in parts(case, k) for one in _candidates(part)]

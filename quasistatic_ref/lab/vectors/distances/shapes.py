@@ -36,7 +36,7 @@ SHAPES = {
     "convex": ("vertices",),
     "cloud": ("points",),
 }
-"""Fields of each kind besides ``kind``: full lengths, along the local z axis."""
+"""Fields of each kind in addition to ``kind``: full lengths, along the local z axis."""
 
 
 @dataclass(frozen=True, eq=False)

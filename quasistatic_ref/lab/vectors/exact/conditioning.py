@@ -7,7 +7,7 @@ r = [g; b_w]. Data and elimination that are rounded componentwise leave
 
 the bound of Oettli and Prager (1964) with the condition of Skeel (1979): scaling rows or columns
 does not change it. c counts the roundings of one entry of an elimination, generously. No answer is
-asked to be nearer than :mod:`quasistatic_ref.lab.vectors.exact.floor` says.
+required to be nearer than :mod:`quasistatic_ref.lab.vectors.exact.floor` says.
 """
 
 from collections.abc import Sequence

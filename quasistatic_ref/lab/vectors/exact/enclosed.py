@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.step.data import StepData
 
 GAP: Final = arb(2) ** -280
-"""Duality gap asked for: an error of 2^-140, 1e-42 of the unconstrained step."""
+"""Duality gap at which to stop: an error of 2^-140, 1e-42 of the unconstrained step."""
 BITS: Final = 1536
 LAM: Final = arb(2) ** -20
 """Relative tolerance of the multipliers, which are one choice of many: that of the interior."""

@@ -28,7 +28,7 @@ HIGHEST: Final = 16 * PRECISION
 """Bits at which raising ends; no case of the families needs it."""
 
 DIGITS: Final = 30
-"""Significant decimal digits of the strings beside the float64 numbers."""
+"""Significant decimal digits of the strings that stand with the float64 numbers."""
 
 
 class Undecided(ArithmeticError):

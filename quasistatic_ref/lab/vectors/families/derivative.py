@@ -20,7 +20,7 @@ from quasistatic_ref.lab.vectors.layers import layer
 RANDOM = 110
 """Scenes at random that are drawn."""
 WILD = 1e3
-"""Largest entry of dq+/dq [-, rad/m] in a case that is asked."""
+"""Largest entry of dq+/dq [-, rad/m] in a case."""
 
 
 def derivative_cases() -> Iterator[Case]:

@@ -36,7 +36,7 @@ def random_pose(rng: Rng, size: float = 1.0) -> Json:
 
 
 def link(name: str, parent: str | None, joint: str, **more: Any) -> Json:
-    """One body of a mechanism, massless and at the parent's origin unless told."""
+    """One body of a mechanism, massless and at the parent's origin by default."""
     table: Json = {"name": name, "parent": parent, "placement": ORIGIN, "joint": joint}
     table |= {"axis": [0.0, 0.0, 1.0], "actuated": False}
     return table | more

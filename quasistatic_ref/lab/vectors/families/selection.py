@@ -1,4 +1,4 @@
-"""Inputs of the layer `selection`: ties of every kind, and fewer candidates than are asked for."""
+"""Inputs of the layer `selection`: ties of every kind, and fewer candidates than k."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The layers of the model, each one module with `expected` and `own`, loaded when asked for."""
+"""The layers of the model, each one module with `expected` and `own`, loaded when it is used."""
 
 from importlib import import_module
 from typing import Final, Protocol, cast

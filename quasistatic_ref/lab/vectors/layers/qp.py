@@ -30,7 +30,7 @@ UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
 SMALLEST = ("smallest_inactive_slack", "smallest_active_multiplier")
 FACTS = ("multipliers_unique", "differentiable", *SMALLEST)
-"""What a certificate says of an optimum besides its working set."""
+"""What a certificate says of an optimum in addition to its working set."""
 FLAGS = ("degenerate", "unique_multipliers", "differentiable")
 FARKAS = 1e-9
 """Relative size of A'y at which y counts as a proof: solvers stop at 1e-8 to 1e-12."""

@@ -167,7 +167,7 @@ def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
 
 
 def loads_of(tree: Mechanism, at: Poses, case: Json) -> tuple[Matrix, Vector]:
-    """M_u, and the generalised forces besides the stiffness, without rounding."""
+    """M_u, and the generalised forces in addition to the stiffness, without rounding."""
     return mass_matrix_u(tree, at), _forces(tree, at, case)
 
 
@@ -206,7 +206,7 @@ def objective_of(
 
 
 def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
-    """Generalised forces besides the stiffness: gravity where nothing is actuated, and wrenches."""
+    """Generalised forces but the stiffness's: gravity where nothing is actuated, and wrenches."""
     weight = gravity_force(tree, at, case["gravity"])
     tau: Vector = [fmpq(0)] * tree.n_a + weight[tree.n_a :]
     return [x + y for x, y in zip(tau, wrench_force(tree, at, case), strict=True)]

@@ -78,7 +78,7 @@ def with_target(tree: Mechanism, case: Json, way: Vector) -> Json:
 
 
 def with_force(case: Json, way: Vector) -> Json:
-    """The case with a generalised force besides its own [N, N m], which adds up."""
+    """The case with a additional generalised force [N, N m]."""
     return {**case, "tau": add(case["tau"], way) if "tau" in case else way}
 
 

@@ -35,7 +35,7 @@ class World:
 
     @cached_property
     def loads(self) -> tuple[Matrix, Vector]:
-        """M_u, and the generalised forces besides the stiffness."""
+        """M_u, and the generalised forces in addition to the stiffness."""
         if self.known:
             return self.known
         with working():

@@ -1,4 +1,4 @@
-"""What claims share: sweeps, exact answers, exponents, thresholds."""
+"""What claims and examples measure sweeps by: grids, exact answers, exponents, thresholds."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
