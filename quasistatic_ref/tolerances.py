@@ -209,21 +209,40 @@ it counts as none where a derivative is computed [-]: rounding of places, 1e-16 
 1e-5 m."""
 
 DEPENDENT: Final = 1e-8
-"""Least singular value of rows of length one that counts as none [-]. Geometry splits the rows of
-bodies that lie flat on each other by 1e-15; what is nearer to dependence than this makes forces of
-1e8 times the load."""
+"""Least singular value of rows of length one that counts as none [-], where no derivative hangs on
+it: what others span is counted as theirs."""
 
-CONSISTENT: Final = 1e-9
-"""Largest rate at which dependent rows leave each other, relative to the terms that make it, that
-is rounding [-]: rates are right to 1e-13, and are divided by lengths of rows 1e3 apart."""
+INDEPENDENT: Final = 3e-4
+"""Least singular value of rows of length one that are independent where a derivative is asked for
+[-]. Displacements are right to 1e-16 over it, and derivatives to that over it again: to 1e-9."""
+
+SPLIT: Final = 1e-12
+"""Largest singular value of rows, or of the equations of a closest pair, that is rounding [-]:
+geometry splits the rows of bodies that lie flat on each other by 1e-15. Rows between this and
+INDEPENDENT hold at once or do not, and normals between this and UNIQUE are not known."""
+
+CONSISTENT: Final = 1e-11
+"""Largest rate at which dependent rows leave each other, or straight surfaces in line with each
+other, relative to the terms that make it, that is rounding [-]: random states are at 1e-13 and
+below. What is let pass is an error of about ten times as much."""
 
 ON_RIM: Final = 1e-9
 """How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
 on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
 
-UNIQUE: Final = 1e-9
-"""Least singular value of the equations of a closest pair, lengths over the pair's size, at which
-the pair counts as unique [-]. Parallel faces leave 1e-16; nearer ones turn by 1e9 of a motion."""
+LEVEL: Final = 1e-5
+"""Tilt of a cylinder or a cone [rad] below which its rim counts as level where a derivative is
+asked for. Its lowest point moves by 1 / tilt of a turn, right to 2e-16 / tilt of that; where it
+cancels, errors were 1e-7 at a tilt of 3e-7, and fall with its square."""
+
+UNIQUE: Final = 1e-6
+"""Least singular value of the equations of a closest pair, lengths over the pair's size or its
+distance from the world's origin, whichever is larger, at which the pair counts as unique [-].
+Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16."""
+
+INSIDE: Final = 1e-6
+"""How far inside of a cone a load or a motion is, relative to itself, that stays there where its
+normal turns by TIED and float64 rounds [-]."""
 
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:

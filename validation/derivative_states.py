@@ -19,7 +19,6 @@ import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.files import text_written
-from quasistatic_ref.lab.vectors.families.derivative import WILD
 from quasistatic_ref.lab.vectors.layers.derivative import QUIET, STILL
 from validation.gradients.judge import judged
 from validation.gradients.reference import FIELDS
@@ -77,23 +76,9 @@ def error(one: Record) -> float:
     return max(shares, default=0.0)
 
 
-def excuse(one: Record) -> str:
-    """Why float64 cannot do better on a state; empty if it should.
-
-    Parameters
-    ----------
-    one : dict
-    """
-    if not one.get("same_contacts", True):
-        return "rounding decides which candidates are kept"
-    if one["fields"].get("dq_dq", [0, 0])[1] > WILD and error(one) < 10 * WITHIN:
-        return f"the largest entry of dq_dq is {one['fields']['dq_dq'][1]:.0e}"
-    return ""
-
-
 def faulty(one: Record) -> bool:
     """Whether a number of a state is wrong, or stands where there is a kink."""
-    return bool(one["kinks"]) or (error(one) > WITHIN and not excuse(one))
+    return bool(one["kinks"]) or error(one) > WITHIN
 
 
 def table(found: list[Record]) -> list[str]:
@@ -185,8 +170,7 @@ def page(found: list[Record], missing: dict[str, int]) -> str:
         *by_field(found),
         "",
         *(
-            f"State {one['i']}, {one['group']} {one['name']}: an error of {error(one):.1e}; "
-            f"{excuse(one) or 'unexplained'}.\n"
+            f"State {one['i']}, {one['group']} {one['name']}: an error of {error(one):.1e}.\n"
             for one in wrong
         ),
         "Verdicts, and the derivatives that they left out:",

@@ -21,7 +21,7 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.certify.touching import Touching, bearing
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT
+from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +90,11 @@ class Equations:
         self.length[self.length == 0] = 1.0
         self.rows = rows / self.length[:, None]
         U, s, V = np.linalg.svd(self.rows)
-        rank = int(np.count_nonzero(s > DEPENDENT))
+        rank = int(np.count_nonzero(s > INDEPENDENT))
         self.U, self.s, self.V, self.free = U[:, :rank], s[:rank], V[:rank], V[rank:]
-        self.null = U[:, rank:].T  # combinations that vanish
+        self.null = U[:, rank:].T  # combinations that vanish, but for what is left of each
+        self.left = np.zeros(len(self.null))
+        self.left[: len(s) - rank] = s[rank:]
 
     def rates(self, data: DataRates) -> OptimumRates:
         """The derivatives, and what forbids them."""
@@ -120,8 +122,8 @@ class Equations:
         terms = data.terms / self.length.min(initial=1.0)
         size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
         owner = np.array([j for j, E in self.blocks for _ in E], dtype=np.int64)
-        for nu in self.null:
-            bad = np.abs(nu @ right) > CONSISTENT * size
+        for nu, left in zip(self.null, self.left, strict=True):
+            bad = (np.abs(nu @ right) > CONSISTENT * size) | (left > SPLIT)
             multipliers = np.zeros((len(data.motion), 4))
             weights, at = nu / self.length, 0
             for j, E in self.blocks:

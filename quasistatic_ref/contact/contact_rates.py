@@ -10,8 +10,10 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.contact.witness_rates import Rates, Sides, witness_rates
+from quasistatic_ref.model.motion_rates import crossed
+from quasistatic_ref.model.shapes import Cone, Cylinder
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import ON_RIM, UNIQUE
+from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
 
 class ContactRates(NamedTuple):
@@ -25,6 +27,8 @@ class ContactRates(NamedTuple):
         Whether the closest points are; where they are not, the others mean nothing.
     level_rim : ndarray of bool, shape (n_c,)
         Whether the contact is on a rim of which no point is the nearest.
+    blurred : ndarray of bool, shape (n_c,)
+        Whether point or normal themselves are known to half of their digits only.
     slides : ndarray of bool, shape (n_c,)
         Whether its points may be anywhere along a line, where an edge ends among others, and it
         does not matter where.
@@ -36,6 +40,7 @@ class ContactRates(NamedTuple):
     n: Array
     unique: Mask
     level_rim: Mask
+    blurred: Mask
     slides: Mask
 
 
@@ -69,7 +74,28 @@ def contact_rates(
             slid[j] = several.unique[0] and _dependent(merged)
             features[j] = merged if slid[j] else features[j]
     found = couple_rates(couples, frames, J, slides, features)
-    return ContactRates(found.phi, found.alpha, found.beta, found.n, found.unique, level, slid)
+    level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
+    return ContactRates(
+        found.phi,
+        found.alpha,
+        found.beta,
+        found.n,
+        found.unique,
+        level,
+        found.blurred | level_too,
+        slid,
+    )
+
+
+def nearly_level(couple: Couple) -> bool:
+    """Whether a contact is on a rim that is level but for more than rounding."""
+    for body, end in zip(couple.bodies, couple.points, strict=True):
+        if isinstance(body.shape, Cylinder | Cone):
+            x, n = body.R.T @ (end - body.t), body.R.T @ couple.n
+            on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * body.shape.radius
+            if on_rim and SPLIT < np.hypot(*n[:2]) <= LEVEL:
+                return True
+    return False
 
 
 def merged_features(couple: Couple) -> tuple[Feature, Feature]:
@@ -111,15 +137,17 @@ def couple_rates(
         Others than those of the couples.
     """
     features = [c.features for c in couples] if features is None else features
-    sides = []
+    sides, far = [], np.zeros(len(couples))
     for side in (0, 1):
         links = [(c.pair.alpha, c.pair.beta)[side].link for c in couples]
         nu, omega = J[links][:, :3], J[links][:, 3:]
         at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
-        v = nu + np.cross(omega, at, axis=1)
+        far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
+        v = nu + crossed(omega, at)
         v = v if slides is None else v + slides[side]
         sides.append(Sides([own[side] for own in features], v, omega))
     phi, size = np.array([c.phi for c in couples]), np.array([c.size for c in couples])
+    size = np.maximum(size, far)
     n = np.array([c.n for c in couples]).reshape(-1, 3)
     return witness_rates(phi, n, frames, sides[0], sides[1], size)
 
@@ -163,5 +191,5 @@ def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:
     length = np.sqrt(1 - along * along)
     d1 = (axis[:, :, None] - along * n[:, :, None]) / length
     d_d1 = -(d_along * n[:, :, None] + along * d_n) / length + d1 * (along * d_along) / length**2
-    d_d2 = np.cross(d_n, d1, axis=1) + np.cross(n[:, :, None], d_d1, axis=1)
+    d_d2 = crossed(d_n, d1) + crossed(n[:, :, None], d_d1)
     return d_d1, d_d2

@@ -14,7 +14,7 @@ from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.support import extent
 from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ON_RIM, UPRIGHT
+from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 
 class Rim(NamedTuple):
@@ -72,6 +72,11 @@ class Couple(NamedTuple):
     def size(self) -> float:
         """The larger extent [m]; a half-space has none, and a single point one metre."""
         return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
+
+    @property
+    def reach(self) -> float:
+        """The size, or a point's largest coordinate [m]: places are rounded to a share of it."""
+        return max(self.size, *(float(np.abs(point).max()) for point in self.points))
 
 
 def couples(
@@ -164,12 +169,13 @@ def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Arra
     Returns
     -------
     ndarray or None
-        None where the rim is level but does not stay so: no point of it is the nearest.
+        None where the rim is level but does not stay so: no point of it is the nearest, or float64
+        does not know which.
     """
     own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
     length = np.hypot(*own)
     first = corners(Cylinder(1.0, 1.0), np.array([*own, 0.0]))[0][0, :2]
-    if length <= UPRIGHT:
+    if length <= LEVEL:
         return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
     d_first = (d_own - np.outer(first, first @ d_own)) / length
     c, s = QUARTERS[rim.quarter]

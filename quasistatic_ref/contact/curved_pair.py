@@ -177,7 +177,7 @@ def _roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array
         return low
     f_low, f_high = function(low), function(high)
     rising = (f_low < 0) & (f_high > 0)
-    if not rising.all() and not rising.any():
+    if not rising.any():
         return low[:0]
     low, high = low.copy(), high.copy()
     best = low.copy()

@@ -6,9 +6,10 @@ surface is straight: there the normal cannot turn, and the point moves freely. S
 
 .. math:: p = D r + F z, \qquad F^T r = 0
 
-is one relation for all of them, and each shape supplies D and F. Where the point is on the rim of
-its face or edge, or the normal on the rim of those that its edge or vertex has, the relation is
-another on each side: those directions are the feature's `ends`.
+is one relation for all of them, and each shape supplies D and F. A rim is an edge that bends: along
+it, D would be its radius over the radial part of the normal, and F'r is z over that. Where the
+point is on the rim of its face or edge, or the normal on the rim of those that its edge or vertex
+has, the relation is another on each side: those directions are the feature's `ends`.
 """
 
 from typing import NamedTuple
@@ -30,7 +31,7 @@ from quasistatic_ref.model.shapes import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ON_RIM
+from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
 
@@ -46,15 +47,23 @@ class Feature(NamedTuple):
         F: k unit vectors across the normal, k = 0, 1 or 2 [-].
     ends : ndarray, shape (e, 3)
         Directions in which another feature begins [-].
+    arc : ndarray, shape (0 or 1, 3)
+        The direction of a rim, in which the surface is nearly straight where its normal is nearly
+        the axis [-]: not in `bend`, in which numbers that large hide the others.
+    curvature : float
+        Along it, 0 if it were straight [1/m].
     """
 
     bend: Array
     free: Array = NONE
     ends: Array = NONE
+    arc: Array = NONE
+    curvature: float = 0.0
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
-        return Feature(R @ self.bend @ R.T, self.free @ R.T, self.ends @ R.T)
+        free, ends, arc = (some @ R.T for some in (self.free, self.ends, self.arc))
+        return Feature(R @ self.bend @ R.T, free, ends, arc, self.curvature)
 
 
 def ball(radius: float, n: Array) -> Feature:
@@ -115,11 +124,9 @@ def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
     cap = abs(x[2]) >= shape.half_length - near
     if cap and not side:
         return Feature(np.zeros((3, 3)), _across(n))
-    bend, radial = _around(shape.radius, n), np.hypot(n[0], n[1])
     if not cap:
-        return Feature(bend, axis[None])
-    ends = axis[None] if abs(n[2]) <= ON_RIM else NONE
-    return Feature(bend, ends=_across(n) if radial <= ON_RIM else ends)
+        return Feature(_around(x, n), axis[None])
+    return _of_rim(x, n, axis[None] if abs(n[2]) <= ON_RIM else NONE)
 
 
 def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
@@ -133,10 +140,10 @@ def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
     generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
     on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
     if base:
-        return Feature(_around(r, n), ends=_across(n) if radial <= ON_RIM else on_slant)
+        return _of_rim(x, n, on_slant)
     if x[2] >= shape.half_length - near:
         return Feature(np.zeros((3, 3)), ends=on_slant)
-    return Feature(_around(r, n), generator[None])
+    return Feature(_around(x, n), generator[None])
 
 
 def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
@@ -166,13 +173,26 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
     return Feature(nothing, ends=ways[ways @ n >= -ON_RIM])
 
 
-def _around(r: float, n: Array) -> Array:
-    """D of a circle of radius r about the z axis, where its normal is n; 0 if that is the axis."""
+def _of_rim(x: Array, n: Array, side: Array) -> Feature:
+    """Of a circle about the z axis; `side` (0 or 1, 3) is the way to the side where it begins."""
     radial = np.hypot(n[0], n[1])
-    if radial <= ON_RIM:
-        return np.zeros((3, 3))
-    around = np.array([-n[1], n[0], 0.0]) / radial
-    return np.asarray(r / radial * np.outer(around, around))
+    nothing = np.zeros((3, 3))
+    if radial <= LEVEL:
+        return Feature(nothing, ends=_across(n))
+    if len(side):
+        return Feature(_around(x, n), ends=side)
+    return Feature(nothing, arc=_way_around(x)[None], curvature=float(radial / np.hypot(*x[:2])))
+
+
+def _around(x: Array, n: Array) -> Array:
+    """D of the circle about the z axis through x, where its normal is n."""
+    around, radial = _way_around(x), np.hypot(n[0], n[1]) or np.inf
+    return np.asarray(np.hypot(x[0], x[1]) / radial * np.outer(around, around))
+
+
+def _way_around(x: Array) -> Array:
+    """From x, not from a normal: near the axis that knows its direction to fewer digits."""
+    return np.array([-x[1], x[0], 0.0]) / (np.hypot(x[0], x[1]) or 1.0)
 
 
 def _across(n: Array) -> Array:

@@ -51,7 +51,7 @@ def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
 
 
 def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
-    """From the nearest point of the surface's triangles to each point, shape (N, 3)."""
+    """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
     corners = hull.vertices[hull.triangles]
     best = np.full(len(points), np.inf)
     offset = np.zeros((len(points), 3))
@@ -73,10 +73,11 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
     for k in range(3):
         tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
         within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
+    # No edge is nearer then: where it seems so, by rounding, its direction is wrong by more.
     level = dot(points[:, None] - corners[:, 0], n)
-    square = np.where(within, level * level, np.inf)
+    square = np.where(within & (level > 0), level * level, np.inf)
     i = square.argmin(axis=1)
-    nearer = square[rows, i] < best
+    nearer = square[rows, i] < np.inf
     return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
 
 

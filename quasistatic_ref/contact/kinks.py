@@ -25,12 +25,15 @@ class Kink(NamedTuple):
         What it is, after the contact's name.
     jumps : bool
         Whether points, normal or tangents jump there, rather than turn a corner.
+    blurs : bool
+        Whether float64 does not know the contact well enough for any derivative.
     """
 
     contact: int
     kind: str
     says: str
     jumps: bool
+    blurs: bool = False
 
 
 def kinks(
@@ -50,14 +53,16 @@ def kinks(
         Whether the friction cone is the same after a quarter turn about n.
     """
     for j, couple in enumerate(couples):
+        blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
-            yield Kink(j, reason.RIM, "is on a rim that is level: no point of it is lowest", True)
+            says = "is on a rim that is level: no point of it is lowest"
+            yield Kink(j, reason.RIM, says, True, blurs)
         if depth_tie(couple):
             yield Kink(j, reason.SURFACES, "is as deep below another surface", True)
         if not rates.unique[j]:
-            yield _not_unique(j, couple)
+            yield _not_unique(j, couple)._replace(blurs=blurs)
         elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
-            yield _at_an_end(j, couple, frames[j], J)
+            yield _at_an_end(j, couple, frames[j], J)._replace(blurs=blurs)
         if _switches(couple.n, rates.n[j], quarters):
             says = "has two axes that are as far from its normal: its tangents jump"
             yield Kink(j, reason.TANGENTS, says, True)
@@ -67,7 +72,7 @@ def _not_unique(j: int, couple: Couple) -> Kink:
     straight = np.concatenate([f.free for f in couple.features])
     independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
     if len(straight) <= 2 and independent:
-        if abs(couple.phi) <= UNIQUE * couple.size:
+        if abs(couple.phi) <= UNIQUE * couple.reach:
             return Kink(j, reason.NO_NORMAL, "touches where neither surface has a normal", True)
         return Kink(j, reason.MANY, "is at a surface's centre of curvature", True)
     return Kink(j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True)

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.placed import Witness
 from quasistatic_ref.contact.polytope import Polytope
 from quasistatic_ref.model.shapes import Capsule
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ON_SURFACE
+from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
 def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
@@ -31,13 +31,14 @@ def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
     gap, n = _widest_gap(a, b.moved(R, t))
     size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
     if gap > 0:
-        on_a, on_b = _nearest(a, b, R, t)
-        distance = float(np.sqrt(np.sum((on_b - on_a) ** 2)))
-        if distance - gap > ON_SURFACE * size:
-            gap, n = distance, (on_b - on_a) / distance
+        on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
+        between = on_b - on_a
+        distance = float(np.sqrt(between @ between))
+        if miss > OUTSIDE_FACE * size and distance > ON_SURFACE * size:
+            gap, n = distance, between / distance
     else:
         # Parted along n, they touch: where they do is where they are deepest now.
-        on_a, _ = _nearest(a, b, R, t - gap * n)
+        on_a, _, _ = _nearest(a, b, R, t - gap * n, 0 * n, size)
     return _with_margins(a, b, gap, on_a, n)
 
 
@@ -127,24 +128,35 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     return n, np.sum(n * apart, axis=1)
 
 
-def _nearest(a: Polytope, b: Polytope, R: Array, t: Array) -> tuple[Array, Array]:
-    """Closest points of two cores that are apart or touch: corner and face, or edge and edge."""
+def _nearest(
+    a: Polytope, b: Polytope, R: Array, t: Array, way: Array, size: float
+) -> tuple[Array, Array, float]:
+    """Closest points of two cores that are apart or touch, and how far they miss a way [m].
+
+    They are a corner and a face, or an edge and an edge. Near a rim both are as near as each other
+    in float64, and that which the way leads to is right.
+    """
     moved = b.moved(R, t)
-    phi, normal = a.core_distance(moved.vertices)
-    i = int(phi.argmin())
-    best, on_b = float(phi[i]), moved.vertices[i]
-    on_a = on_b - best * normal[i]
-    phi, normal = b.core_distance((a.vertices - t) @ R)
-    i = int(phi.argmin())
-    if phi[i] < best:
-        best, on_a = float(phi[i]), a.vertices[i]
-        on_b = on_a - best * (R @ normal[i])
-    distance, edge_a, edge_b = _nearest_edges(a, moved, max(best, 0.0))
-    return (edge_a, edge_b) if distance < best else (on_a, on_b)
+    phi_b, normal = a.core_distance(moved.vertices)
+    i = int(phi_b.argmin())
+    tip_b, foot_a = moved.vertices[i], moved.vertices[i] - phi_b[i] * normal[i]
+    phi_a, normal = b.core_distance((a.vertices - t) @ R)
+    j = int(phi_a.argmin())
+    tip_a, foot_b = a.vertices[j], a.vertices[j] - phi_a[j] * (R @ normal[j])
+    least = float(min(phi_a[j], phi_b[i]))
+    distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
+    distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
+    on_a, on_b = np.concatenate([[foot_a, tip_a], on_a]), np.concatenate([[tip_b, foot_b], on_b])
+    miss = np.sqrt(np.sum((on_b - on_a - way) ** 2, axis=1))
+    best = int(distance.argmin())
+    as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
+    if not as_near[best] and as_near.any():
+        best = int(as_near.argmax())
+    return on_a[best], on_b[best], float(miss[best])
 
 
-def _nearest_edges(a: Polytope, b: Polytope, bound: float) -> tuple[float, Array, Array]:
-    """Distance and closest points of the nearest two edges, if nearer than the bound."""
+def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Array, Array]:
+    """Distances (N,) and closest points (N, 3) of pairs of edges, of those within a bound."""
     tail_a, tail_b = a.vertices[a.edges[:, 0]], b.vertices[b.edges[:, 0]]
     way_a, way_b = a.vertices[a.edges[:, 1]] - tail_a, b.vertices[b.edges[:, 1]] - tail_b
     middle_a, middle_b = tail_a + way_a / 2, tail_b + way_b / 2
@@ -152,13 +164,9 @@ def _nearest_edges(a: Polytope, b: Polytope, bound: float) -> tuple[float, Array
     # Only edges whose surrounding balls come within the bound.
     apart2 = sum((middle_a[:, k, None] - middle_b[:, k]) ** 2 for k in range(3))
     i, j = np.nonzero(apart2 <= (reach_a[:, None] + reach_b + bound) ** 2)
-    if not len(i):
-        return np.inf, tail_a[0], tail_b[0]
     s, r = nearest_on_segments(tail_a[i], way_a[i], tail_b[j], way_b[j])
     on_a, on_b = tail_a[i] + s[:, None] * way_a[i], tail_b[j] + r[:, None] * way_b[j]
-    square = np.sum((on_b - on_a) ** 2, axis=1)
-    best = int(square.argmin())
-    return float(np.sqrt(square[best])), on_a[best], on_b[best]
+    return np.sqrt(np.sum((on_b - on_a) ** 2, axis=1)), on_a, on_b
 
 
 def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, Array]:
@@ -175,7 +183,9 @@ def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, 
     cross = np.cross(u, v)
     det = np.sum(cross * cross, axis=1)
     parallel = det <= (ON_SURFACE**2) * uu * vv
-    s = np.where(parallel, 0.0, (uv * vw - vv * uw) / np.where(parallel, 1.0, det))
+    # Of uv vw - vv uw, the same number, nearly parallel segments leave half of the digits.
+    ahead = np.sum(np.cross(v, w) * cross, axis=1)
+    s = np.where(parallel, 0.0, ahead / np.where(parallel, 1.0, det))
     s = np.clip(s, 0.0, 1.0)
     r = np.clip((uv * s + vw) / vv, 0.0, 1.0)
     s = np.clip((uv * r - uw) / uu, 0.0, 1.0)

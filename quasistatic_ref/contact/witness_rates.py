@@ -11,10 +11,11 @@ the condition :math:`\beta - \alpha = \phi n` gives
    F_\alpha^T dn = F_\alpha^T(\omega_\alpha\times n),\;
    F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
 
-across n, and along n :math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the
-closest points are not unique, and at a distance of zero where neither surface has a normal. Points
-that slide along a common straight line do no harm if the bodies cannot turn out of it: the
-equations are then consistent, and no row depends on where along the line the points are.
+(of a rim, plus :math:`z_\alpha` or minus :math:`z_\beta` times its curvature) across n, and along n
+:math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the closest points are not
+unique, and at a distance of zero where neither surface has a normal. Points that slide along a
+common straight line do no harm if the bodies cannot turn out of it: the equations are then
+consistent, and no row depends on where along the line the points are.
 """
 
 from typing import NamedTuple
@@ -22,8 +23,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.features import Feature
+from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import UNIQUE
+from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 
 class Rates(NamedTuple):
@@ -35,6 +37,8 @@ class Rates(NamedTuple):
     alpha, beta, n : ndarray, shape (N, 3, n_v)
     unique : ndarray of bool, shape (N,)
         Whether there are such derivatives.
+    blurred : ndarray of bool, shape (N,)
+        Whether not, and the points or normals themselves have lost half of their digits.
     """
 
     phi: Array
@@ -42,6 +46,7 @@ class Rates(NamedTuple):
     beta: Array
     n: Array
     unique: Mask
+    blurred: Mask
 
 
 class Sides(NamedTuple):
@@ -78,11 +83,13 @@ def witness_rates(
         About how large the bodies are [m]: what a singular matrix is measured by.
     """
     count = len(phi)
-    turn = [_cross(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
+    turn = [crossed(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
     bends = [np.array([f.bend for f in side.features]).reshape(-1, 3, 3) for side in (alpha, beta)]
     free = [_padded(side.features) for side in (alpha, beta)]
-    matrix, right = _system(phi, frames, bends, free, turn, beta.v - alpha.v, size)
-    good = np.linalg.svd(matrix, compute_uv=False)[:, -1] > UNIQUE
+    curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
+    matrix, right = _system(phi, frames, bends, free, curved, turn, beta.v - alpha.v, size)
+    least = np.linalg.svd(matrix, compute_uv=False)[:, -1]
+    good = least > UNIQUE
     turns = beta.omega - alpha.omega
     solutions = {
         int(j): _sliding(matrix[j], right[j], free[0][j], turns[j]) for j in np.flatnonzero(~good)
@@ -101,7 +108,7 @@ def witness_rates(
         moved.append(side.v + sign * (D @ (dn - w)) + slide)
     d_phi = np.einsum("ja,jak->jk", n, beta.v - alpha.v)
     assert len(good) == count
-    return Rates(d_phi, moved[0], moved[1], dn, good)
+    return Rates(d_phi, moved[0], moved[1], dn, good, ~good & (least > SPLIT))
 
 
 def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:
@@ -109,12 +116,12 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
     U, s, V = np.linalg.svd(matrix)
     rank = int(np.count_nonzero(s > UNIQUE))
     slides, across = V[rank:], U[:, rank:].T
-    if np.abs(slides[:, :2]).max() > UNIQUE:
+    if np.abs(slides[:, :2]).max() > CONSISTENT:
         return None  # the normal itself is not determined
-    if np.abs(across @ right).max(initial=0.0) > UNIQUE * max(1.0, float(np.abs(right).max())):
+    if np.abs(across @ right).max(initial=0.0) > CONSISTENT * max(1.0, float(np.abs(right).max())):
         return None
     for way in slides[:, 2:4] @ free:
-        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > UNIQUE:
+        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
             return None
     return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))
 
@@ -124,6 +131,7 @@ def _system(
     frames: Array,
     bends: list[Array],
     free: list[Array],
+    curved: list[Array],
     turn: list[Array],
     apart: Array,
     size: Array,
@@ -134,21 +142,19 @@ def _system(
     matrix[:, :2, :2] = frames @ ((bends[0] + bends[1]) / s) @ across
     matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
     right[:, :2] = frames @ (apart + bends[0] @ turn[0] + bends[1] @ turn[1]) / s
-    for F, w, at, sign in zip(free, turn, (slice(2, 4), slice(4, 6)), (1, -1), strict=True):
-        own = F @ across
+    for F, k, w, first, sign in zip(free, curved, turn, (2, 4), (1, -1), strict=True):
+        own, at = F @ across, slice(first, first + 2)
         matrix[:, :2, at], matrix[:, at, :2] = sign * own.transpose(0, 2, 1), own
         matrix[:, at, at] = np.eye(2) * (np.abs(F).max(axis=2) == 0)[:, :, None]
+        matrix[:, first, first] -= sign * k * size
         right[:, at] = F @ w
     return matrix, right
 
 
 def _padded(features: list[Feature]) -> Array:
-    """The free directions of features, shape (N, 2, 3), filled up by zeros."""
+    """The free directions of features, or that of a rim, (N, 2, 3), filled up by zeros."""
     padded = np.zeros((len(features), 2, 3))
     for own, f in zip(padded, features, strict=True):
         own[: len(f.free)] = f.free
+        own[: len(f.arc)] = f.arc
     return padded
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(np.cross(a, b, axis=1))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion_rates import MotionRates
+from quasistatic_ref.model.motion_rates import MotionRates, crossed
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array
 
@@ -26,22 +26,24 @@ class MassRates:
         self.inertia = R @ system.inertias @ R.transpose(0, 2, 1)
         nu, omega = motion.J[:, :3], motion.J[:, 3:]
         self.omega = omega
-        self.moved = nu + np.cross(omega, self.centre[:, :, None], axis=1)  # of the centres
+        self.moved = nu + crossed(omega, self.centre[:, :, None])  # of the centres
 
     def inertial_force_rates(self, x: Array) -> Array:
         """Derivative by q of M x, shape (n_v, n_v), for a fixed x of shape (n_v,) [m, rad]."""
         c, m = self.centre, self.masses[:, None]
         twist, rates = self.motion.twists(x), self.motion.twist_rates(x)
         nu, omega, d_nu, d_omega = twist[:, :3], twist[:, 3:], rates[:, :3], rates[:, 3:]
-        p = m * (nu + np.cross(omega, c))
+        p = m * (nu + crossed(omega, c))
         spin = np.einsum("lab,lb->la", self.inertia, omega)
-        wrench = np.concatenate([p, np.cross(c, p) + spin], axis=1)
+        wrench = np.concatenate([p, crossed(c, p) + spin], axis=1)
         d_c = self.moved
-        d_p = m[:, None] * (d_nu + _cross(d_omega, c[:, :, None]) + _cross(omega[:, :, None], d_c))
-        d_spin = _cross(self.omega, spin[:, :, None]) + self.inertia @ (
-            d_omega - _cross(self.omega, omega[:, :, None])
+        d_p = m[:, None] * (
+            d_nu + crossed(d_omega, c[:, :, None]) + crossed(omega[:, :, None], d_c)
         )
-        d_moment = _cross(d_c, p[:, :, None]) + _cross(c[:, :, None], d_p) + d_spin
+        d_spin = crossed(self.omega, spin[:, :, None]) + self.inertia @ (
+            d_omega - crossed(self.omega, omega[:, :, None])
+        )
+        d_moment = crossed(d_c, p[:, :, None]) + crossed(c[:, :, None], d_p) + d_spin
         return self.motion.force_rates(wrench, np.concatenate([d_p, d_moment], axis=1))
 
     def gravity_rates(self, gravity: Array) -> Array:
@@ -53,9 +55,9 @@ class MassRates:
             [m/s^2], world frame.
         """
         weight = self.masses[:, None] * gravity
-        wrench = np.concatenate([weight, np.cross(self.centre, weight)], axis=1)
+        wrench = np.concatenate([weight, crossed(self.centre, weight)], axis=1)
         rates = np.zeros((*wrench.shape, self.moved.shape[2]))
-        rates[:, 3:] = _cross(self.moved, weight[:, :, None])
+        rates[:, 3:] = crossed(self.moved, weight[:, :, None])
         return self.motion.force_rates(wrench, rates)
 
     def by_masses(self, vector: Array) -> Array:
@@ -71,7 +73,3 @@ class MassRates:
         The inertia about the link's centre of mass stays as it is.
         """
         return np.asarray(np.einsum("lai,la->il", self.moved, self.moved @ x))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(np.cross(a, b, axis=1))

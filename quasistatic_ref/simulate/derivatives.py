@@ -75,7 +75,7 @@ def derivatives(
 
     safe = out_of_reach(result, rates.couples, rates.motion.J)
     reasons = [
-        *geometry_reasons(simulator, result, rates, touching.contacts, safe),
+        *geometry_reasons(simulator, result, rates, touching, safe),
         *target_reasons(simulator, result.step.delta_q_bar_a),
         *row_reasons(simulator, result, touching, found, rates.places),
     ]

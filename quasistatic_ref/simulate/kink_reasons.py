@@ -1,18 +1,21 @@
 """Which kinks of the contacts' geometry the step after q feels."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from quasistatic_ref.certify import reason
 from quasistatic_ref.certify.reason import Reason
+from quasistatic_ref.certify.touching import Touching
 from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.kinks import kinks
 from quasistatic_ref.contact.point_ties import tied_points
 from quasistatic_ref.contact.spare_pairs import spare_pair
+from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.step_rates import StepRates
+from quasistatic_ref.simulate.turned_tangents import stays
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
@@ -24,7 +27,7 @@ def geometry_reasons(
     simulator: Simulator,
     result: StepResult,
     rates: StepRates,
-    touching: Collection[int],
+    touching: Touching | None,
     safe: Mask,
 ) -> list[Reason]:
     """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
@@ -34,25 +37,30 @@ def geometry_reasons(
     simulator : Simulator
     result : StepResult
     rates : StepRates
-    touching : collection of int
-        Contacts whose numbers the step feels.
+    touching : Touching or None
+        The rows without slack; None if the step feels every contact, however far.
     safe : ndarray of bool, shape (n_c,)
         Contacts that it would not feel wherever they were.
     """
     contacts, kept = result.step.contacts, rates.couples
     frames = np.stack([contacts.d1, contacts.d2], axis=1)
     quarters = _quarters(simulator.cone)
+    felt = range(contacts.n_c) if touching is None else touching.contacts
     reasons = []
     for kink in kinks(kept, rates.contacts, frames, rates.motion.J, quarters):
-        if kink.contact not in touching and (not kink.jumps or safe[kink.contact]):
+        if kink.contact not in felt and (not kink.jumps or safe[kink.contact]):
             continue
         name = contacts.name[kink.contact]
         frictionless = (
             not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
         )
-        if kink.kind == reason.TANGENTS and frictionless:
+        if kink.kind == reason.TANGENTS and (
+            frictionless
+            or (touching and stays(result.step, result.solution.delta_q, touching, kink.contact))
+        ):
             continue
-        reasons.append(Reason(kink.kind, (name,), FIELDS, f"{name} {kink.says}"))
+        fields = tuple(rates.places) if kink.blurs else FIELDS
+        reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
     return [*reasons, *_ties(simulator, result, rates, safe)]
 
 
@@ -100,7 +108,7 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
         link = [(couple.pair.alpha, couple.pair.beta)[side].link for couple in kept]
         end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
         extents = np.array([couple.extents[side] for couple in kept])
-        v = twist[link, :3] + np.cross(twist[link, 3:], end)
+        v = twist[link, :3] + crossed(twist[link, 3:], end)
         turn += spin[link]
         motion += np.sqrt(np.sum(v * v, axis=1))
         turning = spin[link] > 0  # any other point of the shape is this far from the end

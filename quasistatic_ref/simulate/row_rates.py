@@ -16,7 +16,7 @@ import numpy as np
 from quasistatic_ref.contact.contact_rates import ContactRates, tangent_rates
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion_rates import MotionRates
+from quasistatic_ref.model.motion_rates import MotionRates, crossed
 from quasistatic_ref.step.data import Array, Contacts, Indices
 
 
@@ -48,9 +48,9 @@ class RowRates:
         for link, r_point, d_point, sign in self._ends():
             nu, omega = twist[link, :3], twist[link, 3:]
             d_nu, d_omega = d_twist[link, :3], d_twist[link, 3:]
-            u += sign * (nu + np.cross(omega, r_point))
+            u += sign * (nu + crossed(omega, r_point))
             d_u += sign * (
-                d_nu + _cross(d_omega, r_point[:, :, None]) + _cross(omega[:, :, None], d_point)
+                d_nu + crossed(d_omega, r_point[:, :, None]) + crossed(omega[:, :, None], d_point)
             )
             turn += sign * omega
             d_turn += sign * d_omega
@@ -80,8 +80,8 @@ class RowRates:
         links = len(self.motion.moves)
         wrench, d_wrench = np.zeros((links, 6)), np.zeros((links, 6, r.phi.shape[1]))
         for link, r_point, d_point, sign in self._ends():
-            moment = np.cross(r_point, force) + y3 * c.n
-            d_moment = _cross(d_point, force[:, :, None]) + _cross(r_point[:, :, None], d_force)
+            moment = crossed(r_point, force) + y3 * c.n
+            d_moment = crossed(d_point, force[:, :, None]) + crossed(r_point[:, :, None], d_force)
             d_moment += y3[:, None] * r.n
             np.add.at(wrench, link, sign * np.concatenate([force, moment], axis=1))
             np.add.at(d_wrench, link, sign * np.concatenate([d_force, d_moment], axis=1))
@@ -91,10 +91,6 @@ class RowRates:
         """Links, points, their derivatives and the sign of both bodies."""
         p, r, of = self.points, self.rates, self.layout
         return (of.link_beta, p.beta, r.beta, 1.0), (of.link_alpha, p.alpha, r.alpha, -1.0)
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(np.cross(a, b, axis=1))
 
 
 def _dot(rates: Array, vectors: Array) -> Array:

@@ -64,9 +64,9 @@ def smoothed(
     result = StepResult(q_next, step, solution, points, {})
     rates = StepRates(simulator, q, result)
 
-    every = range(step.contacts.n_c)
+    nowhere = np.zeros(step.contacts.n_c, dtype=bool)
     reasons = [
-        *geometry_reasons(simulator, result, rates, every, np.zeros(len(every), dtype=bool)),
+        *geometry_reasons(simulator, result, rates, None, nowhere),
         *target_reasons(simulator, step.delta_q_bar_a),
     ]
     columns = rates.onward @ barrier_rates(step, found, rates.data)

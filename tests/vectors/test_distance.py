@@ -1,13 +1,22 @@
 """Layer distance: closed forms by hand, two ways to one answer, uniqueness, the package's own."""
 
+from dataclasses import replace
 from itertools import islice
+from math import isqrt
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
+from quasistatic_ref.lab.vectors.exact.algebra import scaled, times
+from quasistatic_ref.lab.vectors.exact.precision import number
+from quasistatic_ref.lab.vectors.exact.rotation import axis_rotation, cos_sin
 from quasistatic_ref.lab.vectors.families.distance import SHAPES, distance_cases
 from quasistatic_ref.lab.vectors.layers import distance
+from quasistatic_ref.lab.vectors.whole.grid import matrix_on_grid, working
 from tests.tolerances import ROUNDING
 from tests.vectors.solids import (
     FLOOR,
@@ -24,6 +33,9 @@ from tests.vectors.solids import (
 
 CASES = {id_: case for id_, _, case in distance_cases()}
 CORNERS = [id_ for id_ in CASES if id_.startswith("distance/corner/")]
+
+NINETY_DIGITS = fmpq(1, 10**90)
+"""Of numbers that are rounded to 96 decimal places."""
 
 NOT_UNIQUE = {
     *("spheres_concentric", "sphere_centre_on_edge", "sphere_centre_in_middle"),
@@ -75,6 +87,26 @@ def test_a_corner_before_a_corner():
     assert found["phi"] == 0.875
     assert found["alpha"] == [0.5, 0.5, 0.5]
     assert found["beta"] == [0.75, 0.875, 1.25]
+
+
+@pytest.mark.parametrize("axis", [(2, 1, 2), (1, -2, 2), (6, 3, -2)])
+def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
+    # A tetrahedron's tip 0.1 m below the top of a cube, both turned by one radian: the cosine is
+    # rounded, and the matrix no rotation beyond the 96th digit.
+    axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
+    with working():
+        R = matrix_on_grid(axis_rotation(axis, *cos_sin(fmpq(1))))
+        tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
+        solids = [
+            replace(placed(shape, ORIGIN), R=R, t=times(R, [fmpq(0), fmpq(0), z]))
+            for shape, z in ((box(1, 1, 1), fmpq(0)), (convex(tips), number(0.65)))
+        ]
+        found = pair_witness(*solids)
+        up = [row[2] for row in R]
+        wanted = [scaled(up, fmpq(1, 2)), scaled(up, number(0.65) - fmpq(1, 4)), up]
+        for mine, theirs in zip((found.alpha, found.beta, found.n), wanted, strict=True):
+            assert all(abs(x - y) < NINETY_DIGITS for x, y in zip(mine, theirs, strict=True))
+        assert abs(found.phi + fmpq(3, 4) - number(0.65)) < NINETY_DIGITS
 
 
 def test_penetration_is_the_shortest_way_out():

@@ -92,7 +92,7 @@ def _nearest(alpha: Placed, beta: Placed, start: Witness) -> Witness:
     if not (curved and start.phi <= 0):
         try:
             return pair_witness(alpha, beta)
-        except (InputError, IndexError):  # there is none; or a face that is not quite flat
+        except InputError:  # there is none
             pass
     return closest_pair(alpha, beta, start)
 

@@ -183,7 +183,7 @@ def switching_axis(rng: Rng) -> Kink:
     body: Shape = Sphere(a) if rng.integers(2) else POINT
     reach = b + (a if isinstance(body, Sphere) else 0.0) - IN
     side = np.cross(way, rng.normal(size=3))
-    force = np.array([*(-6 * way + 8 * side / np.linalg.norm(side)), 0, 0, 0])
+    force = np.array([*(-6 * way + 20 * side / np.linalg.norm(side)), 0, 0, 0])
     scene = Scene(body, any_turn(rng), reach * way, [(Sphere(b), *HERE)], cone=cone, force=force,
                   mu=(0.2, 0.01))  # fmt: skip
     return Kink(reason.TANGENTS, "a normal as far from two axes", *anywhere(rng, scene, turn=False))

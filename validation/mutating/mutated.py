@@ -87,7 +87,13 @@ SOLVED = (
     "unit/step/test_problem.py",
     "unit/step/test_cones.py",
 )
-CURVED = ("unit/contact/test_curved_pairs.py", "unit/contact/test_distance.py")
+CURVED = (
+    "unit/contact/test_curved_witness.py",
+    "unit/contact/test_curved_pairs.py",
+    "unit/contact/test_faces.py",
+    "unit/contact/test_distance_guard.py",
+    "unit/contact/test_distance.py",
+)
 
 DIFFERENTIATED = (
     "unit/simulate/test_derivatives.py",
@@ -184,7 +190,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/solid_rows.py": ("unit/lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "contact/sparse_jacobian.py": SPARSE,
     "contact/support.py": SOLIDS,
-    "contact/ways_out.py": SOLIDS,
+    "contact/ways_out.py": ("unit/contact/test_ways_out.py", *SOLIDS),
     "model/body.py": ("unit/model/test_solid.py", *SCENES),
     "model/clouds.py": CLOUDS,
     "model/configuration.py": SCENES,

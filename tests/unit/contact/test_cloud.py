@@ -148,6 +148,8 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
 
 DEGENERATE = {
     "centre of a sphere": ("sphere", (0, 0, 0), -0.3, (1, 0, 0)),
+    "centre of a sphere, by -0.0": ("sphere", (-0.0, -0.0, -0.0), -0.3, (1, 0, 0)),
+    "centre of a box, by -0.0": ("box", (-0.0, -0.0, -0.0), -0.2, (1, 0, 0)),
     "on a sphere": ("sphere", (0, 0.3, 0), 0.0, (0, 1, 0)),
     "middle of a capsule": ("capsule", (0, 0, 0), -0.2, (1, 0, 0)),
     "end of a capsule's segment": ("capsule", (0, 0, 0.3), -0.2, (1, 0, 0)),

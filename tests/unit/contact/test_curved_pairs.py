@@ -1,13 +1,11 @@
-"""Curved pairs: the same answer at every scale, and the calculus that settles a normal."""
+"""Curved pairs: the same answer at every scale, and normals that settle."""
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact import by_coal
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.curved_pair import curved_witness
-from quasistatic_ref.contact.faces import Face, curvature, face, kinks
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.settle import settled
 from quasistatic_ref.contact.solid_pair import solid_pair
@@ -15,7 +13,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Solid
 from tests import closest
-from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT
+from tests.tolerances import CURVED_PAIR, DIFFERENCE, EXACT
 
 SOLIDS = closest.solids()
 CURVED = {"cylinder", "cone", "ellipsoid"}
@@ -84,75 +82,6 @@ def test_a_hair_of_penetration_is_not_nothing() -> None:
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
 
 
-def directions(count: int) -> np.ndarray:
-    n = np.random.default_rng(3).normal(size=(count, 3))
-    return n / np.linalg.norm(n, axis=1)[:, None]
-
-
-@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
-def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
-    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid, h = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
-    for n in directions(20):
-        T = np.linalg.svd(n[None])[2][1:]
-        for way in T:
-            ahead, behind = (solid.farthest((n + s * h * way) / np.hypot(1, h)) for s in (1, -1))
-            difference = (ahead - behind) / (2 * h)
-            expected = curvature(solid, n) @ way
-            np.testing.assert_allclose(difference, expected, rtol=EXACT, atol=DIFFERENCE)
-
-
-def flat_normals(name: str) -> list[np.ndarray]:
-    of = kinks(SOLIDS[name])
-    found = list(of.normals)
-    for u, c in zip(of.axes, of.levels, strict=True):
-        m = np.linalg.svd(u[None])[2][1]
-        found.append(c * u + np.sqrt(1 - c * c) * m)
-    return found
-
-
-@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
-def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
-    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
-    wide = 0
-    for own in flat_normals(name):
-        n = R @ own
-        found = face(solid, n)
-        height = float(solid.reach(n[None])[0])
-        np.testing.assert_allclose(found.corners @ n, height, rtol=EXACT, atol=CURVED_PAIR)
-        wide += len(found.corners) > 1 or found.radius > 0
-        for x in 0.3 * np.random.default_rng(5).normal(size=(20, 3)):
-            on = found.nearest(x)
-            depth = signed_distance(SOLIDS[name], (R.T @ (on - solid.t))[None])[0]
-            np.testing.assert_allclose(depth, 0, rtol=EXACT, atol=CURVED_PAIR)
-            # Nearest: no corner lies further towards x.
-            across = x - on - ((x - on) @ n) * n
-            assert ((found.corners - on) @ across).max() <= CURVED_PAIR + (
-                found.radius * np.linalg.norm(across)
-            )
-    assert wide
-
-
-@pytest.mark.parametrize("end", [1.0, -1.0])
-def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
-    way = np.array([0.0, 0.0, end])
-    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), way)
-    assert cap.radius == 0.1
-    np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
-    base = face(Placed(Cone(0.1, 0.25), *HERE), way)
-    assert base.radius == (0.1 if end < 0 else 0.0)
-    np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
-
-
-def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> None:
-    corners = np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
-    square = Face(corners, 0.0, np.array([0.0, 0.0, 1.0]))
-    for x in np.random.default_rng(8).normal(size=(50, 3)) * 2:
-        expected = [*np.clip(x[:2], -1, 1), 0.0]
-        np.testing.assert_allclose(square.nearest(x), expected, rtol=EXACT, atol=CURVED_PAIR)
-
-
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
 def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> None:
     a, b = (SOLIDS[name] for name in names)
@@ -170,6 +99,65 @@ def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> Non
             way.defect <= CURVED_PAIR and abs(way.phi - phi) <= CURVED_PAIR for way in gaps
         )
     assert settles >= 5
+
+
+def settles_at(a: Placed, b: Placed, start: Witness, *expected: object) -> bool:
+    """Whether one of the maxima near an approximate one has this distance, first point, normal."""
+    ends = [(way.phi, way.alpha, way.n) for way in settled(a, b, start)]
+    return any(
+        all(
+            np.abs(np.subtract(*both)).max() <= CURVED_PAIR
+            for both in zip(end, expected, strict=True)
+        )
+        for end in ends
+    )
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.35])
+def test_a_normal_that_is_off_by_more_than_a_stride_settles_too(angle) -> None:
+    # Two ellipsoids with their tips 0.2 m apart, and a normal turned about z.
+    a = Placed(Ellipsoid(np.array([0.1, 0.05, 0.04])), *HERE)
+    b = Placed(Ellipsoid(np.array([0.2, 0.03, 0.06])), np.eye(3), np.array([0.5, 0, 0]))
+    start = Witness(0.2, a.t, b.t, np.array([np.cos(angle), np.sin(angle), 0]))
+    assert settles_at(a, b, start, 0.5 - 0.1 - 0.2, [0.1, 0, 0], [1, 0, 0])
+
+
+def test_a_cap_above_an_ellipsoid_has_the_normal_of_the_cap() -> None:
+    a = Placed(Ellipsoid(np.array([0.1, 0.05, 0.04])), *HERE)
+    b = Placed(Cylinder(0.1, 0.05), np.eye(3), np.array([0.01, 0.02, 0.04 + 0.03 + 0.05]))
+    n = np.array([3e-4, -2e-4, 1.0])
+    start = Witness(0.03, a.t, b.t, n / np.linalg.norm(n))
+    assert settles_at(a, b, start, 0.03, [0, 0, 0.04], [0, 0, 1])
+
+
+def test_of_two_caps_on_each_other_the_points_of_the_start_are_taken() -> None:
+    a = Placed(Cylinder(0.3, 0.1), *HERE)
+    b = Placed(Cylinder(0.3, 0.1), np.eye(3), np.array([0.05, 0, 0.1 + 0.02 + 0.1]))
+    on_a, on_b = np.array([0.06, 0.08, 0.1]), np.array([0.06, 0.08, 0.12])
+    assert settles_at(a, b, Witness(0.02, on_a, on_b, np.eye(3)[2]), 0.02, on_a, [0, 0, 1])
+
+
+def test_where_two_caps_overlap_the_point_next_to_the_start_is_taken() -> None:
+    # Discs of radius 1, 1.9 apart: what they share begins at 1.9 - 1 on the line of their centres.
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    solid, n = Cylinder(1.0, 0.1), R[:, 2]
+    a, b = Placed(solid, R, np.zeros(3)), Placed(solid, R, R @ [1.9, 0, 0.1 + 0.02 + 0.1])
+    start = Witness(0.02, R @ [0.2, 0, 0.1], R @ [0.2, 0, 0.12], n)
+    assert settles_at(a, b, start, 0.02, R @ [1.9 - 1, 0, 0.1], n)
+
+
+@pytest.mark.parametrize("lengths", [(0.5, 0.5), (0.5, 1e-4), (1e-4, 0.5)])
+def test_sides_that_are_parallel_but_for_a_hair_meet_where_they_cross(
+    lengths,
+) -> None:
+    # Axes along z and turned about x by 1e-5, 0.3 m apart in x: crossing at z = 0, off the centres.
+    turned = Rotation.from_rotvec([1e-5, 0, 0]).as_matrix()
+    a = Placed(Cylinder(0.1, lengths[0]), np.eye(3), np.array([0, 0, 0.3 * lengths[0]]))
+    at = np.array([0.3, 0, 0]) + 0.4 * lengths[1] * turned[:, 2]
+    b = Placed(Cylinder(0.1, lengths[1]), turned, at)
+    n, aside = np.array([1, 3e-4, 0]), 0.2 * min(lengths)
+    start = Witness(0.1, np.array([0.1, 0, aside]), np.array([0.2, 0, aside]), n / np.sqrt(n @ n))
+    assert settles_at(a, b, start, 0.3 - 0.1 - 0.1, [0.1, 0, 0], [1, 0, 0])
 
 
 def test_faces_that_meet_in_one_point_of_a_rim_have_their_contact_there() -> None:

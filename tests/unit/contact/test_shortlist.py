@@ -1,5 +1,7 @@
 """What is promised of the points that a short list leaves out, with points at the very bounds."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -7,14 +9,25 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact import ball_tree
 from quasistatic_ref.contact.batch import Batch
 from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.cloud_tracker import SHORT, CloudTracker
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.shortlist import BEAM, reach, shortlist, size
+from quasistatic_ref.contact.shortlist import BEAM, Shortlist, reach, shortlist, size
 from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import Box, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
+from quasistatic_ref.model.shapes import (
+    Box,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
 from quasistatic_ref.tolerances import UNSEEN
-from tests.tolerances import ROUNDING
+from tests.tolerances import EXACT, ROUNDING
 
-Z = np.array([0.0, 0.0, 1.0])
+X, _, Z = np.eye(3)
 WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
 SHAPES = {
     "sphere": Sphere(0.1),
@@ -169,3 +182,30 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
         assert (
             least - ROUNDING <= 1e-3 * WIDTH - down - limit <= least + 2 * UNSEEN * down + ROUNDING
         )
+
+
+def test_a_limit_by_distance_falls_by_the_motion_and_the_room_for_that():
+    # The box about a cloud, moved along an axis by 1 m: |u| <= sqrt(3) max |u_i|, for all ways.
+    box = np.array(list(itertools.product((-0.1, 0.1), repeat=3)))
+    made = Shortlist(np.arange(2), 3.0, np.inf, Z, box)
+    batch = Batch([0], [Sphere(0.1)], [made], [box[:2]], [box], [1])
+    for u in (X, -X, Z):
+        limit = batch.limit(np.column_stack([np.eye(3), u])[None])[0]
+        expected = 3.0 - np.sqrt(3) * (1 + UNSEEN)
+        np.testing.assert_allclose(limit, expected, rtol=EXACT, atol=ROUNDING)
+
+
+def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
+    # Twice the cloud is turned upside down: after as many steps as is worth it, and one fewer.
+    k, points = 12, PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
+    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
+    cloud = PlacedShape("cloud", 1, np.eye(3), np.zeros(3), points)
+    tracker = CloudTracker([ContactPair("p", floor, cloud, 0.5, 0.0, 4, k)])
+    upright, upside_down = np.eye(3), np.diag([1.0, -1.0, -1.0])
+    widths = []
+    for R, steps in ((upright, SHORT), (upside_down, SHORT - 1), (upright, 1)):
+        for _ in range(steps):
+            tracker.closest_points(np.stack([np.eye(3), R]), np.zeros((2, 3)))
+        widths.append(tracker.width[0])
+    assert tracker.lists_made == 3
+    assert widths == [4 * k, 4 * k, 8 * k]

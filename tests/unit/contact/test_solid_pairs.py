@@ -183,3 +183,65 @@ def test_just_beside_a_face_the_normal_leans_away_from_its_edge(beside: float) -
         phi, n = signed_distance(shape, point[None])
         np.testing.assert_allclose(n[0], lean, rtol=0, atol=NORMAL_BESIDE)
         np.testing.assert_allclose(phi[0], np.hypot(beside, up), rtol=0, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("beyond", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])
+@pytest.mark.parametrize("up", [1e-5, 0.05])
+def test_a_corner_near_the_edge_of_another_solid(beyond: float, up: float) -> None:
+    # A tip above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances to
+    # face and edge differ by beyond^2 / (2 up), less than float64 has: where the foot is decides.
+    lean = np.array([max(beyond, 0.0), 0.0, up])
+    lean = lean / np.sqrt(lean @ lean)
+    corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.3, 0.3) for z in (-0.2, 0.2)])
+    tip = np.array([0.1 + beyond, 0.05, 0.2 + up])
+    ways = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
+    here = np.eye(3), np.zeros(3)
+    other = Placed(convex_hull(tip + ways), *here)
+    for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
+        for one, two, sign in ((Placed(shape, *here), other, 1), (other, Placed(shape, *here), -1)):
+            _, alpha, beta, n = solid_pair("p", one, two)
+            np.testing.assert_allclose(sign * n, lean, rtol=0, atol=NORMAL_BESIDE)
+            np.testing.assert_allclose(alpha if sign < 0 else beta, tip, rtol=0, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("angle", [1e-2, 1e-4, 1e-5])
+def test_edges_that_cross_nearly_parallel_have_their_common_normal(angle: float) -> None:
+    # The edge of a cube turned by 45 degrees is the line z = 0.1 sqrt(2); one that crosses above.
+    R = Rotation.from_rotvec([np.pi / 4, 0, 0]).as_matrix()
+    cube = Placed(Box(np.full(3, 0.1)), R, np.zeros(3))
+    way, up = np.array([np.cos(angle), np.sin(angle), 0.0]), np.array([0.0, 0.0, 1.0])
+    across = np.cross(up, way)
+    middle = np.array([0.01, 0.0, 0.1 * np.sqrt(2) + 0.02])
+    ends = [middle - 0.06 * way, middle + 0.04 * way]
+    roof = convex_hull([*ends, *(middle + 0.05 * up + s * 0.02 * across for s in (-1, 1))])
+    phi, alpha, _, n = solid_pair("p", cube, Placed(roof, np.eye(3), np.zeros(3)))
+    np.testing.assert_allclose(n, up, rtol=0, atol=CLOSED_FORM)
+    np.testing.assert_allclose(phi, 0.02, rtol=0, atol=CLOSED_FORM)
+    np.testing.assert_allclose(alpha[:2], middle[:2], rtol=0, atol=CLOSED_FORM / angle)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> None:
+    # Rims of two cylinders 1e-5 m apart: the normal is right to 1e-11, and a corner that it led to
+    # would have another by 1e-7. The closest pair, and each rim's corner there, are one contact.
+    rng = np.random.default_rng(seed)
+    one, other = Cylinder(0.06, 0.04), Cylinder(0.05, 0.07)
+    R = Rotation.random(random_state=seed).as_matrix()
+    way = rng.normal(size=3)
+    t = 0.3 * way / np.sqrt(way @ way)
+    here = Placed(one, np.eye(3), np.zeros(3))
+    for _ in range(3):  # along the normal, until they are as near
+        phi, _, _, n = solid_pair("p", here, Placed(other, R, t))
+        t = t - (phi - 1e-5) * n
+    points = found(one, other, R, t, 17)
+    nearest = points.alpha[points.point == 16]
+    again = np.abs(points.alpha - nearest).max(axis=1) < 1e-6
+    on_rim = np.hypot(*nearest[0, :2]) > 0.06 - 1e-9
+    for x in (points.n, points.alpha):
+        np.testing.assert_allclose(
+            x[again], x[again][:1].repeat(again.sum(), 0), rtol=0, atol=1e-10
+        )
+    assert again.sum() >= 1 + on_rim
+    kept = found(one, other, R, t, 3)
+    apart = np.abs(kept.alpha[:, None] - kept.alpha).max(axis=2) + np.eye(3)
+    assert apart.min() > 1e-3

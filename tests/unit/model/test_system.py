@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import Body, System
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
-from tests.unit.model.urdf_texts import BOX, CHAIN, joint, link, mimic, robot, written
+from tests.unit.model.urdf_texts import BOX, CHAIN, inertial, joint, link, mimic, robot, written
 
 
 def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene: System) -> None:
@@ -208,6 +208,37 @@ def test_a_world_without_joints_is_a_system(tmp_path: Path) -> None:
     assert (system.n_v, system.n_q, system.links) == (0, 0, ("world", "stone/box"))
     assert system.kinematics(system.q_start).t[1] == pytest.approx([1, 0, 0], abs=ROUNDING)
     assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (0,)
+
+
+def test_two_joints_are_exchanged_where_the_second_alone_is_actuated(tmp_path: Path) -> None:
+    joints = link("a"), link("b"), joint("j", "a", "b", "prismatic", "1 0 0")
+    path = written(tmp_path, robot(*joints))
+    system = System([Body("first", path), Body("second", path, actuated=("j",))])
+    q = np.array([0.2, 0.5])  # [q_a; q_u]
+    t = system.kinematics(q).t
+    assert t[system.link("second/b")] == pytest.approx([0.2, 0, 0], abs=ROUNDING)
+    assert t[system.link("first/b")] == pytest.approx([0.5, 0, 0], abs=ROUNDING)
+    assert system.integrate(q, np.array([0.01, 0.04])) == pytest.approx([0.21, 0.54], abs=ROUNDING)
+
+
+def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
+    tmp_path: Path, scene: System, q: np.ndarray
+) -> None:
+    centred = robot(link("a", inertial=inertial()))  # no product of inertia, no lever
+    system = System([Body("a", written(tmp_path, centred, "a.urdf"), "floating")])
+    assert system.rigid
+    M_u = system.M_u(system.q_start)
+    expected = np.diag([2, 2, 2, 0.02, 0.03, 0.04])
+    np.testing.assert_allclose(M_u, expected, rtol=ROUNDING, atol=ROUNDING)
+    assert not np.signbit(M_u).any()
+    assert system.M_u(system.integrate(system.q_start, np.ones(6))) is M_u
+    assert not scene.rigid
+    assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
+
+
+def test_the_kinematics_that_were_computed_last_are_kept(scene: System, q: np.ndarray) -> None:
+    assert scene.kinematics(q) is scene.kinematics(q.copy())
+    assert scene.kinematics(scene.q_start) is not scene.kinematics(q)
 
 
 def test_many_bodies_of_one_file_do_not_meet(tmp_path: Path) -> None:

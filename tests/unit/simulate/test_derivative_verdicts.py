@@ -148,8 +148,11 @@ KINKS = {
     ),
     "a normal as far from two axes of the world": (
         reason.TANGENTS,
-        lambda: free(
-            Sphere(0.05), 0.0999 * np.array([1.0, 1, 2]) / np.sqrt(6), (Sphere(0.05), (0, 0, 0))
+        lambda: free(  # so slippery that it does not roll
+            Sphere(0.05),
+            0.0999 * np.array([1.0, 1, 2]) / np.sqrt(6),
+            (Sphere(0.05), (0, 0, 0)),
+            mu=(0.1, 0.01),
         ),
     ),
     "a cylinder that stands upright on its rim": (
@@ -189,6 +192,25 @@ def test_a_constructed_kink_is_named(kind, scene):
     assert np.isnan(found.dq_dq).all()
     assert np.isfinite(found.dq_dtau).any()
     assert all(why.where[0].startswith("c0") for why in found.reasons if why.kind == kind)
+
+
+@pytest.mark.parametrize(("distance", "kinds"), [(1e-9, 1), (1e-7, 1), (1e-5, 0)])
+def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kinds):
+    # Places are right to 1e-16 m, and the normal to that over the distance.
+    at = np.array([0.02, 0.1, 0.05]) + distance * np.array([0.0, 0.6, 0.8])
+    simulator, q = free(PointCloud(np.zeros((1, 3))), at, (BOX, (0, 0, 0)))
+    found, named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
+    assert named == ({reason.NO_NORMAL} if kinds else set())
+    assert np.isnan(found.dq_dq).all() == np.isnan(found.dq_dtau).all() == bool(kinds)
+
+
+@pytest.mark.parametrize(("tilt", "kind"), [(1e-8, True), (3e-6, True), (1e-4, False)])
+def test_a_rim_so_level_that_float64_does_not_know_its_lowest_point(tilt, kind):
+    simulator, q = free(
+        Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4, rpy=(tilt, 0, 0)
+    )
+    named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))[1]
+    assert (reason.RIM in named) == kind
 
 
 def test_a_kink_of_a_contact_that_is_far_away_does_not_matter():

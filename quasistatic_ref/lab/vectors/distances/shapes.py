@@ -76,6 +76,14 @@ class Placed:
         """The same of a direction."""
         return times(self.R, x)
 
+    def world_normal(self, x: Vector) -> Vector:
+        """A normal of a plane in the world: at right angles to what R makes of the plane.
+
+        Where R is a rotation to some digits only, R x is not. Its cofactors make one that is.
+        """
+        rows = [cross(self.R[i - 2], self.R[i - 1]) for i in range(3)]
+        return times(rows, x)
+
     @property
     def normal(self) -> Vector:
         """Of a half-space, its normal in the world, of any length."""
@@ -163,7 +171,7 @@ def core(solid: Placed) -> Core | None:
     return Core(
         local.margin,
         [solid.world(x) for x in local.vertices],
-        [solid.world_direction(x) for x in local.normals],
+        [solid.world_normal(x) for x in local.normals],
         [solid.world_direction(x) for x in local.edges],
         local.sides,
     )
