@@ -12,7 +12,6 @@ import math
 from quasistatic_ref.contact import ball_tree, cloud_tracker, shortlist
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
 from quasistatic_ref.lab.grasp import TOP
-from quasistatic_ref.lab.study.columns import size
 from quasistatic_ref.lab.validate.registry import BY_NAME
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.resources import scenario_names
@@ -24,7 +23,6 @@ from tests import quoted_vectors as vectors
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.study import test_known_issues as known_issues
-from tests.study import test_solver_study_page as solver_study
 from tests.unit.figures import test_digits_figure as digits
 from tests.unit.solve import test_options_of_backends as options
 from validation.bench_exact import PROMISED
@@ -63,7 +61,6 @@ QUOTED = {
         ("vectors of {} layers, {:,} cases",
          lambda: [word(len(LAYERS)), sum(map(of.cases_of, LAYERS))]),
         ("`validate`: {} claims", lambda: [len(BY_NAME)]),
-        ("on {:,} contact problems", lambda: [of.problems()]),
     ],
     "docs/quickstart.md": [
         ("lifts it by {:.0f} mm and holds it", lambda: [1e3 * claim("grasp", "lift [m]")]),
@@ -190,8 +187,6 @@ QUOTED = {
     "docs/studies.md": [
         ("HiGHS 1.15 solves {} of {} random problems of 13 x 80 in raw units",
          known_issues.highs_solved),
-        ("None of its {:,} calls in the committed study",
-         lambda: [size(solver_study.of.of_solver("highs"))]),
         ("without torsional friction the bunny turns by {0:.0f} degrees at h = 0.01 s and at 0.02 "
          "s, and by {2:.0f} at 0.04 s", lambda: of.sweep_turns(0.0)),
         ("it still turns, by {:.0f} to {:.0f} degrees",
@@ -223,7 +218,6 @@ OTHERS = {
     "docs/speed.md": lambda: speed.HELD,
     "docs/exactness.md": digits.quoted,
     "docs/conventions.md": options.quoted,
-    "docs/solver_study.md": lambda: solver_study.HELD,
     **vectors.HELD,
     "docs/reality.md": reality.held,
 }

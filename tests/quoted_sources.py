@@ -138,11 +138,6 @@ def problem_set():
             len(manifest["families"])]  # fmt: skip
 
 
-def problems():
-    study = json.loads((ROOT / "validation/studies/default/study.json").read_text())
-    return study["problems"]["count"]
-
-
 @cache
 def cases_of(layer):
     return len(json.loads((ROOT / f"validation/vectors/inputs/{layer}.json").read_text())["cases"])

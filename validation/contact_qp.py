@@ -26,7 +26,7 @@ from quasistatic_ref.figures import figure_style
 from quasistatic_ref.figures.style import PAGE
 from quasistatic_ref.lab.figures.study_pens import pens
 from quasistatic_ref.lab.study.calls import tried
-from quasistatic_ref.lab.study.sequences import Native
+from quasistatic_ref.lab.study.sessions import Native
 from quasistatic_ref.lab.study.sets.folder import manifest, set_read
 from quasistatic_ref.lab.study.sets.member import SOCP, SPARSE, Member
 from quasistatic_ref.resources import problem_set_folder

@@ -127,7 +127,6 @@ REFUSED: Final = {
         "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
         "quasistatic-ref run sphere_spin --set steps=5 --view": "quasistatic-ref[view]",
         "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
-        "quasistatic-ref study run default --quick": "quasistatic-ref[robots]",
         "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
         "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
         "quasistatic-ref figures plan_a_push": "quasistatic-ref[jax]",

@@ -1,7 +1,8 @@
 """The committed studies made again: ``python -m validation.study_reports [NAME...]``.
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
-that the numbers of the committed report are those of the committed rows.
+that the numbers of the committed report are those of the committed rows. Of the study of solvers
+the sentences of docs/solver_study.md are made of them, too.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ import time
 from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
+from quasistatic_ref.files import text_written
+from validation.study_advice import NAME as ADVICE
+from validation.study_advice import advice
 
 FOLDER = Path(__file__).parent / "studies"
 NAMES = ("default", "bunny_torsion")
@@ -27,7 +31,10 @@ def made(name: str) -> None:
             if command(["study", *step]):
                 sys.exit(f"study {step[0]} of {name} failed")
             print(f"{name}: {step[0]} ended after {time.perf_counter() - begun:.0f} s")
-    (FOLDER / name / "report.html").unlink()  # the same as Markdown and PNG; made at will
+    if name == "default":
+        text_written(FOLDER / name / ADVICE, advice(FOLDER / name))
+    for ending in ("html", "csv", "parquet"):  # the same as Markdown and PNG; made at will
+        (FOLDER / name / f"report.{ending}").unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

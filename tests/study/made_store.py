@@ -20,6 +20,9 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
     solved = outcome == "solved"
     told = solved or outcome == "failed"
     digits = chance.uniform(0, 16) if told else None
+    call = 10 ** chance.uniform(-5, -1)
+    own = {"call": call, "spent": 1.0, "solver": 0.5 * call if name != "bee" else None,
+           "setup": 0.2 * call if name == "ant" else None}  # fmt: skip
     return {
         "problem": f"{FAMILIES[problem % 2]}/{problem}",
         "family": FAMILIES[problem % 2],
@@ -40,7 +43,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "digits": {"delta_q": digits, "net_wrench": digits and digits * 0.9,
                    "multipliers": digits and digits * 0.8},
         "residuals": {"primal": 1.23456e-9, "dual": None, "gap": 0.0},
-        "seconds": dict.fromkeys(CLOCKS) | {"call": 10 ** chance.uniform(-5, -1), "spent": 1.0},
+        "seconds": dict.fromkeys(CLOCKS) | own,
         "calls": 5,
         "clock_agrees": chance.random() < 0.99,
         "memory": 1e8 * chance.random(),

@@ -8,10 +8,14 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
 from quasistatic_ref.lab.study.families.dials import DIALS, one_turned, turned
+from quasistatic_ref.lab.study.families.shaped import copied
+from quasistatic_ref.lab.study.qp import units_of
+from quasistatic_ref.lab.study.sessions import Native
 from quasistatic_ref.lab.study.sets import making
 from quasistatic_ref.lab.study.sets.folder import NUMBERS, set_read
 from quasistatic_ref.lab.study.sets.making import family_members, made_set, member_of
 from quasistatic_ref.lab.study.sets.recipe import Recipe
+from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import standard_form
 
 SHORT = [name for name in DIALS if name not in ("sparse", "ellipsoid", "near_copies", "condition")]
@@ -54,6 +58,19 @@ def test_copies_multiply_rows_and_leave_the_answer():
         assert alone == 7
         m = len(form.b) // round(one.dial)
         np.testing.assert_array_equal(form.A[:m], form.A[-m:])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
+    """Of 16 copies one bears; the others are then met without rounding."""
+    forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
+    own = [natural_form(form, units_of(forms[0])) for form in forms]
+    replies = [Native("daqp", "cold", 1e-9)(form, None) for form in own]
+    assert [len(form.b) // len(own[0].b) for form in own] == [1, 4, 16]
+    assert len({reply.iterations for reply in replies}) == 1
+    assert replies[0].iterations > 5
+    for reply in replies[1:]:
+        np.testing.assert_array_equal(reply.x, replies[0].x)
 
 
 @pytest.mark.parametrize("overlap", [1e-2, 1e-6, 1e-13])

@@ -1,7 +1,8 @@
 """Sequences asked in order: what each solver starts from, and modes that are not possible."""
 
 import csv
-import sys
+import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,13 +11,23 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_sequences
 from quasistatic_ref.lab.study import sequences
-from quasistatic_ref.lab.study.sequences import asked_in_order, checked, in_one_unit, modes_of
+from quasistatic_ref.lab.study.keeper import EXTRA
+from quasistatic_ref.lab.study.sequences import (
+    Limits,
+    asked_in_order,
+    checked,
+    in_one_unit,
+    modes_of,
+)
 
-CALLABLES = """
+CALLABLES = '''
+import json
+import os
+import time
+
 import numpy as np
 import quadprog
 
-STARTS = []
 
 def solved(P, q, G, h):
     x, _, _, _, lam, _ = quadprog.solve_qp(P, -q, -G.T, -h)
@@ -24,12 +35,46 @@ def solved(P, q, G, h):
 
 def warm(P, q, G, h, start=None):
     x, lam = solved(P, q, G, h)
-    STARTS.append((start, x))
+    with open("starts.jsonl", "a") as file:
+        said = [None if start is None else start[0].tolist(), x.tolist()]
+        file.write(json.dumps(said) + chr(10))
     return x, lam
+
+def counted(state=[0]):
+    state[0] += 1
+    return state[0]
+
+def hangs(P, q, G, h, start=None):
+    """Its third call never ends; after each start it is right twice."""
+    while counted() > 2:
+        pass
+    return solved(P, q, G, h)
+
+def eats(P, q, G, h):
+    held = []
+    while counted() > 2:
+        held.append(np.ones(10**6))
+        time.sleep(1e-3)
+    return solved(P, q, G, h)
+
+def dies(P, q, G, h):
+    if counted() > 2:
+        os._exit(3)
+    return solved(P, q, G, h)
+
+def stops_the_clock(P, q, G, h):
+    """Right, after 5 ms of which its process is told nothing."""
+    import __main__
+
+    __main__.perf_counter = lambda: 0.0
+    end = time.process_time() + 5e-3
+    while time.process_time() < end:
+        pass
+    return solved(P, q, G, h)
 
 def broken(P, q, G, h):
     raise RuntimeError("no")
-"""
+'''
 
 
 @pytest.fixture
@@ -43,10 +88,8 @@ def grasp(members):
 @pytest.fixture
 def own(tmp_path, monkeypatch):
     (tmp_path / "sequence_solvers.py").write_text(CALLABLES)
-    monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.chdir(tmp_path)
-    yield "sequence_solvers"
-    sys.modules.pop("sequence_solvers", None)
+    return "sequence_solvers"
 
 
 def test_every_mode_is_that_of_the_command():
@@ -80,6 +123,8 @@ def test_a_mode_that_is_asked_for_and_not_possible_is_an_error(solver, mode, own
     (["daqp", "--scenario", "nowhere"], "have no such sequence"),
     (["daqp", "--repetitions", "0"], "must be at least 1"),
     (["daqp", "--accuracy", "2"], "must be between 0 and 1"),
+    (["daqp", "--time-limit", "0"], "--time-limit: must be above 0"),
+    (["daqp", "--memory", "nan"], "--memory: must be above 0"),
 ])  # fmt: skip
 def test_what_cannot_be_asked_is_refused(more, words, capsys):
     assert main(["study", "sequences", *more]) == 2
@@ -110,13 +155,13 @@ def test_solvers_keep_their_digits_in_every_mode(grasp):
 
 def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
     list(asked_in_order(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, 1))
-    starts = sys.modules[own].STARTS
+    starts = [json.loads(line) for line in Path("starts.jsonl").read_text().splitlines()]
     assert len(starts) == 24
     for place, (start, _) in enumerate(starts):
         if place % 12 == 0:
             assert start is None
         else:
-            np.testing.assert_array_equal(start[0], starts[place - 1][1])
+            np.testing.assert_array_equal(start, starts[place - 1][1])
 
 
 def test_a_callable_that_raises_costs_itself_only(grasp, own):
@@ -124,6 +169,58 @@ def test_a_callable_that_raises_costs_itself_only(grasp, own):
     rows = list(asked_in_order(grasp, modes, 1e-9, 1))
     assert {row.solver: row.solved for row in rows} == {f"{own}:broken": False,
                                                         f"{own}:solved": True}  # fmt: skip
+
+
+@pytest.mark.parametrize(("solver", "outcome", "words"), [
+    ("hangs", "timeout", "killed after 0.5 s"),
+    ("eats", "memory", "GB of memory"),
+    ("dies", "crashed", "ended with status 3"),
+])  # fmt: skip
+def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(grasp, own, solver, outcome, words):
+    """After each start of its process it is right twice: of 12 steps 8, 4 ended."""
+    bad, one = f"{own}:{solver}", {"stack/0": grasp["stack/0"]}
+    wait = 30.0 if solver == "eats" else 0.5
+    limits = Limits(call=wait, warm_up=wait, memory=5e8)
+    modes = {bad: ("cold",), "daqp": ("cold",)}
+    rows = list(asked_in_order(one, modes, 1e-9, 1, limits=limits))
+    assert all(row.solved and row.digits > 12 for row in rows if row.solver == "daqp")
+    ends = [row for row in rows if row.solver == bad]
+    assert len(ends) == 12
+    assert [row.outcome for row in ends] == ["solved", "solved", outcome] * 4
+    for row in ends:
+        assert row.digits > 12 if row.solved else (words in row.said and row.digits == 0)
+
+
+def test_a_budget_ends_a_solver_and_no_other(grasp, own):
+    """A hang takes its limit and what is waited beyond it, 1 s: two of them are over 1.5 s."""
+    assert 0.5 + EXTRA == 1.0
+    bad, one = f"{own}:hangs", {"stack/0": grasp["stack/0"]}
+    limits = Limits(call=0.5, warm_up=0.5, budget=1.5)
+    modes = {bad: ("cold",), "daqp": ("cold",)}
+    rows = list(asked_in_order(one, modes, 1e-9, 1, limits=limits))
+    assert sum(row.outcome == "timeout" for row in rows) == 2
+    late = [row for row in rows if row.outcome == "not_run_budget"]
+    assert {row.solver for row in late} == {bad}
+    assert len(late) == 12 - 2 * 3
+
+
+def test_a_clock_that_was_stopped_is_not_believed(grasp, own):
+    one = {"stack/0": grasp["stack/0"]}
+    rows = list(asked_in_order(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, 1))
+    assert all(row.solved and row.seconds > 4e-3 for row in rows)
+
+
+def test_a_callable_that_cannot_be_imported_is_refused(own, tmp_path, capsys):
+    (tmp_path / "no_solvers.py").write_text("raise RuntimeError('no licence')")
+    assert main(["study", "sequences", "no_solvers:solve"]) == 2
+    assert "cannot be imported: RuntimeError: no licence" in capsys.readouterr().err
+
+
+def test_the_command_tells_what_ended_and_goes_on(own, capsys):
+    command = ["study", "sequences", f"{own}:dies", "daqp", "--modes", "cold", "--scenario",
+               "door", "--stride", "4", "--repetitions", "1"]  # fmt: skip
+    assert main(command) == 0
+    assert f"{own}:dies, cold: 4 crashed" in capsys.readouterr().out
 
 
 def test_the_command_writes_a_row_for_each_problem_and_mode(own, tmp_path, capsys):

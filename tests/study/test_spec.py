@@ -90,7 +90,7 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
 def test_the_default_study_is_as_large_as_it_is_said_to_be():
     path = study_path("default")
     full, quick = (solver_study(path, study_tables(path), q) for q in (False, True))
-    assert sum(full.problems.families.values()) >= 2000
+    assert 300 <= sum(full.problems.families.values()) <= 320
     assert len({s.target for s in full.solvers}) >= 8
     ratio = sum(full.problems.families.values()) / sum(quick.problems.families.values())
     assert QUICK * 0.8 < ratio <= QUICK

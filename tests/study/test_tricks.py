@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.keeper import Keeper
 from quasistatic_ref.lab.study.measure import Limits, measured
 from quasistatic_ref.lab.study.qp import Facts, NoSolution, Problem
 from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.store import unreached_read
+from quasistatic_ref.lab.study.unreached import unreached_read
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.study.planted import FAKES
 

@@ -9,17 +9,20 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.commands import study_problems, study_sequences
-from quasistatic_ref.lab.commands.study_report import run_pack, run_report
+from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
+from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.grade import OUTCOMES
-from quasistatic_ref.lab.study.store import ROWS, Row, label_of, unreached_read
+from quasistatic_ref.lab.study.store import ROWS, Row, label_of
+from quasistatic_ref.lab.study.unreached import unreached_read
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
+    "ask": "ask one solver one problem, in a process of its own, and grade the answer",
     "problems": "sets of problems with exact answers: list, export, check, make",
     "sequences": "ask steps in order, from cold and from what the step before left",
+    "merge": "join the results of several machines into one store",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
 
@@ -34,6 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
     study_sequences.add_options(parsers["sequences"])
+    study_ask.add_options(parsers["ask"])
     study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
@@ -50,6 +54,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)
     shared.add(export, "--out", default="qpbenchmark")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    words = "results of a machine, and its name; else the folder's"
+    merge = parsers["merge"]
+    merge.add_argument("parts", nargs="+", metavar="[NAME=]FOLDER", help=words)
+    shared.add(merge, "--out", default=Path("merged"))
     for name, folder in (("report", "report"), ("pack", "packed")):
         words = f"folder for the results (default: {folder}, in that of the study)"
         parsers[name].add_argument("--out", type=Path, metavar="FOLDER", help=words)
@@ -66,9 +74,11 @@ def run(options: argparse.Namespace) -> int:
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
         "export": _export,
+        "ask": study_ask.run_ask,
         "problems": study_problems.run_problems,
         "sequences": study_sequences.run_sequences,
         "report": run_report,
+        "merge": run_merge,
         "pack": run_pack,
     }
     return actions[options.action](options)

@@ -1,14 +1,17 @@
-"""``study report`` and ``study pack``: what a store says, and a store small enough to keep."""
+"""``study report``, ``study pack``, ``study merge``: what is done with a store that was run."""
 
 import argparse
+import sys
 
 
 def run_report(options: argparse.Namespace) -> int:
-    """Write ``report.html``, ``report.md`` and ``figures``."""
+    """Write ``report.html``, ``report.md``, ``report.csv``, ``report.parquet`` and ``figures``."""
+    from quasistatic_ref.errors import InputError
     from quasistatic_ref.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.lab.figures.study_images import images
-    from quasistatic_ref.lab.page.html import html_page
+    from quasistatic_ref.lab.page.html import html_page, sorting
     from quasistatic_ref.lab.page.markdown import markdown_page
+    from quasistatic_ref.lab.page.numbers import csv_text, parquet_bytes
     from quasistatic_ref.lab.study.report import study_report
 
     report = study_report(options.store)
@@ -19,9 +22,17 @@ def run_report(options: argparse.Namespace) -> int:
         found = images(picture.kind, picture.data)
         inside[picture.name] = found["svg"]
         print(f"wrote {bytes_written(folder / f'{picture.name}.png', found['png'])}")
-    pages = {"report.md": markdown_page(report), "report.html": html_page(report, inside)}
+    pages = {
+        "report.md": markdown_page(report),
+        "report.html": html_page(report, inside, sorting()),
+        "report.csv": csv_text(report),
+    }
     for name, text in pages.items():
         print(f"wrote {text_written(out / name, text)}")
+    try:
+        print(f"wrote {bytes_written(out / 'report.parquet', parquet_bytes(report))}")
+    except InputError as error:
+        print(f"quasistatic-ref: {error}", file=sys.stderr)
     return 0
 
 
@@ -32,4 +43,15 @@ def run_pack(options: argparse.Namespace) -> int:
     out = options.store / "packed" if options.out is None else options.out
     for path in packed(options.store, out):
         print(f"wrote {path}")
+    return 0
+
+
+def run_merge(options: argparse.Namespace) -> int:
+    """Write the merged store."""
+    from quasistatic_ref.lab.study.merge import merged, part_read
+
+    parts = [part_read(words) for words in options.parts]
+    folder = merged(parts, options.out)
+    rows, machines = sum(len(part.rows) for part in parts), {m for p in parts for m in p.machines}
+    print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")
     return 0

@@ -4,10 +4,9 @@ import argparse
 import csv
 import io
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,10 +17,16 @@ from quasistatic_ref.errors import InputError
 MODES = ("cold", "updates", "primal", "primal-dual", "active set")
 """As in lab/study/sequences.py, which takes a while to import; a test holds them equal."""
 
+WARM_UP = 10.0
+"""Of a call at a sequence's beginning [s]."""
+LONGEST = 1e6
+"""Largest limit; an operating system waits for 2^31 ms."""
+ORDINARY = ("solved", "failed")
+
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare solvers, modes and what is asked."""
-    words = "daqp, osqp, ...: natively; qpsolvers:NAME; or module:function"
+    words = "daqp, osqp, ...: natively; qpsolvers:NAME; package:NAME; or module:function"
     parser.add_argument("solvers", nargs="+", metavar="SOLVER", help=words)
     parser.add_argument(
         "--modes", metavar="MODE,...", help=f"of {', '.join(MODES)}; else all that each can"
@@ -33,6 +38,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--accuracy", type=float, default=1e-9, metavar="EPS", help=words)
     words = "of each sequence, whose times are medians (5)"
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help=words)
+    for name, value, words in (
+        ("--time-limit", 2.0, "seconds of a call; at a sequence's beginning 10"),
+        ("--memory", 4.0, "GB of a solver's processes"),
+        ("--budget", 600.0, "seconds of all calls of a solver"),
+    ):
+        parser.add_argument(
+            name, type=float, default=value, metavar="LIMIT", help=f"{words} ({value:g})"
+        )
     shared.add(parser, "--out", default=None)
     shared.add(parser, "--json")
 
@@ -40,7 +53,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run_sequences(options: argparse.Namespace) -> int:
     """Ask, and print a line for each solver and mode; InputError if that is not possible."""
     from quasistatic_ref.files import text_written
-    from quasistatic_ref.lab.study.sequences import Asked, asked_in_order, checked
+    from quasistatic_ref.lab.study.sequences import Asked, Limits, asked_in_order, checked
     from quasistatic_ref.lab.study.sets.folder import set_read
     from quasistatic_ref.lab.study.sets.member import Member
     from quasistatic_ref.progress import progress_bar
@@ -50,7 +63,12 @@ def run_sequences(options: argparse.Namespace) -> int:
         raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)
     if not 0 < options.accuracy < 1:
         raise InputError("must be between 0 and 1", field="--accuracy", value=options.accuracy)
-    sys.path.insert(0, str(Path.cwd()))
+    for name in ("time_limit", "memory", "budget"):
+        if not 0 < (value := getattr(options, name)) < LONGEST:
+            words = f"must be above 0 and below {LONGEST:g}"
+            raise InputError(words, field=f"--{name.replace('_', '-')}", value=value)
+    limits = Limits(options.time_limit, max(WARM_UP, options.time_limit), 1e9 * options.memory,
+                    options.budget)  # fmt: skip
     modes = checked(options.solvers, options.modes.split(",") if options.modes else None)
     sequences: dict[str, list[Member]] = defaultdict(list)
     for one in set_read(problem_set_folder(), ["sequences"]):
@@ -64,7 +82,9 @@ def run_sequences(options: argparse.Namespace) -> int:
     total = sum(map(len, sequences.values())) * sum(map(len, modes.values()))
     rows: list[Asked] = []
     with progress_bar(total=total, unit="problem", words="asked", shown=not options.quiet) as bar:
-        for row in asked_in_order(sequences, modes, options.accuracy, options.repetitions):
+        for row in asked_in_order(
+            sequences, modes, options.accuracy, options.repetitions, limits=limits
+        ):
             rows.append(row)
             bar.update()
     if options.out is not None:
@@ -74,6 +94,9 @@ def run_sequences(options: argparse.Namespace) -> int:
         shared.print_json([asdict(row) for row in rows])
         return 0
     shared.print_rows(_summary(rows, modes))
+    ends = Counter((r.solver, r.mode, r.outcome) for r in rows if r.outcome not in ORDINARY)
+    for (solver, mode, outcome), count in ends.items():
+        print(f"{solver}, {mode}: {count} {outcome.replace('_', ' ')}")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""A report as one HTML file: figures inside it, nothing from elsewhere, no scripts."""
+"""A report as one HTML file: figures inside it, nothing from elsewhere, no script but its own."""
 
 import base64
 import re
@@ -9,7 +9,12 @@ from pathlib import Path
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
 
 
-def html_page(report: Report, images: Mapping[str, bytes]) -> str:
+def sorting() -> str:
+    """The script that sorts a table by the heading that is clicked; it loads nothing."""
+    return (Path(__file__).parent / "sort.js").read_text(encoding="utf-8")
+
+
+def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> str:
     """The page.
 
     Parameters
@@ -17,6 +22,8 @@ def html_page(report: Report, images: Mapping[str, bytes]) -> str:
     report : Report
     images : mapping of str to bytes
         Name of each picture -> its SVG.
+    script : str
+        What the page runs, such as :func:`sorting`; else nothing.
     """
     links = [f'<li><a href="#{_id(s.title)}">{escape(s.title)}</a></li>' for s in report.sections]
     style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
@@ -31,6 +38,8 @@ def html_page(report: Report, images: Mapping[str, bytes]) -> str:
     for section in report.sections:
         lines.append(f'<h2 id="{_id(section.title)}">{escape(section.title)}</h2>')
         lines += [_block(block, images) for block in section.blocks]
+    if script:
+        lines.append(f"<script>\n{script}</script>")
     return "\n".join([*lines, "</body></html>", ""])
 
 

@@ -1,4 +1,4 @@
-"""Five interfaces to a solver: CVXPY, qpsolvers, its own, a Python callable, an executable."""
+"""Six interfaces to a solver: CVXPY, qpsolvers, its own, a package, a callable, an executable."""
 
 import importlib
 import json
@@ -15,6 +15,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
+from quasistatic_ref.lab.study.packages import loaded
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.adapters.program import Program, Reply
 from quasistatic_ref.solve.backends import BACKENDS
@@ -60,7 +61,7 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     Raises
     ------
     InputError
-        If a callable cannot be imported, or there is no such executable.
+        If a package or a callable cannot be imported, or there is no such executable.
     """
     if solver.interface == "cvxpy":
         return _by_cvxpy(str(solver.target))
@@ -68,6 +69,8 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
         return _directly(str(solver.target))
     if solver.interface == "native":
         return _natively(str(solver.target))
+    if solver.interface == "package":
+        return _calling(loaded(str(solver.target)))
     if solver.interface == "callable":
         return _calling(imported(str(solver.target)))
     return _running(_command(tuple(solver.target), folder), folder)

@@ -26,18 +26,22 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     Returns
     -------
     mapping of str to ndarray, shape (rows,)
-        The fields of the rows, and ``label`` (interface:solver); ``unit``, the problem with its
-        repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that were
-        delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of the
-        call, the time limit where it does not; ``net``; ``iterations``, NaN where not told.
+        The fields of the rows, and ``way`` (interface:solver), ``who`` (solver, and behind an @
+        the machine, where several were merged), ``label`` (interface:who); ``unit``, the problem
+        with its repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that
+        were delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of
+        the call, the time limit where it does not; ``own_setup`` and ``own_solver``: of set-up and
+        of solving by its own account, ``iterations``: NaN where not told; ``net``.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
     for name in FLAGS:
         columns[name] = np.array([row[name] for row in rows], dtype=bool)
     columns["repetition"] = np.array([row["repetition"] for row in rows], dtype=int)
-    columns["label"] = np.array(
-        [f"{row['interface']}:{row['solver']}" for row in rows], dtype=np.str_
-    )
+    columns["machine"] = np.array([row.get("machine", "") for row in rows], dtype=np.str_)
+    behind = [f"@{machine}" if machine else "" for machine in columns["machine"]]
+    columns["who"] = np.strings.add(columns["solver"], np.array(behind, dtype=np.str_))
+    columns["way"] = _joined(columns["interface"], columns["solver"])
+    columns["label"] = _joined(columns["interface"], columns["who"])
     columns["unit"] = np.array(
         [f"{row['problem']}#{row['repetition']}" for row in rows], dtype=np.str_
     )
@@ -50,6 +54,8 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     columns["digits"] = np.where(solved & np.isfinite(digits), digits, 0.0)
     columns["net"] = np.where(solved & np.isfinite(net), net, 0.0)
     columns["seconds"] = np.where(solved & np.isfinite(call), call, limit)
+    for name in ("setup", "solver"):
+        columns[f"own_{name}"] = _numbers([row["seconds"][name] for row in rows])
     columns["warm_up"] = _numbers([row["seconds"]["warm_up"] for row in rows])
     columns["memory"] = _numbers([row["memory"] for row in rows])
     columns["clock_agrees"] = np.array([row["clock_agrees"] for row in rows], dtype=bool)
@@ -119,6 +125,10 @@ def matrix(columns: Columns, name: str, labels: Sequence[str]) -> np.ndarray:
     """
     parts = [chosen(columns, {"label": label}) for label in labels]
     return np.array([part[name][np.argsort(part["unit"])] for part in parts])
+
+
+def _joined(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return np.strings.add(np.strings.add(one, ":"), other)
 
 
 def _numbers(values: Sequence[float | None]) -> np.ndarray:

@@ -20,7 +20,7 @@ from quasistatic_ref.lab.study.page import (
     options_words,
     percent,
 )
-from quasistatic_ref.lab.study.solver_tables import same_problems
+from quasistatic_ref.lab.study.solver_tables import asked_names, asked_of, same_problems
 from quasistatic_ref.lab.study.statistics import (
     SHIFT,
     interval,
@@ -56,6 +56,11 @@ class Soonest:
     rows: Columns
     times: np.ndarray
     least: float
+
+    @property
+    def machine(self) -> str:
+        """Where its calls were made, if several were merged."""
+        return str(self.rows["machine"][0])
 
     @property
     def mean(self) -> float:
@@ -111,10 +116,10 @@ def soonest_table(
         shares = interval(100 * resampled(good.astype(float), families))
         logs = resampled(np.log(one.times + SHIFT), families)
         span = interval(np.exp(logs) - SHIFT)
-        interface, _, name = one.label.partition(":")
-        cells = [name, interface, one.setting]
+        cells = [*asked_of(one.rows), one.setting]
         if options is not None:
-            cells.append(f"`{options_words(options[one.label][one.setting], LIMITS)}`")
+            own = options[str(one.rows["way"][0])][one.setting]
+            cells.append(f"`{options_words(own, LIMITS)}`")
         cells += [
             percent(success(one.rows["digits"], one.least)),
             " to ".join(map(percent, shares)),
@@ -126,16 +131,12 @@ def soonest_table(
             milliseconds(float(np.median(one.rows["seconds"]))),
             milliseconds(one.mean),
             " to ".join(map(milliseconds, span)),
-            _tie(one, found[0], noise),
+            _tie(one, found, noise),
         ]
         rows.append(tuple(cells))
     least = found[0].least if found else 0
-    names = [
-        "solver",
-        "interface",
-        "setting",
-        *(["its own options"] if options is not None else []),
-    ]
+    first = asked_names(found[0].rows) if found else ("solver", "interface")
+    names = [*first, "setting", *(["its own options"] if options is not None else [])]
     more = same_problems(found[0].rows) if found else ""
     columns = (
         *names, f">= {least:g} digits [%]", "95 % of bootstraps", "digits, median",
@@ -147,7 +148,8 @@ def soonest_table(
     return Table(title, filter_words(where, more), columns, tuple(rows), left=len(names))
 
 
-def _tie(one: Soonest, fastest: Soonest, noise: Noise) -> str:
+def _tie(one: Soonest, found: Sequence[Soonest], noise: Noise) -> str:
+    fastest = next(other for other in found if other.machine == one.machine)
     if one is fastest:
         return "-"
     if noise.floor is None:

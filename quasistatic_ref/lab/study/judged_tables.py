@@ -1,9 +1,13 @@
-"""Tables of claims about feasibility, and of clocks that were not believed."""
+"""Tables of claims about feasibility, of clocks that were not believed, of the parts of calls."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Table
-from quasistatic_ref.lab.study.columns import Columns, chosen, groups, size
+from quasistatic_ref.lab.study.columns import Columns, Where, chosen, groups, size
+from quasistatic_ref.lab.study.page import filter_words, milliseconds, percent
+from quasistatic_ref.lab.study.solver_tables import asked_names, asked_of
 
 
 def claims_sentence(columns: Columns) -> list[Block]:
@@ -52,3 +56,44 @@ def failing_clocks(columns: Columns) -> list[Block]:
     names = ("solver", "memory, peak [MB]", "clock not believed", "slowest warm-up [s]",
              "warm-ups [s]")  # fmt: skip
     return [Table("Memory, clocks, warm-ups.", "repetition = 0", names, tuple(rows))]
+
+
+def parts_of_calls(parts: Sequence[tuple[Columns, str]], where: Where) -> list[Block]:
+    """Set-up and solving by the solver's own account, and what is left of a call: conversion.
+
+    Parameters
+    ----------
+    parts : sequence of (mapping of str to ndarray, str)
+        The calls of each solver and interface, and their setting.
+    where : mapping
+        What they have in common.
+    """
+    rows = []
+    for part, setting in parts:
+        own = {name: column[part["solved"]] for name, column in part.items()}
+        told = np.isfinite(own["own_solver"])
+        if not told.any():
+            continue
+        call, setup, solving = (own[n][told] for n in ("seconds", "own_setup", "own_solver"))
+        left = call - solving - np.where(np.isfinite(setup), setup, 0.0)
+        both = np.isfinite(setup).all()
+        cells = [milliseconds(float(np.median(call))),
+                 milliseconds(float(np.median(setup))) if both else "-",
+                 milliseconds(float(np.median(solving))),
+                 milliseconds(max(float(np.median(left)), 0.0)),
+                 percent(100 * max(float(np.median(left / call)), 0.0))]  # fmt: skip
+        rows.append((*asked_of(part), setting, str(int(told.sum())), *cells))
+    if not rows:
+        return []
+    names = (*asked_names(parts[0][0]), "setting")
+    columns = (*names, "calls solved and told", "whole call, median [ms]", "set-up, median [ms]",
+               "solving, median [ms]", "conversion, median [ms]",
+               "conversion, median of shares [%]")  # fmt: skip
+    words = (
+        "Set-up and solving are by the solver's own account (natively the set-up is timed here); "
+        "conversion is what is left of a call: matrices into the solver's form, and answers back. "
+        "Where the set-up is not told apart it counts to whichever of the two the solver counts it."
+    )
+    title = "Set-up, solving and conversion, each at the setting that delivers 6 digits soonest."
+    more = "; outcome = solved, seconds.solver is told"
+    return [words, Table(title, filter_words(where, more), columns, tuple(rows), left=len(names))]

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from time import perf_counter, sleep
+from typing import Protocol
 
 import quasistatic_ref
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study import processes
 from quasistatic_ref.lab.study.grade import CRASHED, MEMORY, TIMEOUT
-from quasistatic_ref.lab.study.solvers import Setting, Solver
+from quasistatic_ref.lab.study.solvers import Setting
 from quasistatic_ref.lab.study.wire import HEAD, Told, Unreadable, from_bytes
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -77,20 +78,38 @@ class Request:
     start: Array | None = None
 
 
+class Named(Protocol):
+    """What a process is sent first; it has a name for messages."""
+
+    @property
+    def name(self) -> str:
+        """Of the solver."""
+
+
 class Keeper:
     """One solver's process, alive from its first question on.
 
     Parameters
     ----------
     solver : Solver
+        Or what another `worker` takes.
     folder : str or Path
         Where a callable's module is looked for, in addition to the usual places.
     memory : float
         Most that it may hold, with its children [bytes].
+    worker : str
+        The module that runs in the process.
     """
 
-    def __init__(self, solver: Solver, folder: str | Path = ".", memory: float = 4e9) -> None:
-        self.solver, self.folder, self.memory = solver, str(Path(folder).resolve()), memory
+    def __init__(
+        self,
+        solver: Named,
+        folder: str | Path = ".",
+        memory: float = 4e9,
+        worker: str = WORKER,
+    ) -> None:
+        self.solver, self.worker = solver, worker
+        self.folder, self.memory = str(Path(folder).resolve()), memory
         self._process: subprocess.Popen[bytes] | None = None
         self._sent: deque[StandardForm] = deque(maxlen=KEPT)
         self.starts = 0
@@ -199,7 +218,7 @@ class Keeper:
         self._token = uuid.uuid4().hex
         mark = {"PYTHONPATH": path, processes.TOKEN: self._token}
         self._process = subprocess.Popen(
-            [sys.executable, "-m", WORKER, str(theirs_in), str(theirs_out)],
+            [sys.executable, "-m", self.worker, str(theirs_in), str(theirs_out)],
             pass_fds=(theirs_in, theirs_out),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,  # solvers print

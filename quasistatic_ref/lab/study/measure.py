@@ -5,6 +5,7 @@ solver could replace: the clock of the keeper, around the whole exchange, must b
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -127,6 +128,11 @@ def _asked(
     return row | {"seconds": row["seconds"] | clocks}
 
 
+def borne_out(times: Sequence[float], beyond: float) -> bool:
+    """Whether a solver's own times [s] account for an exchange, beyond an empty one [s]."""
+    return sum(times) >= BORNE * beyond - NOISE
+
+
 def _goodness(row: dict[str, Any]) -> tuple[bool, bool, float]:
     """What a repeated call is judged by: the worst answer counts."""
     return not row["wrong"], row["said_optimal"], row["digits"]["delta_q"] or 0.0
@@ -147,6 +153,6 @@ def _timed(
         told, whole = keeper.answer(form, many)
         beyond = whole - keeper.exchange
         shortest = min(shortest, beyond)
-        if request.start is not None or sum(told.times) >= BORNE * beyond - NOISE:
+        if request.start is not None or borne_out(told.times, beyond):
             return told, told.times, True
     return told, (shortest / count,) * count, False

@@ -17,12 +17,11 @@ from quasistatic_ref.lab.study.problems import FACTS
 from quasistatic_ref.lab.study.store import (
     PACKED,
     STUDY,
-    UNREACHED,
     Row,
     rows_read,
     study_checked,
-    unreached_read,
 )
+from quasistatic_ref.lab.study.unreached import UNREACHED, unreached_read
 
 FIGURES = 3
 """Significant figures of times and residuals: their noise is larger."""

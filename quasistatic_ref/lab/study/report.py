@@ -12,9 +12,9 @@ from quasistatic_ref.lab.study.store import (
     lines_read,
     rows_read,
     study_checked,
-    unreached_read,
 )
 from quasistatic_ref.lab.study.sweep_report import sweep_report
+from quasistatic_ref.lab.study.unreached import unreached_read
 
 
 def study_report(folder: str | Path) -> Report:

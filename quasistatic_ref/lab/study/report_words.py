@@ -34,12 +34,20 @@ def sweep_method() -> list[str]:
 
 def place_tables(study: Mapping[str, Any]) -> tuple[Table, Table]:
     """Machine and versions."""
-    machine = tuple((str(k), str(v)) for k, v in study["machine"].items())
-    packages = tuple((str(k), str(v)) for k, v in study["versions"].items())
-    return (
-        Table("Machine.", "study.json, machine", ("what", "which"), machine, left=2),
-        Table("Versions.", "study.json, versions", ("package", "version"), packages, left=2),
-    )
+    names = study.get("machines", [])
+    tables = []
+    for title, field, first, one in (
+        ("Machine", "machine", "what", "which"),
+        ("Versions", "versions", "package", "version"),
+    ):
+        parts = [study[field][name] for name in names] if names else [study[field]]
+        lines = tuple(
+            (str(key), *(str(part.get(key, "-")) for part in parts))
+            for key in dict.fromkeys(key for part in parts for key in part)
+        )
+        columns = (first, *(names or [one]))
+        tables.append(Table(f"{title}.", f"study.json, {field}", columns, lines, len(columns)))
+    return tables[0], tables[1]
 
 
 def old_times(study: Mapping[str, Any]) -> list[str]:

@@ -20,8 +20,8 @@ from quasistatic_ref.lab.study.store import (
     Store,
     key_of,
     label_of,
-    unreached_written,
 )
+from quasistatic_ref.lab.study.unreached import unreached_written
 
 
 def run_study(

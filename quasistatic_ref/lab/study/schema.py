@@ -56,7 +56,7 @@ MAYBE = _or_null(NUMBER)
 VALUE: Kind = ("a number or a word", lambda v: _is_number(v) or isinstance(v, bool) or _is_text(v))
 ANYTHING: Kind = ("anything", lambda value: True)
 
-SOLVER_ROW: Shape = {
+SOLVER_ROW: dict[str, Any] = {
     "problem": TEXT, "family": TEXT, "solver": TEXT, "interface": TEXT, "setting": TEXT,
     "warm": FLAG, "units": _among(UNITS), "repetition": COUNT, "outcome": _among(OUTCOMES),
     "claimed": TEXT, "feasible": FLAG, "said_optimal": FLAG, "said_infeasible": FLAG,
@@ -66,6 +66,8 @@ SOLVER_ROW: Shape = {
     "seconds": {**dict.fromkeys(CLOCKS, _or_null(TIME)), "spent": TIME},
     "calls": COUNT, "clock_agrees": FLAG, "memory": MAYBE, "iterations": MAYBE,
 }  # fmt: skip
+MERGED_ROW: Shape = {**SOLVER_ROW, "machine": TEXT}
+"""Of a store into which the results of several machines were merged."""
 SWEEP_ROW: Shape = {
     "sweep": TEXT, "scenario": TEXT, "values": _table_of(VALUE), "outcome": TEXT,
     "reason": _or_null(("a string", lambda value: isinstance(value, str))),
@@ -142,6 +144,20 @@ def _shown(value: Any) -> Any:
     return "null" if value is None else value
 
 
+def check_machines(study: Mapping[str, Any]) -> None:
+    """Refuse a merged study whose machines are not named, or not described.
+
+    Raises
+    ------
+    InputError
+        Naming the field.
+    """
+    checked(study["machines"], [TEXT], "machines")
+    for name in ("machine", "versions"):
+        own = dict.fromkeys(study["machines"], _table_of(ANYTHING))
+        checked(study[name], own, name)
+
+
 def check_solver_rows(
     study: Mapping[str, Any], facts: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]]
 ) -> None:
@@ -155,7 +171,10 @@ def check_solver_rows(
     settings = {setting["name"] for setting in study["settings"]}
     options = {(s["interface"], s["name"]): s["options"] for s in study["solvers"]}
     families = {fact["family"] for fact in facts}
+    machines = study.get("machines", [None])
     for row in rows:
+        if row.get("machine") not in machines:
+            raise _stranger("machine", str(row.get("machine")))
         if row["family"] not in families:
             raise _stranger("family", row["family"])
         if (row["interface"], row["solver"]) not in options:

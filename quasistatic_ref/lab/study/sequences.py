@@ -1,42 +1,33 @@
 """Sequences of steps asked in order: from cold, and from what the step before left.
 
-A simulation asks problems whose g, A and b all change a little; what a solver can keep of the last
-one differs: its point, its point and multipliers, its active set, or its memory and factors only.
-Which of these a solver takes is a fact of its interface. What it does not take is refused, and
-never left out in silence.
+Each solver has a process of its own, with limits of time and memory: one that hangs, crashes or
+eats memory is started again, cold, at the next step, and costs itself only. What a solver cannot
+start from is refused, and never left out in silence.
 """
 
-import importlib
-import inspect
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Final
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.calls import imported
+from quasistatic_ref.lab.study import sessions
+from quasistatic_ref.lab.study.grade import CRASHED, FAILED, NOT_RUN, SOLVED
+from quasistatic_ref.lab.study.keeper import Ended, Keeper, Request, exchange
+from quasistatic_ref.lab.study.measure import borne_out
+from quasistatic_ref.lab.study.sessions import MODES, is_foreign
 from quasistatic_ref.lab.study.sets.member import Member
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
-from quasistatic_ref.solve.backends import BACKENDS, installed
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.lab.study.solvers import Setting
+from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
-MODES: Final = ("cold", "updates", "primal", "primal-dual", "active set")
-"""Set up anew each time; or from what was left: memory and factors alone, the point, the point
-with its multipliers, the active set."""
-NATIVE: Final = {"daqp": "active set", "osqp": "primal-dual"}
-"""What the native adapters keep besides, where they start warm."""
-QUIET: Final[dict[str, dict[str, Any]]] = {"osqp": {"verbose": False}}
-KEEPS_NOTHING: Final = ("quadprog",)
-QPSOLVERS = "qpsolvers:"
-
-Session = Callable[[StandardForm, Reply | None], Reply]
-"""(the problem, the reply to the one before or None) -> reply."""
+WORKER = "quasistatic_ref.lab.study.sequence_worker"
 
 
 @dataclass(frozen=True)
@@ -48,8 +39,8 @@ class Asked:
     sequence : str
     place : int
     solver, mode : str
-    solved : bool
-        Whether it says so.
+    outcome : str
+        As in a study: solved, failed, crashed, timeout, memory, or not_run_budget.
     said : str
     digits : float
         Correct ones [-]; 0 where it does not say solved.
@@ -62,45 +53,123 @@ class Asked:
     place: int
     solver: str
     mode: str
-    solved: bool
+    outcome: str
     said: str
     digits: float
     iterations: int | None
     seconds: float
 
+    @property
+    def solved(self) -> bool:
+        """Whether it says so."""
+        return self.outcome == SOLVED
 
-def modes_of(solver: str) -> tuple[str, ...]:
-    """The modes in which a solver can be asked.
+
+@dataclass(frozen=True)
+class Limits:
+    """What a solver of sequences may take.
+
+    Parameters
+    ----------
+    call : float
+        Time of a call [s].
+    warm_up : float
+        Of a call at a sequence's beginning, where shapes are new and a solver may compile [s].
+    memory : float
+        Of its processes [bytes].
+    budget : float
+        Of all its calls [s].
+    """
+
+    call: float = 2.0
+    warm_up: float = 10.0
+    memory: float = 4e9
+    budget: float = 600.0
+
+
+LIMITS: Final = Limits()
+
+
+@dataclass(frozen=True)
+class Step(Request):
+    """A request of the next step; `first` begins a sequence, in the mode that the setting names."""
+
+    first: bool = False
+
+
+@dataclass(frozen=True)
+class Named:
+    """What the process of a solver is sent first."""
+
+    name: str
+
+
+@dataclass(eq=False)
+class _Asker:
+    """One solver's process, and what is left of its budget [s]."""
+
+    keeper: Keeper
+    limits: Limits
+    left: float
+    seen: set[object] = field(default_factory=set)
+
+    def next(
+        self, form: StandardForm, setting: Setting, first: bool, place: int
+    ) -> tuple[Reply, str, float]:
+        """Reply and outcome of the next step, and how long it took [s]."""
+        if self.left <= 0:
+            return Reply(None, None, False, "not run (budget)"), NOT_RUN, 0.0
+        shape = (*form.A.shape, setting.name, min(place, 1))
+        limit = self.limits.call if shape in self.seen else self.limits.warm_up
+        try:
+            self.keeper.start()
+            exchange(self.keeper, form, setting)
+            told, outside = self.keeper.answer(form, Step(setting, limit, first=first))
+        except InputError as error:  # it could be imported before
+            self.left = 0.0
+            return Reply(None, None, False, error.problem), CRASHED, 0.0
+        except Ended as end:
+            self.left -= end.seconds
+            return Reply(None, None, False, end.words), end.outcome, end.seconds
+        finally:
+            self.keeper.tidy()
+        self.seen.add(shape)
+        self.left -= outside
+        beyond = outside - self.keeper.exchange
+        seconds = told.times[0] if borne_out(told.times, beyond) else beyond
+        return told.reply, SOLVED if told.reply.solved else FAILED, seconds
+
+
+def modes_of(solver: str, folder: str | Path = ".") -> tuple[str, ...]:
+    """The modes in which a solver can be asked; a callable is imported in a process of its own.
 
     Parameters
     ----------
     solver : str
-        A native backend's name, ``qpsolvers:NAME``, or ``module:function``: a callable
-        ``(P, q, G, h) -> (x, z)`` that may take ``start=(x, z)``.
+        As :func:`~.sessions.modes_of` takes it.
+    folder : str or Path
+        Where callables are looked for.
 
     Raises
     ------
     InputError
-        If there is no such solver here.
+        If there is no such solver here, or it cannot be imported.
     """
-    if solver.startswith(QPSOLVERS):
-        name = solver.removeprefix(QPSOLVERS)
-        if name not in installed("qpsolvers"):
-            raise InputError("is not a solver that qpsolvers reaches here", value=solver)
-        return ("cold", "primal") if "qpsolvers" in BACKENDS[name].warm else ("cold",)
-    if ":" in solver:
-        takes = "start" in inspect.signature(imported(solver)).parameters
-        return ("cold", "primal-dual") if takes else ("cold",)
-    if solver not in installed("native"):
-        raise InputError(f"is none of {', '.join(installed('native'))}, qpsolvers:NAME or "
-                         "module:function", value=solver)  # fmt: skip
-    if solver in KEEPS_NOTHING:
-        return ("cold",)
-    own = NATIVE.get(solver)
-    return ("cold", "updates", own) if own else ("cold", "updates")
+    if not is_foreign(solver):
+        return sessions.modes_of(solver)
+    one = np.ones((1, 1))
+    form = StandardForm(one, one[0], one, one[0])
+    with Keeper(Named(solver), folder, worker=WORKER) as keeper:
+        try:
+            told, _ = keeper.answer(form, Request(Setting("cold", 1.0, 0.0), 1.0, count=0))
+        except Ended as end:
+            raise InputError(f"did not say what it takes: {end.words}", value=solver) from None
+    return tuple(told.reply.status.split(","))
 
 
-def checked(solvers: Sequence[str], modes: Sequence[str] | None) -> dict[str, tuple[str, ...]]:
+def checked(
+    solvers: Sequence[str], modes: Sequence[str] | None, folder: str | Path = "."
+) -> dict[str, tuple[str, ...]]:
     """The modes of each solver; those that are asked for, if all can do them.
 
     Raises
@@ -108,7 +177,7 @@ def checked(solvers: Sequence[str], modes: Sequence[str] | None) -> dict[str, tu
     InputError
         If a mode is unknown, or asked for and not possible.
     """
-    found = {solver: modes_of(solver) for solver in solvers}
+    found = {solver: modes_of(solver, folder) for solver in solvers}
     for mode in modes or ():
         if mode not in MODES:
             raise InputError(f"is none of {', '.join(MODES)}", field="--modes", value=mode)
@@ -125,6 +194,8 @@ def asked_in_order(
     accuracy: float,
     repetitions: int,
     seed: int = 1,
+    limits: Limits = LIMITS,
+    folder: str | Path = ".",
 ) -> Iterator[Asked]:
     """Every sequence asked of every solver in its modes.
 
@@ -137,24 +208,35 @@ def asked_in_order(
     accuracy : float
         In natural units [-].
     repetitions : int
-        Of each sequence, whose times are medians.
+        Of each sequence, whose times are medians, and of whose answers the worst counts.
     seed : int
         Of the order in which solvers and modes come, another one for each sequence.
+    limits : Limits
+    folder : str or Path
+        Where callables are looked for.
     """
     rng = np.random.default_rng(seed)
     ways = [(solver, mode) for solver, own in modes.items() for mode in own]
-    for name, members in sequences.items():
-        forms, answers = in_one_unit(members)
-        norms = [energy_norm(form.H) for form in forms]
-        for i in rng.permutation(len(ways)):
-            solver, mode = ways[i]
-            runs = [list(_run(forms, solver, mode, accuracy)) for _ in range(repetitions)]
-            for place, (form, exact, norm) in enumerate(zip(forms, answers, norms, strict=True)):
-                reply = runs[0][place][0]
-                found = _digits(norm, form, exact, reply)
-                cost = float(np.median([run[place][1] for run in runs]))
-                yield Asked(name, place, solver, mode, reply.solved, reply.status, found,
-                            reply.iterations, cost)  # fmt: skip
+    with contextlib.ExitStack() as stack:
+        askers = {}
+        for solver in modes:
+            keeper = Keeper(Named(solver), folder, limits.memory, WORKER)
+            askers[solver] = _Asker(stack.enter_context(keeper), limits, limits.budget)
+        for name, members in sequences.items():
+            forms, answers = in_one_unit(members)
+            norms = [energy_norm(form.H) for form in forms]
+            for i in rng.permutation(len(ways)):
+                solver, mode = ways[i]
+                setting = Setting(mode, accuracy, 0.0)
+                runs = [list(_run(forms, askers[solver], setting)) for _ in range(repetitions)]
+                for place, (form, exact, norm) in enumerate(
+                    zip(forms, answers, norms, strict=True)
+                ):
+                    own = [(*run[place], _digits(norm, form, exact, run[place][0])) for run in runs]
+                    reply, outcome, _, found = min(own, key=lambda one: (one[0].solved, one[3]))
+                    cost = float(np.median([seconds for _, _, seconds, _ in own]))
+                    yield Asked(name, place, solver, mode, outcome, reply.status, found,
+                                reply.iterations, cost)  # fmt: skip
 
 
 def in_one_unit(members: Sequence[Member]) -> tuple[list[StandardForm], list[Array]]:
@@ -166,85 +248,19 @@ def in_one_unit(members: Sequence[Member]) -> tuple[list[StandardForm], list[Arr
 
 
 def _run(
-    forms: Sequence[StandardForm], solver: str, mode: str, accuracy: float
-) -> Iterator[tuple[Reply, float]]:
-    """Replies to a sequence, and how long each took [s]."""
-    session, before = _session(solver, mode, accuracy), None
-    for form in forms:
-        begin = time.perf_counter()
-        before = session(form, before)
-        yield before, time.perf_counter() - begin
-
-
-def _session(solver: str, mode: str, accuracy: float) -> Session:
-    if solver.startswith(QPSOLVERS):
-        name = solver.removeprefix(QPSOLVERS)
-        plain = BACKENDS[name].plain
-        options = plain(accuracy) if plain else {}
-
-        def through(form: StandardForm, before: Reply | None) -> Reply:
-            start = before.x if mode == "primal" and before is not None else None
-            return qpsolvers_reply(form, name, options, start)
-
-        return through
-    if ":" in solver:
-        return _calling(imported(solver), warm=mode == "primal-dual")
-    return Native(solver, mode, accuracy)
-
-
-class Native:
-    """A native solver that is kept through a sequence, or set up anew in each step.
-
-    Parameters
-    ----------
-    name : str
-        Of a backend with an adapter.
-    mode : str
-    accuracy : float
-        In the units of the problems [-].
-    """
-
-    def __init__(self, name: str, mode: str, accuracy: float) -> None:
-        module = importlib.import_module(f"quasistatic_ref.solve.adapters.{name}")
-        self.kind: type[Adapter] = getattr(module, BACKENDS[name].adapter)
-        plain = BACKENDS[name].plain
-        self.mode, self.options = mode, (plain(accuracy) if plain else {}) | QUIET.get(name, {})
-        self.adapter: Adapter | None = None
-
-    def __call__(self, form: StandardForm, before: Reply | None) -> Reply:
-        """The reply to the next problem."""
-        if self.adapter is None or self.mode == "cold":
-            order = self.kind.ORDER
-            self.program = Program(form.H.copy(order=order), -form.g, form.A.copy(order=order),
-                                   form.b.copy())  # fmt: skip
-            self.adapter = self.kind(self.program, dict(self.options))
-            return self.adapter.reply(same_H=True, warm=False)
-        p = self.program
-        same_H = np.array_equal(p.H, form.H)
-        p.H[:], p.f[:], p.A[:], p.b[:] = form.H, -form.g, form.A, form.b
-        return self.adapter.reply(same_H=same_H, warm=self.mode != "updates")
-
-
-def _calling(function: Callable[..., Any], warm: bool) -> Session:
-    def call(form: StandardForm, before: Reply | None) -> Reply:
-        start = {}
-        if warm and before is not None and before.x is not None and before.lam is not None:
-            start = {"start": (before.x.copy(), before.lam.copy())}
-        try:
-            returned = function(form.H.copy(), -form.g, -form.A, -form.b, **start)
-            if returned is None:
-                return Reply(None, None, False, "returned None")
-            x, lam = (np.array(part, dtype=np.float64) for part in returned)
-        except Exception as error:  # whatever a user's solver raises
-            return Reply(None, None, False, f"{type(error).__name__}: {error}"[:200])
-        good = x.shape == form.g.shape and lam.shape == form.b.shape
-        return Reply(x, lam, True, "returned") if good else Reply(None, None, False, "wrong shape")
-
-    return call
+    forms: Sequence[StandardForm], asker: _Asker, setting: Setting
+) -> Iterator[tuple[Reply, str, float]]:
+    """Replies to a sequence, how they ended, and how long each took [s]."""
+    first = True
+    for place, form in enumerate(forms):
+        found = asker.next(form, setting, first, place)
+        first = found[1] not in (SOLVED, FAILED)  # its process was ended
+        yield found
 
 
 def _digits(norm: EnergyNorm, form: StandardForm, exact: Array, reply: Reply) -> float:
-    if not reply.solved or reply.x is None or not np.isfinite(reply.x).all():
+    usable = reply.x is not None and reply.x.shape == form.g.shape
+    if not reply.solved or reply.x is None or not usable or not np.isfinite(reply.x).all():
         return 0.0
     free = float(norm.impulses(form.g[None])[0])
     off = norm.displacement(reply.x - exact)

@@ -1,15 +1,13 @@
 """The report on solvers: which one, at which setting, how right, how fast, where it fails."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
+from quasistatic_ref.lab.study.asked import Asked, asked_in
 from quasistatic_ref.lab.study.columns import (
-    Columns,
-    Where,
     chosen,
     columns_of,
     common,
@@ -17,9 +15,14 @@ from quasistatic_ref.lab.study.columns import (
     matrix,
     size,
 )
-from quasistatic_ref.lab.study.headline import WANTED, Soonest, soonest, soonest_table
-from quasistatic_ref.lab.study.judged_tables import claims_sentence, detection, failing_clocks
-from quasistatic_ref.lab.study.noise import Noise, noise_of, noise_words
+from quasistatic_ref.lab.study.headline import WANTED, soonest_table
+from quasistatic_ref.lab.study.judged_tables import (
+    claims_sentence,
+    detection,
+    failing_clocks,
+    parts_of_calls,
+)
+from quasistatic_ref.lab.study.noise import noise_words
 from quasistatic_ref.lab.study.page import filter_words
 from quasistatic_ref.lab.study.report_words import (
     limitations,
@@ -43,52 +46,10 @@ from quasistatic_ref.lab.study.solver_tables import (
 )
 from quasistatic_ref.lab.study.statistics import performance_ratios, success
 from quasistatic_ref.lab.study.store import Row
+from quasistatic_ref.lab.study.worst import worst_problems
 
 PROFILED = (6.0, 9.0)
 """Digits that count as right in a profile."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Asked:
-    """What a study asked, and the calls that are compared first.
-
-    Parameters
-    ----------
-    study : mapping
-        ``study.json``.
-    columns : mapping of str to ndarray
-    settings : list of str
-        Each solver's own first, then from loose to tight.
-    base : mapping
-        The units and warmth that most solvers were asked in.
-    noise : Noise
-    """
-
-    study: Mapping[str, Any]
-    columns: Columns
-    settings: list[str]
-    base: Where
-    noise: Noise
-
-    def soonest(self, least: float) -> list[Soonest]:
-        """Each solver at the setting that delivers so many digits soonest."""
-        return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
-
-    def best(self) -> list[str]:
-        """Of the interfaces to one solver the one with the fastest 6 digits, for figures."""
-        found = [one.label for one in self.soonest(WANTED[0])]
-        return list({label.partition(":")[2]: label for label in reversed(found)}.values())[::-1]
-
-    def at(self, setting: str) -> Where:
-        """The calls at one setting, of those that are compared first."""
-        return {**self.base, "setting": setting}
-
-    @property
-    def main(self) -> list[str]:
-        """The settings, at most two, at which most problems were asked."""
-        counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
-        two = sorted(self.settings, key=lambda s: -counts[s])[:2]
-        return [s for s in self.settings if s in two and counts[s]]
 
 
 def solver_report(
@@ -115,23 +76,29 @@ def solver_report(
     """
     every = columns_of(rows, study["time_limit"])
     first = chosen(every, {"repetition": 0})
-    columns = chosen(first, {"feasible": True})
-    columns = columns if size(columns) else first
-    noise = noise_of(every)
-    asked = _Asked(study, columns, _settings(study, columns), _widest(columns), noise)
+    asked = asked_in(study, every)
+    columns, noise = asked.columns, asked.noise
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
-        f"{len(facts):,} problems, {len(set(columns['label'])):,} pairs of solver and interface, "
+        f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
         f"{len(rows):,} measurements."
     )
+    if machines := study.get("machines"):
+        head += f" Made on {len(machines)} machines: {', '.join(machines)}; figures: {asked.drawn}."
     heads = [head, *old_times(study), noise_words(noise)]
     options = options_table(study["solvers"])
     sections: dict[str, Sequence[Block]] = {
         "Time to so many digits": [*heads, *_headline(asked, unreached or {})],
         "Accuracy and time": _compared(asked),
         "False claims": [*_claims(asked), *detection(first)],
+        "Worst problems": worst_problems(
+            columns, asked.base, [(one.label, one.setting) for one in asked.fastest()], facts
+        ),
         "By problem family": _by_family(asked, families),
         "Units, warm starts, interfaces": _contrasts(asked),
+        "Set-up, solving, conversion": parts_of_calls(
+            [(one.rows, one.setting) for one in asked.soonest(WANTED[0])], asked.base
+        ),
         "How calls ended": [outcome_table(first), *failing_clocks(first)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
         "Limitations": limitations(),
@@ -139,24 +106,11 @@ def solver_report(
         "Machine, versions, options": [*place_tables(study), options],
     }
     title = "Solvers on contact problems with exact answers"
-    return Report(title, tuple(Section(name, tuple(part)) for name, part in sections.items()))
+    parts = (Section(name, tuple(part)) for name, part in sections.items() if part)
+    return Report(title, tuple(parts))
 
 
-def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
-    """The settings that were asked, each solver's own first, then from loose to tight."""
-    asked = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
-    asked.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
-    return [s["name"] for s in asked]
-
-
-def _widest(columns: Columns) -> Where:
-    """The units and warmth that most solvers were asked in: what is compared first."""
-    every = groups(columns, ["units", "warm"])
-    (units, warm), _ = max(every, key=lambda one: (len(set(one[1]["label"])), size(one[1])))
-    return {"units": units, "warm": warm == "True"}
-
-
-def _headline(asked: _Asked, unreached: Mapping[str, str]) -> list[Block]:
+def _headline(asked: Asked, unreached: Mapping[str, str]) -> list[Block]:
     options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
     tables = []
     for least in WANTED:
@@ -172,7 +126,7 @@ def _headline(asked: _Asked, unreached: Mapping[str, str]) -> list[Block]:
     return [*words, *tables]
 
 
-def _compared(asked: _Asked) -> list[Block]:
+def _compared(asked: Asked) -> list[Block]:
     panels, shares, said, best = [], [], [], asked.best()
     for least in PROFILED:
         found = {one.label: one for one in asked.soonest(least)}
@@ -215,7 +169,7 @@ def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any
     return Picture(name, name, {"panels": panels, **more}, caption, where)
 
 
-def _against_time(asked: _Asked, best: Sequence[str]) -> Block:
+def _against_time(asked: Asked, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
     own_ = {s["name"]: s["accuracy"] is None for s in asked.study["settings"]}
     panels, said = [], []
@@ -241,7 +195,7 @@ def _against_time(asked: _Asked, best: Sequence[str]) -> Block:
     return _picture("digits_time", panels, caption, f"{filter_words(where)}; {'; '.join(said)}")
 
 
-def _claims(asked: _Asked) -> list[Block]:
+def _claims(asked: Asked) -> list[Block]:
     columns = asked.columns
     promised = {s["name"]: s["promised"] for s in asked.study["settings"]}
     tables = [
@@ -251,7 +205,7 @@ def _claims(asked: _Asked) -> list[Block]:
     return [*claims_sentence(columns), *tables, worst_claims(columns, promised)]
 
 
-def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
+def _by_family(asked: Asked, families: Sequence[str]) -> list[Block]:
     panels, tables, said = [], [], []
     for setting in asked.main:
         where = asked.at(setting)
@@ -268,7 +222,7 @@ def _by_family(asked: _Asked, families: Sequence[str]) -> list[Block]:
     return [_picture("families", panels, caption, rows), *tables]
 
 
-def _contrasts(asked: _Asked) -> list[Block]:
+def _contrasts(asked: Asked) -> list[Block]:
     units, cold = {"units": asked.base["units"]}, {"warm": False}
     columns, ways = (asked.columns, asked.settings), ["label", "setting"]
     raw = ("raw", "natural")
@@ -276,6 +230,9 @@ def _contrasts(asked: _Asked) -> list[Block]:
         contrast(*columns, "Raw units and natural units.", "units", raw, cold, ways),
         contrast(*columns, "Cold and warm starts.", "warm", (False, True), units, ways, True),
     ]
+    if len(machines := asked.study.get("machines", [])) > 1:
+        way, where = ["way", "setting"], units | cold
+        tables.append(contrast(*columns, "Machines.", "machine", machines, where, way))
     for one, other in (("qpsolvers", "cvxpy"), ("native", "qpsolvers")):
         title = f"{one} and {other}."
         tables.append(contrast(*columns, title, "interface", (one, other), units | cold))

@@ -23,8 +23,7 @@ def solver_table(columns: Columns, where: Where) -> Table:
     own = common(chosen(columns, where))
     rows = [
         (
-            label.partition(":")[2],
-            label.partition(":")[0],
+            *asked_of(part),
             str(size(part)),
             percent(100 * float(part["solved"].mean())),
             *(percent(success(part["digits"], least)) for least in LEVELS),
@@ -34,16 +33,26 @@ def solver_table(columns: Columns, where: Where) -> Table:
             milliseconds(float(np.median(part["seconds"]))),
             milliseconds(shifted_geometric_mean(part["seconds"])),
         )
-        for (label,), part in groups(own, ["label"])
+        for _, part in groups(own, ["label"])
     ]
     return Table(
         f"Setting {where['setting']}, {where['units']} units.",
         filter_words(where, same_problems(own)),
-        ("solver", "interface", "calls", "solved [%]", *(f">= {d:g} digits [%]" for d in LEVELS),
+        (*asked_names(columns), "calls", "solved [%]", *(f">= {d:g} digits [%]" for d in LEVELS),
          "digits, 1st percentile", "digits, median", "digits of the net wrench, median",
          "time, median [ms]", "time, shifted geometric mean [ms]"),
-        tuple(rows), left=2,
+        tuple(rows), left=len(asked_names(columns)),
     )  # fmt: skip
+
+
+def asked_names(columns: Columns) -> tuple[str, ...]:
+    """The first columns of tables on solvers: the machine is one where several were merged."""
+    return ("solver", "interface", *(("machine",) if columns["machine"].any() else ()))
+
+
+def asked_of(part: Columns) -> list[str]:
+    """What stands in these columns, of rows of one solver."""
+    return [str(part[name][0]) for name in asked_names(part)]
 
 
 def same_problems(columns: Columns) -> str:
@@ -121,7 +130,7 @@ def contrast(
     by: str,
     values: Sequence[Any],
     where: Where,
-    ways: Sequence[str] = ("solver", "setting"),
+    ways: Sequence[str] = ("who", "setting"),
     iterations: bool = False,
 ) -> Table:
     """One field at two or more values, each solver and setting on the same problems.
@@ -136,7 +145,8 @@ def contrast(
     values : sequence
     where : mapping
     ways : sequence of str
-        What a line is about: a solver, or a solver with its interface (``label``), and a setting.
+        What a line is about: a solver (``who``), or a solver with its interface (``label``,
+        ``way``), and a setting.
     iterations : bool
         Whether to tell their median.
     """

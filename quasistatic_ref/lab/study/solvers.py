@@ -6,7 +6,7 @@ from typing import Any
 
 from quasistatic_ref.solve.backends import BACKENDS, Backend
 
-INTERFACES = ("cvxpy", "qpsolvers", "native", "callable", "executable")
+INTERFACES = ("cvxpy", "qpsolvers", "native", "package", "callable", "executable")
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,18 @@
 """The ``[solvers.NAME]`` tables of a study, and the lists that choose among solvers."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.lab.study.packages import announced, entry_of
 from quasistatic_ref.lab.study.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
+PACKAGE = "package"
 BY_INTERFACE = {
     "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
     "qpsolvers": list(BACKENDS),
@@ -32,7 +34,7 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
         given = TABLES.all_values(table, SOLVER)
         interfaces = [interface for interface in INTERFACES if given[interface] is not None]
         if len(interfaces) != 1:
-            words = "must say one of cvxpy, qpsolvers, native, callable and executable"
+            words = "must say one of cvxpy, qpsolvers, native, package, callable and executable"
             raise tables.fail(name, words, interfaces or None)
         (interface,) = interfaces
         target, options = (
@@ -58,25 +60,48 @@ def chosen_solvers(
         if name in own:
             found = [own[name]]
         else:
-            interface, _, solver = name.partition(":")
-            if interface not in BY_INTERFACE:
-                known = [*own, *(f"{r}:*" for r in BY_INTERFACE)]
-                raise table.fail("solvers", f"holds no solver{suggestion(name, known)}", name)
-            everyone = installed(interface) if solver == "*" else (solver,)
-            for one in everyone:
-                _check_installed(table, interface, one)
-            found = [Solver(one, interface, one) for one in everyone]
+            try:
+                found = solvers_named(name, own)
+            except InputError as error:
+                raise table.fail("solvers", error.problem, error.value) from None
         chosen |= {solver.label: solver for solver in found}
     return tuple(chosen.values())
 
 
-def _check_installed(table: Fields, interface: str, solver: str) -> None:
+def solvers_named(name: str, own: Iterable[str] = ()) -> list[Solver]:
+    """The solvers of ``interface:name``, or all that are installed of ``interface:*``.
+
+    Parameters
+    ----------
+    name : str
+    own : iterable of str
+        Other names that would have been understood.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or its solver is not installed.
+    """
+    interface, _, solver = name.partition(":")
+    if interface == PACKAGE:
+        names = list(announced()) if solver == "*" else [solver]
+        return [Solver(entry_of(one).name, PACKAGE, one) for one in names]
+    if interface not in BY_INTERFACE:
+        known = [*own, *(f"{r}:*" for r in (*BY_INTERFACE, PACKAGE))]
+        raise InputError(f"holds no solver{suggestion(name, known)}", value=name)
+    everyone = installed(interface) if solver == "*" else (solver,)
+    for one in everyone:
+        _check_installed(interface, one)
+    return [Solver(one, interface, one) for one in everyone]
+
+
+def _check_installed(interface: str, solver: str) -> None:
     if solver not in BY_INTERFACE[interface]:
         hint = suggestion(solver, BY_INTERFACE[interface])
-        raise table.fail("solvers", f"holds no solver of {interface}{hint}", solver)
+        raise InputError(f"holds no solver of {interface}{hint}", value=solver)
     if solver not in installed(interface):
         remedy = BACKENDS[solver].to_install_it
-        raise table.fail("solvers", f"is not installed; {remedy}", solver)
+        raise InputError(f"is not installed; {remedy}", value=solver)
 
 
 def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
@@ -87,7 +112,10 @@ def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
             raise table.fail(interface, "must read module:function", given)
         return str(given)
     try:
-        _check_installed(table, interface, given)
+        if interface == PACKAGE:
+            entry_of(given)
+        else:
+            _check_installed(interface, given)
     except InputError as error:
         raise table.fail(interface, error.problem, given) from None
     return str(given)

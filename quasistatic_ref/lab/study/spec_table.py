@@ -111,14 +111,16 @@ TABLES = Tables({
                            default=None),
         "native": Field("text", "a solver's name, for options of its own in its own interface",
                         default=None),
+        "package": Field("text", "a solver that an installed package announces, for options of its "
+                         "own", default=None),
         "callable": Field("text", "module:function", default=None, schema={"pattern": MODULE}),
         "executable": Field("list of words", "a program and its arguments", default=None, least=1),
         "options": Field("tables by name", "options at each setting, in place of ours",
                          default={}),
     },
     RUN: {
-        "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, native:NAME, * for every "
-                         "one that is installed, or names of [solvers.NAME]",
+        "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, native:NAME, package:NAME, "
+                         "* for every one that is installed, or names of [solvers.NAME]",
                          default=["qpsolvers:*"], least=1),
         "settings": Field("list of words", "names of settings", default=["default"], least=1),
         "units": Field("list of words", f"of {', '.join(UNITS)}", default=["natural"], least=1,

@@ -8,7 +8,7 @@ goes on. Order in the file is the order of time; readers sort.
 import fcntl
 import json
 import lzma
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +17,19 @@ from quasistatic_ref.fields import Fields
 from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
 from quasistatic_ref.lab.study.claim import continued
 from quasistatic_ref.lab.study.old_rows import today_row, today_study
-from quasistatic_ref.lab.study.schema import SOLVER_ROW, STUDIES, SWEEP_ROW, Shape, checked
+from quasistatic_ref.lab.study.schema import (
+    MERGED_ROW,
+    SOLVER_ROW,
+    STUDIES,
+    SWEEP_ROW,
+    Shape,
+    check_machines,
+    checked,
+)
 
 ROWS, STUDY = "rows.jsonl", "study.json"
 VERSION = 2
 """Of a store of solvers; rows of version 1 are read by :mod:`.old_rows`."""
-UNREACHED = "unreached.json"
-"""Solvers that could not be imported."""
 PACKED = "rows.jsonl.xz"
 """The rows of a store that was packed to be kept, not to be continued."""
 LARGEST_UNPACKED = 256 * 2**20
@@ -42,7 +48,8 @@ Row = dict[str, Any]
 def key_of(row: Row) -> str:
     """The key of a row as text: equal for equal measurements, and sortable."""
     names = KEY if "problem" in row else SWEEP_KEY
-    return json.dumps([row[name] for name in names], sort_keys=True)
+    machine = [row["machine"]] if "machine" in row else []
+    return json.dumps([*(row[name] for name in names), *machine], sort_keys=True)
 
 
 def label_of(row: Row) -> str:
@@ -97,6 +104,9 @@ class Store:
         if not (self.folder / STUDY).exists():
             return study
         there = study_read(self.folder)
+        if "machines" in there:
+            problem = "holds merged results, which no machine continues; choose another with --out"
+            raise InputError(problem, file=self.folder)
         if there.get("version") != study["version"]:
             problem = (
                 f"holds a store of version {there.get('version')}, which is read and reported "
@@ -145,30 +155,6 @@ class Store:
         self.close()
 
 
-def unreached_written(folder: Path, reasons: Mapping[str, str]) -> None:
-    """Write which solvers could not be imported, and why; a later run asks them again."""
-    path = folder / UNREACHED
-    if reasons:
-        text_written(path, json_text(reasons) + "\n")
-    else:
-        path.unlink(missing_ok=True)
-
-
-def unreached_read(folder: Path) -> dict[str, str]:
-    """Solvers that could not be imported, with the reason.
-
-    Raises
-    ------
-    InputError
-        If the file holds anything else.
-    """
-    path = folder / UNREACHED
-    reasons = json_read(path) if path.exists() else {}
-    if not isinstance(reasons, dict) or not all(isinstance(v, str) for v in reasons.values()):
-        raise InputError("must be a table of reasons by solver", file=path)
-    return reasons
-
-
 def rows_read(folder: str | Path) -> list[Row]:
     """The rows of a store, packed or not, sorted by their keys; a torn last line is left out.
 
@@ -214,6 +200,8 @@ def study_checked(folder: str | Path) -> dict[str, Any]:
     try:
         kind = Fields(study).text("kind", choices=tuple(STUDIES))
         checked(study, STUDIES[kind])
+        if "machines" in study:
+            check_machines(study)
     except InputError as error:
         raise error.in_file(path) from None
     return study
@@ -272,14 +260,19 @@ def _parsed(path: Path) -> tuple[list[Row], int]:
                 file=path,
                 field=f"line {number}",
             ) from None
-        shape = SOLVER_ROW if "problem" in row else SWEEP_ROW
-        rows.append(_checked(row, shape, path, number))
+        rows.append(_checked(row, _shape(row), path, number))
         if key in keys:
             problem = "is a measurement that stands before it already; remove one of the two"
             raise InputError(problem, file=path, field=f"line {number}")
         keys.add(key)
         whole += len(line) + 1
     return rows, whole
+
+
+def _shape(row: Row) -> Shape:
+    if "problem" not in row:
+        return SWEEP_ROW
+    return MERGED_ROW if "machine" in row else SOLVER_ROW
 
 
 def _unpacked(path: Path) -> bytes:

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 from collections import OrderedDict
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from time import perf_counter
 from typing import Any
@@ -21,31 +22,47 @@ from quasistatic_ref.lab.study.wire import NOTHING, Told, to_bytes
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
+Answering = Callable[[StandardForm, dict[str, Any]], Told]
+"""(program, request) -> what is sent back."""
 KEPT = 2
 """Programs that are kept, as :class:`~.keeper.Keeper` knows."""
 GRACE = 2
 """Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
 
 
-def main(read: int, write: int) -> None:
-    """Serve requests until the keeper goes away."""
+def serve(read: int, write: int, opened: Callable[[Any, str], Answering]) -> None:
+    """Serve requests until the keeper goes away.
+
+    Parameters
+    ----------
+    read, write : int
+        The pipes.
+    opened : callable
+        (solver, folder) -> what answers requests; an InputError is sent to the keeper.
+    """
     adopt_orphans()
     inbox, outbox = Connection(read, writable=False), Connection(write, readable=False)
     try:
         solver, folder = inbox.recv()
         on_path(folder)
         try:
-            call = call_of(solver, folder)
+            answering = opened(solver, folder)
             outbox.send_bytes(b"")
         except QuasistaticError as error:
             outbox.send_bytes(str(error).encode())
             return
-        _serve(inbox, outbox, solver, call)
+        _served(inbox, outbox, answering)
     except (EOFError, BrokenPipeError):
         return  # the keeper is gone
 
 
-def _serve(inbox: Connection, outbox: Connection, solver: Solver, call: Call) -> None:
+def asked_one_by_one(solver: Solver, folder: str) -> Answering:
+    """A solver that is asked one problem at a time, and keeps nothing of it."""
+    call = call_of(solver, folder)
+    return lambda form, message: _answered(form, solver, call, message)
+
+
+def _served(inbox: Connection, outbox: Connection, answering: Answering) -> None:
     forms: OrderedDict[int, StandardForm] = OrderedDict()
     while True:
         message = inbox.recv()
@@ -58,7 +75,7 @@ def _serve(inbox: Connection, outbox: Connection, solver: Solver, call: Call) ->
         form = forms[message["form"]]
         # A looping solver holds the interpreter; this signal's default action ends the process.
         signal.setitimer(signal.ITIMER_REAL, message["patience"] + GRACE)
-        told = _answered(form, solver, call, message)
+        told = answering(form, message)
         outbox.send_bytes(to_bytes(told, (len(form.g), len(form.b))))
         signal.setitimer(signal.ITIMER_REAL, 0)
 
@@ -86,4 +103,4 @@ def _answered(form: StandardForm, solver: Solver, call: Call, request: dict[str,
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]))
+    serve(int(sys.argv[1]), int(sys.argv[2]), asked_one_by_one)

@@ -1,0 +1,117 @@
+"""Solvers that installed packages announce: asked by name, and refused in a sentence."""
+
+import json
+import os
+import sys
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.packages import announced, loaded
+from quasistatic_ref.lab.study.store import study_read
+from quasistatic_ref.lab.study.unreached import unreached_read
+
+PROBLEMS = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
+MODULE = """
+import quadprog
+
+def solve(P, q, G, h):
+    x, _, _, _, z, _ = quadprog.solve_qp(P, -q, -G.T.copy(), -h)
+    return x, z
+
+def damped(P, q, G, h, damping=0.0):
+    x, z = solve(P, q, G, h)
+    return (1 - damping) * x, z
+
+NUMBER = 3.0
+"""
+
+
+@pytest.fixture
+def planted(tmp_path, monkeypatch):
+    """A function that installs a package: a module, and a folder that describes it."""
+    site = tmp_path / "site"
+    site.mkdir()
+    monkeypatch.syspath_prepend(str(site))
+    there = os.environ.get("PYTHONPATH", "")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(site), there])))
+
+    def installed(package, entries, module="planted_package", text=MODULE):
+        (site / f"{module}.py").write_text(text)
+        folder = site / f"{package.replace('-', '_')}-1.2.dist-info"
+        folder.mkdir()
+        (folder / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.2\n")
+        lines = "\n".join(f"{name} = {value}" for name, value in entries.items())
+        (folder / "entry_points.txt").write_text(f"[quasistatic_ref.solvers]\n{lines}\n")
+
+    yield installed
+    for name in [name for name in sys.modules if name.startswith("planted_package")]:
+        del sys.modules[name]
+
+
+def test_a_solver_of_an_installed_package_is_asked_by_its_name(planted, run, tmp_path):
+    """Right to 12 digits by *; half of x*, an option of its own, is wrong by x* / 2: few digits."""
+    planted("planted-qp", {"mine": "planted_package:solve", "damped": "planted_package:damped"})
+    own = '[solvers.half]\npackage = "damped"\noptions.default = { damping = 0.5 }\n'
+    rows = run(PROBLEMS + own + '[[runs]]\nsolvers = ["package:*", "half", "qpsolvers:daqp"]\n')
+    digits = {}
+    for row in rows:
+        digits.setdefault((row["interface"], row["solver"]), []).append(row["digits"]["delta_q"])
+    assert len(digits["qpsolvers", "daqp"]) == len(digits["package", "mine"]) >= 2
+    assert min(digits["package", "mine"] + digits["package", "damped"]) > 12
+    assert max(digits["package", "half"]) < 3
+    study = study_read(tmp_path / "store")
+    assert study["versions"]["planted-qp"] == "1.2"
+    assert {s["interface"] for s in study["solvers"]} == {"package", "qpsolvers"}
+
+
+def test_it_is_in_every_table_and_one_problem_is_asked_of_it(planted, run, tmp_path, capsys):
+    planted("planted-qp", {"mine": "planted_package:solve"})
+    run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
+    assert main(["study", "report", str(tmp_path / "store")]) == 0
+    page = (tmp_path / "store" / "report" / "report.md").read_text()
+    for title in ("Time to 6", "Setting default", "Said optimal", "Worst 10 problems of package:"):
+        table = page.partition(f"**{title}")[2].partition("\n**")[0]
+        assert "mine" in table, title
+    capsys.readouterr()
+    assert main(["study", "ask", "wedge/0.1/0", "package:mine", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["digits"]["delta_q"] > 12
+
+
+def test_names_that_are_not_clear_or_not_there_are_refused(planted, study):
+    planted("planted-one", {"mine": "planted_package:solve"})
+    planted("planted-two", {"mine": "planted_package:damped"})
+    planted("planted-three", {"other": "planted_package:solve"})
+    runs = '[[runs]]\nsolvers = ["package:NAME"]\n'
+    with pytest.raises(InputError, match=r"by several packages, planted-.* and planted-.*; keep"):
+        study(PROBLEMS + runs.replace("NAME", "mine"))
+    with pytest.raises(InputError, match=r"announced by no package.* did you mean 'other'"):
+        study(PROBLEMS + runs.replace("NAME", "othre"))
+    with pytest.raises(InputError, match=r"solvers\.x\.package: is announced by no package"):
+        study(PROBLEMS + '[solvers.x]\npackage = "nobody"\n[[runs]]\nsolvers = ["x"]\n')
+    assert list(announced()) == ["mine", "other"]
+
+
+def test_the_same_package_found_twice_is_one(planted, tmp_path, monkeypatch):
+    planted("planted-qp", {"mine": "planted_package:solve"})
+    monkeypatch.syspath_prepend(str(tmp_path / "." / "site"))
+    assert len(announced()["mine"]) == 1
+
+
+@pytest.mark.parametrize(("value", "words"), [
+    ("planted_package_2:solve", "cannot be imported: RuntimeError: no licence"),
+    ("planted_package_3:solve", "cannot be imported: ModuleNotFoundError"),
+    ("planted_package:nobody", "cannot be imported: AttributeError"),
+    ("planted_package:NUMBER", "is not a function"),
+])  # fmt: skip
+def test_a_package_that_cannot_be_imported_costs_itself_only(planted, run, tmp_path, value, words):
+    planted("planted-other", {}, "planted_package_2", "raise RuntimeError('no licence')")
+    planted("planted-qp", {"mine": value})
+    with pytest.raises(InputError, match=words) as caught:
+        loaded("mine")
+    assert f"{value} of planted-qp" in str(caught.value)
+    assert "\n" not in str(caught.value)
+    rows = run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
+    assert {row["solver"] for row in rows} == {"daqp"}
+    assert words in unreached_read(tmp_path / "store")["package:mine"]

@@ -1,0 +1,194 @@
+"""What the committed study of solvers says to somebody who chooses one, sentence by sentence.
+
+``advice(folder)`` is the text that docs/solver_study.md shows: every number in it is asked of the
+rows, and so is which solver, setting and family is named. ``python -m validation.study_reports``
+writes it beside the report.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.page.parts import Report, Section, Table
+from quasistatic_ref.lab.study.asked import Asked, asked_in
+from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
+from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
+from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report_words import old_times
+from quasistatic_ref.lab.study.spec import solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.statistics import success
+from quasistatic_ref.lab.study.store import rows_read, study_read
+
+NAME = "advice.md"
+HARDEST = 2
+"""Families that are named."""
+FALSE = 1.0
+"""Share of false claims from which a solver's own setting is advised against [%]."""
+
+
+def advice(folder: Path) -> str:
+    """The text, in Markdown, of a store that is packed or not."""
+    study, rows = study_read(folder), rows_read(folder)
+    every = columns_of(rows, study["time_limit"])
+    asked = asked_in(study, every)
+    first = chosen(every, {"repetition": 0})
+    parts = [
+        " ".join(_extent(asked, study)),
+        "## What to use",
+        _headline(asked),
+        "\n".join(_bullet(one, asked) for one in asked.fastest()),
+        "## What else it shows",
+        *_others(asked, first),
+        "## How it ran",
+        " ".join(_trust(first, rows, study)),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _extent(asked: Asked, study: dict) -> Iterator[str]:
+    problems, own = study["problems"], asked.columns
+    yield f"{problems['count']:,} problems of {len(problems['families'])} families,"
+    yield f"{problems['exact']:,} of them with exact answers."
+    names = {"qpsolvers": "directly", "cvxpy": "through CVXPY", "native": "natively"}
+    counts = [
+        f"{len(set(part['solver'])):,} {names.get(interface, 'as ' + interface)}"
+        for (interface,), part in groups(own, ["interface"])
+    ]
+    yield f"Solvers: {', '.join(counts)}; {len(asked.settings)} settings; {size(own):,} calls."
+    path = study_path("default")
+    if solver_study(path, study_tables(path)).problems.families != problems["families"]:
+        yield "These rows are of an earlier selection of problems than the study file asks today."
+    yield from old_times(study)
+
+
+def _headline(asked: Asked) -> str:
+    """The solvers of the report's table, each by the interface with the soonest 6 digits."""
+    options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
+    table = soonest_table(asked.fastest(), asked.base, asked.noise, options)
+    page = markdown_page(Report("", (Section("", (table,)),)))
+    return page[page.index("**Time") :].strip()
+
+
+def _bullet(one: Soonest, asked: Asked) -> str:
+    """A solver: what to set, what that delivers, what not to do, what is hard for it."""
+    own, label = one.rows, one.label
+    options = next(
+        s["options"] for s in asked.study["solvers"]
+        if f"{s['interface']}:{s['name']}" == str(own["way"][0])
+    )  # fmt: skip
+    words = [
+        f"- **{label}** at `{one.setting}` (`{options_words(options[one.setting], LIMITS)}`) "
+        f"delivers 6 digits on {percent(success(own['digits'], 6.0))} % and 9 digits on "
+        f"{percent(success(own['digits'], 9.0))} % of {size(own):,} problems, in "
+        f"{milliseconds(float(np.median(own['seconds'])))} ms (median); {_false(own)}."
+    ]
+    plain = chosen(asked.columns, {**asked.at("default"), "label": label})
+    if one.setting != "default" and size(plain):
+        wrong, said = plain["wrong"] & plain["said_optimal"], plain["said_optimal"]
+        much = 100 * int(wrong.sum()) > FALSE * int(said.sum())
+        never = "Not at its own setting" if much else "At its own setting"
+        words.append(
+            f"{never}: 6 digits on {percent(success(plain['digits'], 6.0))} %, {_false(plain)}."
+        )
+    bad = {name: column[own["digits"] < WANTED[0]] for name, column in own.items()}
+    if size(bad):
+        families, counts = np.unique(bad["family"], return_counts=True)
+        order = np.lexsort((families, -counts))[:HARDEST]
+        named = ", ".join(f"`{families[i]}` {counts[i]}" for i in order)
+        words.append(f"Of the {size(bad):,} that it misses most are of: {named}.")
+    return " ".join(words)
+
+
+def _false(part: Columns) -> str:
+    said, wrong = part["said_optimal"], part["wrong"]
+    none = int((wrong & part["said_infeasible"]).sum())
+    words = f"{int((said & wrong).sum()):,} of {int(said.sum()):,} claims of success are false"
+    return words + (f", and it calls {none:,} infeasible that are not" if none else "")
+
+
+def _others(asked: Asked, first: Columns) -> Iterator[str]:
+    said, none, wrong = (first[n] for n in ("said_optimal", "said_infeasible", "wrong"))
+    yield (
+        f"**A status is not evidence.** Of {int(said.sum()):,} claims of success "
+        f"{int((said & wrong).sum()):,} are false, and of {int(none.sum()):,} claims that there is "
+        f"no solution {int((none & wrong).sum()):,}."
+    )
+    yield "**Units come before options.** Share of problems with 6 digits, the same options:"
+    yield _units_table(asked)
+    yield (
+        "**About half of the digits.** By strong convexity an accuracy of eps promises an error of "
+        "sqrt(2 eps). Correct digits, median, directly and cold in natural units:"
+    )
+    yield _accuracy_table(asked)
+    if words := _cvxpy(asked):
+        yield f"**CVXPY costs time, and chooses defaults of its own.** {words}"
+
+
+def _units_table(asked: Asked) -> str:
+    lines = []
+    cold = chosen(asked.columns, {"warm": False, "interface": "qpsolvers"})
+    for (solver, setting), part in groups(cold, ["solver", "setting"]):
+        own = common(part, ["units"])
+        parts = [chosen(own, {"units": units}) for units in ("raw", "natural")]
+        if setting in ("default", "high") and all(map(size, parts)):
+            shares = [percent(success(p["digits"], 6.0)) for p in parts]
+            lines.append((solver, setting, str(size(parts[0])), *shares))
+    names = ("solver", "setting", "problems", "raw [%]", "natural [%]")
+    return _lines(names, sorted(lines), 2)
+
+
+def _accuracy_table(asked: Asked) -> str:
+    own = chosen(asked.columns, {"warm": False, "interface": "qpsolvers", "units": "natural"})
+    own, settings = common(own, ["label", "setting"]), asked.settings
+    lines = []
+    for (solver,), part in groups(own, ["solver"]):
+        parts = [chosen(part, {"setting": setting}) for setting in settings]
+        cells = [digits(float(np.median(p["digits"]))) if size(p) else "-" for p in parts]
+        lines.append((solver, *cells))
+    return _lines(("solver", *settings), sorted(lines), 1)
+
+
+def _cvxpy(asked: Asked) -> str:
+    """Least and largest difference of medians at 1e-9, and the shares at the solvers' own."""
+    cold, costs, shares = chosen(asked.columns, {"warm": False, "units": "natural"}), [], []
+    for (solver, setting), part in groups(cold, ["solver", "setting"]):
+        own = common(part, ["interface"])
+        here, there = (chosen(own, {"interface": name}) for name in ("qpsolvers", "cvxpy"))
+        if not size(here) or not size(there):
+            continue
+        if setting == "high":
+            costs.append(np.median(there["seconds"]) - np.median(here["seconds"]))
+        if setting == "default":
+            pair = [percent(success(p["digits"], 6.0)) for p in (here, there)]
+            shares.append(f"{solver} {pair[0]} and {pair[1]}")
+    if not costs:
+        return ""
+    return (
+        f"At 1e-9 a call takes {milliseconds(min(costs))} to {milliseconds(max(costs))} ms more "
+        f"(medians, solver by solver). Share with 6 digits at the solvers' own settings, directly "
+        f"and through CVXPY [%]: {', '.join(sorted(shares))}."
+    )
+
+
+def _lines(names: tuple[str, ...], lines: list[tuple[str, ...]], left: int) -> str:
+    table = Table("-", "", names, tuple(lines), left)
+    return markdown_page(Report("", (Section("", (table,)),))).partition("**-**")[2].strip()
+
+
+def _trust(first: Columns, rows: list[dict], study: dict) -> Iterator[str]:
+    spent: dict[str, float] = {}
+    for row in rows:
+        label, seconds = f"{row['interface']}:{row['solver']}", row["seconds"]
+        spent[label] = spent.get(label, 0.0) + (seconds["spent"] or 0.0)
+    most = max(spent, key=lambda label: spent[label])
+    late = int((first["outcome"] == "timeout").sum())
+    cut = int((first["outcome"] == "not_run_budget").sum())
+    yield f"The calls took {sum(spent.values()):,.0f} s of all solvers,"
+    yield f"most of it {most} with {spent[most]:.0f} s of its budget of {study['budget']:g} s."
+    yield f"{late:,} calls were ended by the time limit of {study['time_limit']:g} s,"
+    yield f"{cut:,} were not made for want of budget."
+    yield f"The processor was {study['machine'].get('processor', 'not told')}."
