@@ -73,11 +73,14 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
     for k in range(3):
         tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
         within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
-    # No edge is nearer then: where it seems so, by rounding, its direction is wrong by more.
     level = dot(points[:, None] - corners[:, 0], n)
-    square = np.where(within & (level > 0), level * level, np.inf)
+    above = within & (level > 0)
+    # No edge is nearer then: where it seems so, by rounding, its direction is wrong by more. Of a
+    # point on a face rounding decides the sign of its level.
+    best = np.where(above.any(axis=1), np.inf, best)
+    square = np.where(np.where(above.any(axis=1)[:, None], above, within), level * level, np.inf)
     i = square.argmin(axis=1)
-    nearer = square[rows, i] < np.inf
+    nearer = square[rows, i] < best
     return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
 
 

@@ -126,11 +126,17 @@ def test_swapped_code_runs_and_swaps_back():
     assert module["f"](1.0) == 0.5
 
 
+# JAX, which another test of the same process may have imported, warns of every fork.
+SMALL_FORK = pytest.mark.filterwarnings("ignore:os.fork:RuntimeWarning")
+
+
+@SMALL_FORK
 def test_a_job_that_raises_is_no_outcome():
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         list(forked([("a", lambda: 1 / 0)], 1))
 
 
+@SMALL_FORK
 def test_a_job_that_is_killed_says_by_which_signal():
     assert list(forked([("a", lambda: os.kill(os.getpid(), 9))], 1)) == [("a", 9)]
 

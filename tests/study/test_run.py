@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import distributed
@@ -63,7 +64,10 @@ def on_a_terminal(words, until, seconds=120.0):
 
     Ctrl-C is pressed where something that matches `until` has been printed.
     """
-    process, terminal = pty.fork()
+    with warnings.catch_warnings():
+        # JAX, which another test may have imported, warns of every fork; this one only calls exec.
+        warnings.simplefilter("ignore", RuntimeWarning)
+        process, terminal = pty.fork()
     if process == 0:
         os.execv(words[0], words)
     printed, end, pressed = "", time.monotonic() + seconds, False
