@@ -61,9 +61,12 @@ def all_mutants(files: Iterable[str] = TESTS) -> list[Mutant]:
 
 
 def outcomes(
-    chosen: Iterable[Mutant], heard: Callable[[Mutant, str], None], traced: Path | None = None
+    chosen: Iterable[Mutant],
+    heard: Callable[[Mutant, str], None],
+    traced: Path | None = None,
+    tests: Mapping[str, tuple[str, ...]] = TESTS,
 ) -> None:
-    """Try mutants, and report each as soon as the tests have said something of it.
+    """Try mutants on the tests of their files, and report each as soon as they have said something.
 
     They say ``"killed"``, ``"broken"`` (it cannot be imported, or crashes) or ``"hangs"``: all of
     these are noticed. Or ``"survived"``.
@@ -74,7 +77,7 @@ def outcomes(
         If the tests do not pass without a mutant.
     """
     mutants_now = list(chosen)
-    files = {test for mutant in mutants_now for test in TESTS[mutant.file]}
+    files = {test for mutant in mutants_now for test in tests[mutant.file]}
     of_constants: list[Mutant] = []
 
     def one(mutant: Mutant, said: str | None) -> None:
@@ -83,25 +86,25 @@ def outcomes(
         else:
             heard(mutant, said)
 
-    trials = Trials(PACKAGE, mutants_now, TESTS.__getitem__, one, traced)
+    trials = Trials(PACKAGE, mutants_now, tests, one, traced)
     paths = [str(ROOT / "tests" / file) for file in sorted(files)]
     options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", f"--rootdir={ROOT}"]
     status = pytest.main([*options, "--deselect", LEFT_OUT, *paths], plugins=[trials])
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
         raise RuntimeError("the tests do not pass without a mutant")
     for mutant in of_constants:
-        heard(mutant, imported(mutant))
+        heard(mutant, imported(mutant, tests[mutant.file]))
 
 
-def imported(mutant: Mutant) -> str:
-    """What the tests of its file say of a mutant that is there when the package is imported."""
+def imported(mutant: Mutant, tests: Iterable[str]) -> str:
+    """What tests say of a mutant that is there when the package is imported."""
     with tempfile.TemporaryDirectory() as folder:
         text = Path(folder) / "mutant.py"
         text.write_text(mutant.source)
-        tests = [str(ROOT / "tests" / test) for test in TESTS[mutant.file]]
+        paths = [str(ROOT / "tests" / test) for test in tests]
         run = [sys.executable, "-m", "validation.mutating.imported", str(PACKAGE / mutant.file)]
         status = subprocess.run(
-            [*run, str(text), "--deselect", LEFT_OUT, *tests],
+            [*run, str(text), "--deselect", LEFT_OUT, *paths],
             cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, check=False,
         ).returncode  # fmt: skip
     if status in (0, 1):

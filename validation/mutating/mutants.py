@@ -59,9 +59,9 @@ class Mutant:
     source: str
 
 
-def mutants(file: str, source: str) -> list[Mutant]:
+def mutants(file: str, source: str) -> Iterator[Mutant]:
     """All mutants of a file, in the order of its text."""
-    found, seen = [], Counter[str]()
+    seen = Counter[str]()
     for number, (node, where) in enumerate(_expressions(ast.parse(source))):
         before = ast.unparse(node)
         for k in range(len(list(_changed(node)))):
@@ -78,8 +78,7 @@ def mutants(file: str, source: str) -> list[Mutant]:
             seen[key] += 1
             key += f" ({seen[key]})" if seen[key] > 1 else ""
             text = ast.unparse(ast.fix_missing_locations(tree)) + "\n"
-            found.append(Mutant(file, key, node.lineno, text))
-    return found
+            yield Mutant(file, key, node.lineno, text)
 
 
 class _Replaced(ast.NodeTransformer):

@@ -15,7 +15,7 @@ import sys
 import threading
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
@@ -80,7 +80,7 @@ class Trials:
         self,
         package: Path,
         chosen: Iterable[Mutant],
-        own: Callable[[str], tuple[str, ...]],
+        own: Mapping[str, tuple[str, ...]],
         heard: Callable[[Mutant, str | None], None],
         traced: Path | None = None,
         workers: int = 2,
@@ -179,7 +179,7 @@ class Trials:
         """The tests that a mutant meets."""
         meets = {t for t, touch in self.touches.items() if touch.functions.intersection(functions)}
         by_time = sorted(meets, key=lambda test: self.touches[test].seconds)
-        own = tuple(f"tests/{test}::" for test in self.own(mutant.file))
+        own = tuple(f"tests/{test}::" for test in self.own[mutant.file])
         before = [t for f in functions for t in self.noticed[f] if t in meets][:3]
         mine = self._quickest([test for test in by_time if test.startswith(own)], OWN)
         others = self._quickest([test for test in by_time if not test.startswith(own)], OTHERS)
