@@ -77,9 +77,9 @@ def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
     above = within & (level > 0)
     # No edge is nearer then: where it seems so, by rounding, its direction is wrong by more. Of a
     # point on a face rounding decides the sign of its level.
-    some = above.any(axis=1, keepdims=True)
-    best = np.where(some[:, 0], np.inf, best)
-    square = np.where(np.where(some, above, within), level * level, np.inf)
+    some = np.asarray(above.any(axis=1))
+    best = np.where(some, np.inf, best)
+    square = np.where(np.where(some[:, None], above, within), level * level, np.inf)
     i = square.argmin(axis=1)
     nearer = square[rows, i] < best
     return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
