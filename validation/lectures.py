@@ -75,7 +75,7 @@ def notebook(name: str, answers: bool) -> Any:
         if kind == "task":
             question = ast.get_docstring(ast.parse(code)) or ""
             book.cells.append(say(f"**Task.** {question}"))
-            code = code[re.match(r'""".*?"""\s*', code, re.S).end() :]  # type: ignore[union-attr]
+            code = re.sub(r'\A""".*?"""\s*', "", code, count=1, flags=re.S)
         if kind != ("task" if answers else "answer"):
             book.cells.append(new(code))
     book.cells.append(new(TOTAL))

@@ -21,6 +21,10 @@ class Unsupported(Exception):
     """A case that an engine does not take."""
 
 
+def _unsupported(_case: Any) -> Any:
+    raise Unsupported("this layer is not answered")
+
+
 def answer(name: str, layers: dict[str, Callable[[Any], Any]]) -> None:
     """Answer every line of standard input.
 
@@ -38,9 +42,8 @@ def answer(name: str, layers: dict[str, Callable[[Any], Any]]) -> None:
     for line in sys.stdin:
         case = json.loads(line)
         try:
-            if case["layer"] not in layers:
-                raise Unsupported("this layer is not answered")  # noqa: TRY301
-            record = {"output": plain(layers[case["layer"]](case["input"]))}
+            answered = layers.get(case["layer"], _unsupported)
+            record = {"output": plain(answered(case["input"]))}
         except Unsupported as reason:
             record = {"error": f"left out: {reason}"}
         except Exception as error:

@@ -31,7 +31,7 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
         with its repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that
         were delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of
         the call, the time limit where it does not; ``own_setup`` and ``own_solver``: of set-up and
-        of solving by its own account, ``iterations``: NaN where not told; ``net``.
+        of solving by its own account, ``iterations``: NaN where it reports none; ``net``.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
     for name in FLAGS:

@@ -24,6 +24,7 @@ ROOT = Path(__file__).parents[3]
 KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-space")
 CONES = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "frictionless")
 
+# The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows; CI has one.
 needs_compiler = pytest.mark.skipif(
     why_not() is not None, reason=f"no compiled code here: {why_not()}"
 )
