@@ -19,6 +19,7 @@ from quasistatic_ref.step.friction import (
     cone_matrix,
     contact_wrenches,
     friction_rows,
+    row_gaps,
 )
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import JUDGE, changed, random_step
@@ -114,6 +115,17 @@ def test_a_cone_function_combines_the_gap_and_the_motions(name):
     short = np.array([(1.0, t_1, t_2) for t_1, t_2, _ in coefficients(name)])[: cone(name).short]
     np.testing.assert_allclose(matrix[: cone(name).short, :3], short, rtol=0.0, atol=tolerance)
     assert name == "product" or not matrix[: cone(name).short, 3].any()
+
+
+def test_the_gap_is_in_every_row_and_in_the_normal_row_of_an_ellipsoid(rng):
+    """A row is gap + sum of slips: 1 phi in each; the ellipsoid's four are (phi, 0, 0, 0)."""
+    contacts = random_step(rng).contacts
+    phi = contacts.phi[:, None]
+    for name in POLYHEDRAL:
+        assert np.array_equal(
+            row_gaps(contacts, name), np.repeat(phi, len(cone(name).row_names), axis=1)
+        )
+    assert np.array_equal(row_gaps(contacts, "ellipsoid"), phi * [1.0, 0.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize("name", POLYHEDRAL)

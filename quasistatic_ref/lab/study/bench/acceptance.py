@@ -12,6 +12,10 @@ OVER_SOLVER = 16.0
 of NumPy and pinocchio, of about a microsecond each whatever they compute; with fewer, its lines
 would not read as the equations."""
 
+THROUGH_CVXPY = 8.0 * 12.0 / OVER_SOLVER
+"""What a step through CVXPY may at least cost in native steps. It was 8 while a native step might
+cost 12 bare calls; native steps may cost more since, and those through CVXPY may not."""
+
 BOUNDED = 1.5
 """What a step with residuals and a bound of its error may cost in steps that claim nothing; both
 by NumPy."""
@@ -44,7 +48,7 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     interfaces, exponents = tables["interfaces"], tables.get("exponents", {})
     measured = [
         ("step over the bare solver", interfaces["over_solver"], AT_MOST, OVER_SOLVER),
-        ("through CVXPY over native", interfaces["cvxpy_over_native"], AT_LEAST, 8.0),
+        ("through CVXPY over native", interfaces["cvxpy_over_native"], AT_LEAST, THROUGH_CVXPY),
         ("rebuilt each step over native", interfaces["rebuilt_over_native"], AT_LEAST, 25.0),
         ("hand-written loop over native", interfaces["by_hand_over_native"], AT_LEAST, 1.0),
         ("bounded step over the same without", tables.get("residual_over_off"), AT_MOST, BOUNDED),
