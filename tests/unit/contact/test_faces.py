@@ -35,6 +35,13 @@ def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
         np.testing.assert_allclose(curvature(solid, n) @ n, 0, rtol=EXACT, atol=CURVED_PAIR)
 
 
+def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors() -> None:
+    """Four of its twelve edges lie along each axis: the sum of e e' is 4 I for unit vectors e."""
+    of = kinks(Box(np.array([0.3, 0.02, 0.1])))
+    assert not of.levels.any()
+    np.testing.assert_allclose(of.axes.T @ of.axes, 4 * np.eye(3), rtol=0, atol=EXACT)
+
+
 def flat_normals(name: str) -> list[np.ndarray]:
     of = kinks(SOLIDS[name])
     found = list(of.normals)
