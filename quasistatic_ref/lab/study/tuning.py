@@ -26,7 +26,7 @@ MOST_SETTINGS = 40
 MOST_SECONDS = 1200.0
 """...and what it may take [s]."""
 PATIENCE = 1.5
-"""What one setting may take, for each problem that it is scored on [s]: most take 0.05 s, one in
+"""What one setting may take, for each problem that it is scored on [s]: most take 0.1 s, one in
 which a solver hangs 6 s. A setting in which it hangs again and again would outlast the search."""
 WANTED = 6.0
 """Digits that the time is given for."""
