@@ -3,7 +3,9 @@
 For each solver of ``option_search.toml`` the search is on one half of 200 problems (split by run);
 its best setting and the solver's defaults are judged on the other. The single changes that the
 documentation tells are measured on all problems. Every setting that was tried is a line of
-``validation/results/option_search.jsonl``. The times are of this machine; the digits are not.
+``validation/results/option_search.jsonl``; what the log says is written beside it. The times are of
+this machine; the digits are not. The log is written after each solver: ``--missing`` goes on with
+those that it does not have.
 """
 
 import argparse
@@ -13,14 +15,17 @@ import tempfile
 import tomllib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.lab.study.page import milliseconds, options_words
 from quasistatic_ref.lab.study.problems import problem_set
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
-from quasistatic_ref.lab.study.tuning import halves, line, scored, searched
+from quasistatic_ref.lab.study.tuning import Options, Score, halves, line, scored, searched
 from quasistatic_ref.resources import scenario_names
+from validation.option_report import Spaces, is_searched, report
 
 HERE = Path(__file__).parent
 SPACE, RESULTS = HERE / "option_search.toml", HERE / "results" / "option_search.jsonl"
@@ -34,41 +39,62 @@ def problems(folder: str) -> list[Problem]:
 
 
 def lines(solver: str, space: dict[str, Any], every: Sequence[Problem]) -> Iterator[dict[str, Any]]:
-    """The log of one solver."""
+    """The log of one solver; a setting is printed when it has been tried."""
     training, judging = halves(every)
-    function = space.get("function", "")
-    tried = searched(
-        space["start"], space["options"], lambda o: scored(solver, o, training, function)
-    )
+
+    def score(half: str, problems: Sequence[Problem], options: Options) -> Score:
+        found = scored(solver, options, problems, space.get("function", ""))
+        print(f"{solver}, {half}: {options_words(options)}: {found.six:.0f} % with 6 digits, mean "
+              f"time to them {milliseconds(found.time_to_6)} ms", flush=True)  # fmt: skip
+        return found
+
+    tried = searched(space["start"], space["options"], lambda o: score("training", training, o))
     yield from (line(solver, "training", *one) for one in tried)
     best, _ = min(tried, key=lambda one: one[1].time_to_6)
     for options in ({}, space["start"], best):
-        yield line(solver, "judging", options, scored(solver, options, judging, function))
+        yield line(solver, "judging", options, score("judging", judging, options))
     for finding in space["findings"]:
         for options in (finding["base"], finding["base"] | finding["change"]):
-            yield line(solver, "all", options, scored(solver, options, every, function))
+            yield line(solver, "all", options, score("all", every, options))
+
+
+def written(out: Path, spaces: Spaces, log: list[dict[str, Any]]) -> None:
+    """The log, in the order of the spaces, and beside it what it says."""
+    log.sort(key=lambda one: list(spaces).index(one["solver"]))
+    text_written(out, "".join(json_text(one) + "\n" for one in log))
+    text_written(out.with_suffix(".md"), report(spaces, log))
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Search for each solver that is named, or for all."""
+    """Search for each solver that is named, or for all; one that fails stops no other."""
     spaces = tomllib.loads(SPACE.read_text("utf-8"))
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("solvers", nargs="*", choices=[*spaces, []], help="(all)")
+    parser.add_argument("--missing", action="store_true", help="only those not in the log yet")
     parser.add_argument("--problems", help="a folder that has the problems, or will have them")
     parser.add_argument("--out", type=Path, default=RESULTS, help="the log")
     options = parser.parse_args(arguments)
-    asked = options.solvers or list(spaces)
-    kept = [json.loads(text) for text in options.out.read_text("utf-8").splitlines()] if (
-        options.out.exists()
-    ) else []  # fmt: skip
+    out = options.out
+    old = out.read_text("utf-8").splitlines() if out.exists() else []
+    kept = [one for one in map(json.loads, old) if one["solver"] in spaces]
+    asked = [s for s in options.solvers or spaces if not (options.missing and is_searched(kept, s))]
+    failed = []
     with tempfile.TemporaryDirectory() as temporary:
         every = problems(options.problems or temporary)
         for solver in asked:
-            kept = [one for one in kept if one["solver"] != solver]
-            kept += lines(solver, spaces[solver], every)
-            kept.sort(key=lambda one: list(spaces).index(one["solver"]))
-            text_written(options.out, "".join(json_text(one) + "\n" for one in kept))
-            print(f"{solver}: wrote {options.out}")
+            begin = perf_counter()
+            try:
+                own = list(lines(solver, spaces[solver], every))
+            except Exception as error:  # whatever happens to one solver, the others are searched
+                failed.append(solver)
+                print(f"{solver}: not searched: {type(error).__name__}: {error}", flush=True)
+                continue
+            kept = [one for one in kept if one["solver"] != solver] + own
+            written(out, spaces, kept)
+            minutes = (perf_counter() - begin) / 60
+            print(f"{solver}: wrote {out} after {minutes:.1f} minutes", flush=True)
+    if failed:
+        sys.exit(f"not searched: {', '.join(failed)}; the log has of them what it had before")
 
 
 if __name__ == "__main__":

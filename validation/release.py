@@ -155,7 +155,7 @@ RESULTS = (
     Result(
         "option_search",
         ("validation.option_search",),
-        ("validation/results/option_search.jsonl",),
+        ("validation/results/option_search.jsonl", "validation/results/option_search.md"),
     ),
     *(
         Result(

@@ -138,7 +138,7 @@ def _units_table(asked: Asked) -> str:
             shares = [percent(success(p["digits"], 6.0)) for p in parts]
             lines.append((solver, setting, str(size(parts[0])), *shares))
     names = ("solver", "setting", "problems", "raw [%]", "natural [%]")
-    return _lines(names, sorted(lines), 2)
+    return table_text(names, sorted(lines), 2)
 
 
 def _accuracy_table(asked: Asked) -> str:
@@ -149,7 +149,7 @@ def _accuracy_table(asked: Asked) -> str:
         parts = [chosen(part, {"setting": setting}) for setting in settings]
         cells = [digits(float(np.median(p["digits"]))) if size(p) else "-" for p in parts]
         lines.append((solver, *cells))
-    return _lines(("solver", *settings), sorted(lines), 1)
+    return table_text(("solver", *settings), sorted(lines), 1)
 
 
 def _cvxpy(asked: Asked) -> str:
@@ -174,7 +174,8 @@ def _cvxpy(asked: Asked) -> str:
     )
 
 
-def _lines(names: tuple[str, ...], lines: list[tuple[str, ...]], left: int) -> str:
+def table_text(names: tuple[str, ...], lines: list[tuple[str, ...]], left: int) -> str:
+    """A table in Markdown without its title, the first columns text."""
     table = Table("-", "", names, tuple(lines), left)
     return markdown_page(Report("", (Section("", (table,)),))).partition("**-**")[2].strip()
 

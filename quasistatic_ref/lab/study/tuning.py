@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.study.columns import columns_of
+from quasistatic_ref.lab.study.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.keeper import Keeper
 from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.qp import Problem
+from quasistatic_ref.lab.study.qp import Problem, Truth
 from quasistatic_ref.lab.study.solvers import Setting, Solver
 from quasistatic_ref.lab.study.statistics import shifted_geometric_mean, success
 
@@ -24,6 +25,9 @@ MOST_SETTINGS = 40
 """Settings that a solver's search may try..."""
 MOST_SECONDS = 1200.0
 """...and what it may take [s]."""
+PATIENCE = 1.5
+"""What one setting may take, for each problem that it is scored on [s]: most take 0.1 s, one in
+which a solver hangs 6 s. A setting in which it hangs again and again would outlast the search."""
 WANTED = 6.0
 """Digits that the time is given for."""
 LIMITS = Limits(0.5, 5.0, 1)
@@ -80,6 +84,8 @@ def run_of(name: str) -> str:
 def scored(solver: str, options: Options, problems: Sequence[Problem], function: str = "") -> Score:
     """A solver, through qpsolvers or a function, in natural units, cold, with these options.
 
+    Problems that `PATIENCE` does not reach count as those that time out.
+
     Parameters
     ----------
     solver : str
@@ -93,11 +99,15 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
     one = Solver(solver, interface, function or solver, {ASKED.name: options})
     names = {"family": "", "solver": solver, "interface": interface, "setting": ASKED.name,
              "units": "natural", "warm": False, "repetition": 0}  # fmt: skip
+    late = perf_counter() + PATIENCE * len(problems)
+    rows = []
     with Keeper(one) as keeper:
-        rows = [
-            names | {"problem": p.id} | measured(keeper, p, ASKED, "natural", False, LIMITS)
-            for p in problems
-        ]
+        for p in problems:
+            if perf_counter() < late:
+                row = measured(keeper, p, ASKED, "natural", False, LIMITS)
+            else:
+                row = ungraded(NOT_RUN, "not run (patience)", None, isinstance(p.answer, Truth))
+            rows.append(names | {"problem": p.id} | row)
     found = columns_of(rows, LIMITS.call)
     times = np.where(found["digits"] >= WANTED, found["seconds"], LIMITS.call)
     false = [found["wrong"] & found[f"said_{claim}"] for claim in ("optimal", "infeasible")]
