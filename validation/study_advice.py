@@ -1,8 +1,8 @@
-"""What the committed study of solvers says to somebody who chooses one, sentence by sentence.
+"""What the committed study of solvers says to a user who chooses one, sentence by sentence.
 
-``advice(folder)`` is the text that docs/solver_study.md shows: every number in it is asked of the
-rows, and so is which solver, setting and family is named. ``python -m validation.study_reports``
-writes it beside the report.
+``advice(folder)`` is the text that docs/solver_study.md shows: every number in it, and every
+solver, setting and family that it names, comes from the rows.
+``python -m validation.study_reports`` writes it next to the report.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
-from quasistatic_ref.lab.study.asked import Asked, asked_in
 from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
+from quasistatic_ref.lab.study.comparison import Comparison, comparison_of
 from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
 from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
 from quasistatic_ref.lab.study.report_words import old_times
@@ -34,50 +34,50 @@ def advice(folder: Path) -> str:
     """The text, in Markdown, of a store that is packed or not."""
     study, rows = study_read(folder), rows_read(folder)
     every = columns_of(rows, study["time_limit"])
-    asked = asked_in(study, every)
+    comparison = comparison_of(study, every)
     first = chosen(every, {"repetition": 0})
     parts = [
-        " ".join(_extent(asked, study)),
+        " ".join(_extent(comparison, study)),
         "## What to use",
-        _headline(asked),
-        "\n".join(_bullet(one, asked) for one in asked.fastest()),
+        _headline(comparison),
+        "\n".join(_bullet(one, comparison) for one in comparison.fastest()),
         "## What else it shows",
-        *_others(asked, first),
+        *_others(comparison, first),
         "## How it ran",
         " ".join(_trust(first, rows, study)),
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def _extent(asked: Asked, study: dict) -> Iterator[str]:
-    problems, own = study["problems"], asked.columns
+def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
+    problems, own = study["problems"], comparison.columns
     yield f"{problems['count']:,} problems of {len(problems['families'])} families,"
     yield f"{problems['exact']:,} of them with exact answers."
-    names = {"qpsolvers": "directly", "cvxpy": "through CVXPY", "native": "natively"}
+    names = {"qpsolvers": "called directly", "cvxpy": "through CVXPY", "native": "natively"}
     counts = [
         f"{len(set(part['solver'])):,} {names.get(interface, 'as ' + interface)}"
         for (interface,), part in groups(own, ["interface"])
     ]
-    yield f"Solvers: {', '.join(counts)}; {len(asked.settings)} settings; {size(own):,} calls."
+    yield f"Solvers: {', '.join(counts)}; {len(comparison.settings)} settings; {size(own):,} calls."
     path = study_path("default")
     if solver_study(path, study_tables(path)).problems.families != problems["families"]:
-        yield "These rows are of an earlier selection of problems than the study file asks today."
+        yield "The problems of these rows are an earlier selection than that of today's study file."
     yield from old_times(study)
 
 
-def _headline(asked: Asked) -> str:
+def _headline(comparison: Comparison) -> str:
     """The solvers of the report's table, each by the interface with the soonest 6 digits."""
-    options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
-    table = soonest_table(asked.fastest(), asked.base, asked.noise, options)
+    options = {f"{s['interface']}:{s['name']}": s["options"] for s in comparison.study["solvers"]}
+    table = soonest_table(comparison.fastest(), comparison.base, comparison.noise, options)
     page = markdown_page(Report("", (Section("", (table,)),)))
     return page[page.index("**Time") :].strip()
 
 
-def _bullet(one: Soonest, asked: Asked) -> str:
+def _bullet(one: Soonest, comparison: Comparison) -> str:
     """A solver: what to set, what that delivers, what not to do, what is hard for it."""
     own, label = one.rows, one.label
     options = next(
-        s["options"] for s in asked.study["solvers"]
+        s["options"] for s in comparison.study["solvers"]
         if f"{s['interface']}:{s['name']}" == str(own["way"][0])
     )  # fmt: skip
     words = [
@@ -86,20 +86,25 @@ def _bullet(one: Soonest, asked: Asked) -> str:
         f"{percent(success(own['digits'], 9.0))} % of {size(own):,} problems, in "
         f"{milliseconds(float(np.median(own['seconds'])))} ms (median); {_false(own)}."
     ]
-    plain = chosen(asked.columns, {**asked.at("default"), "label": label})
+    plain = chosen(comparison.columns, {**comparison.at("default"), "label": label})
     if one.setting != "default" and size(plain):
         wrong, said = plain["wrong"] & plain["said_optimal"], plain["said_optimal"]
         much = 100 * int(wrong.sum()) > FALSE * int(said.sum())
-        never = "Not at its own setting" if much else "At its own setting"
+        advised = "is not advised: it delivers" if much else "delivers"
         words.append(
-            f"{never}: 6 digits on {percent(success(plain['digits'], 6.0))} %, {_false(plain)}."
+            f"Its own setting {advised} 6 digits on {percent(success(plain['digits'], 6.0))} % of "
+            f"the problems; {_false(plain)}."
         )
     bad = {name: column[own["digits"] < WANTED[0]] for name, column in own.items()}
     if size(bad):
         families, counts = np.unique(bad["family"], return_counts=True)
         order = np.lexsort((families, -counts))[:HARDEST]
-        named = ", ".join(f"`{families[i]}` {counts[i]}" for i in order)
-        words.append(f"Of the {size(bad):,} that it misses most are of: {named}.")
+        named = " and ".join(f"{counts[i]} of `{families[i]}`" for i in order)
+        noun = "problem" if size(bad) == 1 else "problems"
+        words.append(
+            f"At `{one.setting}` the solver misses 6 digits on {size(bad):,} {noun}, among them "
+            f"{named}."
+        )
     return " ".join(words)
 
 
@@ -107,30 +112,31 @@ def _false(part: Columns) -> str:
     said, wrong = part["said_optimal"], part["wrong"]
     none = int((wrong & part["said_infeasible"]).sum())
     words = f"{int((said & wrong).sum()):,} of {int(said.sum()):,} claims of success are false"
-    return words + (f", and it calls {none:,} infeasible that are not" if none else "")
+    return words + (f", and the solver calls {none:,} solvable problems infeasible" if none else "")
 
 
-def _others(asked: Asked, first: Columns) -> Iterator[str]:
+def _others(comparison: Comparison, first: Columns) -> Iterator[str]:
     said, none, wrong = (first[n] for n in ("said_optimal", "said_infeasible", "wrong"))
     yield (
-        f"**A status is not evidence.** Of {int(said.sum()):,} claims of success "
-        f"{int((said & wrong).sum()):,} are false, and of {int(none.sum()):,} claims that there is "
-        f"no solution {int((none & wrong).sum()):,}."
+        f"**A status is not evidence.** Of {int(said.sum()):,} claims of success, "
+        f"{int((said & wrong).sum()):,} are false; of {int(none.sum()):,} claims that there is no "
+        f"solution, {int((none & wrong).sum()):,} are false."
     )
-    yield "**Units come before options.** Share of problems with 6 digits, the same options:"
-    yield _units_table(asked)
+    yield "**Units come before options.** Share of problems with 6 digits, with the same options:"
+    yield _units_table(comparison)
     yield (
-        "**About half of the digits.** By strong convexity an accuracy of eps promises an error of "
-        "sqrt(2 eps). Correct digits, median, directly and cold in natural units:"
+        "**An accuracy promises about half of its digits.** By strong convexity an accuracy of eps "
+        "promises an error of at most sqrt(2 eps). Median of the correct digits, of solvers called "
+        "directly and cold, in natural units:"
     )
-    yield _accuracy_table(asked)
-    if words := _cvxpy(asked):
+    yield _accuracy_table(comparison)
+    if words := _cvxpy(comparison):
         yield f"**CVXPY costs time, and chooses defaults of its own.** {words}"
 
 
-def _units_table(asked: Asked) -> str:
+def _units_table(comparison: Comparison) -> str:
     lines = []
-    cold = chosen(asked.columns, {"warm": False, "interface": "qpsolvers"})
+    cold = chosen(comparison.columns, {"warm": False, "interface": "qpsolvers"})
     for (solver, setting), part in groups(cold, ["solver", "setting"]):
         own = common(part, ["units"])
         parts = [chosen(own, {"units": units}) for units in ("raw", "natural")]
@@ -141,9 +147,9 @@ def _units_table(asked: Asked) -> str:
     return table_text(names, sorted(lines), 2)
 
 
-def _accuracy_table(asked: Asked) -> str:
-    own = chosen(asked.columns, {"warm": False, "interface": "qpsolvers", "units": "natural"})
-    own, settings = common(own, ["label", "setting"]), asked.settings
+def _accuracy_table(comparison: Comparison) -> str:
+    own = chosen(comparison.columns, {"warm": False, "interface": "qpsolvers", "units": "natural"})
+    own, settings = common(own, ["label", "setting"]), comparison.settings
     lines = []
     for (solver,), part in groups(own, ["solver"]):
         parts = [chosen(part, {"setting": setting}) for setting in settings]
@@ -152,9 +158,9 @@ def _accuracy_table(asked: Asked) -> str:
     return table_text(("solver", *settings), sorted(lines), 1)
 
 
-def _cvxpy(asked: Asked) -> str:
+def _cvxpy(comparison: Comparison) -> str:
     """Least and largest difference of medians at 1e-9, and the shares at the solvers' own."""
-    cold, costs, shares = chosen(asked.columns, {"warm": False, "units": "natural"}), [], []
+    cold, costs, shares = chosen(comparison.columns, {"warm": False, "units": "natural"}), [], []
     for (solver, setting), part in groups(cold, ["solver", "setting"]):
         own = common(part, ["interface"])
         here, there = (chosen(own, {"interface": name}) for name in ("qpsolvers", "cvxpy"))
@@ -168,8 +174,9 @@ def _cvxpy(asked: Asked) -> str:
     if not costs:
         return ""
     return (
-        f"At 1e-9 a call takes {milliseconds(min(costs))} to {milliseconds(max(costs))} ms more "
-        f"(medians, solver by solver). Share with 6 digits at the solvers' own settings, directly "
+        f"At 1e-9 a call through CVXPY takes {milliseconds(min(costs))} to "
+        f"{milliseconds(max(costs))} ms longer than a direct call (medians, solver by solver). "
+        f"Share of problems with 6 digits at the solvers' own settings, directly "
         f"and through CVXPY [%]: {', '.join(sorted(shares))}."
     )
 
@@ -188,8 +195,8 @@ def _trust(first: Columns, rows: list[dict], study: dict) -> Iterator[str]:
     most = max(spent, key=lambda label: spent[label])
     late = int((first["outcome"] == "timeout").sum())
     cut = int((first["outcome"] == "not_run_budget").sum())
-    yield f"The calls took {sum(spent.values()):,.0f} s of all solvers,"
-    yield f"most of it {most} with {spent[most]:.0f} s of its budget of {study['budget']:g} s."
-    yield f"{late:,} calls were ended by the time limit of {study['time_limit']:g} s,"
-    yield f"{cut:,} were not made for want of budget."
-    yield f"The processor was {study['machine'].get('processor', 'not told')}."
+    yield f"The calls of all solvers took {sum(spent.values()):,.0f} s;"
+    yield f"{most} took the most, {spent[most]:.0f} s of its budget of {study['budget']:g} s."
+    yield f"The time limit of {study['time_limit']:g} s ended {late:,} calls,"
+    yield f"and {cut:,} calls were not made because a budget was used up."
+    yield f"The processor was {study['machine'].get('processor', 'unknown')}."

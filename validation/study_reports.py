@@ -38,5 +38,5 @@ def made(name: str) -> None:
 
 
 if __name__ == "__main__":
-    for asked in sys.argv[1:] or NAMES:
-        made(asked)
+    for name in sys.argv[1:] or NAMES:
+        made(name)

@@ -1,4 +1,4 @@
-"""A store that nobody ran: rows at random, of every outcome, so that a report has all there is."""
+"""A store of no real run: rows at random, of every outcome, so that a report has all there is."""
 
 import json
 import random
@@ -18,8 +18,8 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
     late = name == "cat" and problem > 8
     outcome = "not_run_budget" if late else chance.choice(OUTCOMES)
     solved = outcome == "solved"
-    told = solved or outcome == "failed"
-    digits = chance.uniform(0, 16) if told else None
+    answered = solved or outcome == "failed"
+    digits = chance.uniform(0, 16) if answered else None
     call = 10 ** chance.uniform(-5, -1)
     own = {"call": call, "spent": 1.0, "solver": 0.5 * call if name != "bee" else None,
            "setup": 0.2 * call if name == "ant" else None}  # fmt: skip
@@ -60,11 +60,11 @@ def written(folder, problems=12, seed=3):
             for setting in SETTINGS:
                 for units in ("raw", "natural"):
                     for warm in (False, True):
-                        # Warm starts are asked on a part of the problems only.
+                        # Warm starts are made on a part of the problems only.
                         if not warm or problem % 3 == 0:
                             one = (problem, solver, setting, units, warm)
                             rows.append(measurement(chance, *one))
-                            if problem % 5 == 0:  # asked again, for the noise
+                            if problem % 5 == 0:  # run again, for the noise
                                 rows.append(measurement(chance, *one, repetition=1))
     study = {
         "format": "quasistatic-ref/study-store",

@@ -37,13 +37,13 @@ def said(row, name):
 
 
 def shared(rows, names):
-    """Rows on the problems that everybody has, by `names`; what a budget cut off is not solved."""
-    everybody = {tuple(said(r, n) for n in names) for r in rows if r["outcome"] != "not_run_budget"}
-    kept = [r for r in rows if tuple(said(r, n) for n in names) in everybody]
+    """Rows on the problems that all, by `names`, were run on; what a budget cut is not solved."""
+    every = {tuple(said(r, n) for n in names) for r in rows if r["outcome"] != "not_run_budget"}
+    kept = [r for r in rows if tuple(said(r, n) for n in names) in every]
     on = {}
     for r in kept:
         on.setdefault((r["problem"], r["repetition"]), set()).add(tuple(said(r, n) for n in names))
-    return [r for r in kept if on[r["problem"], r["repetition"]] == everybody]
+    return [r for r in kept if on[r["problem"], r["repetition"]] == every]
 
 
 def quantile(values, share):
@@ -72,7 +72,7 @@ def number(column, rows, limit):
     if least := re.match(r"time to (\d+) digits, shifted", column):
         late = [seconds(r, limit) if delivered(r) >= float(least[1]) else limit for r in rows]
         return 1e3 * (math.exp(sum(math.log(t + 1e-3) for t in late) / len(late)) - 1e-3)
-    told = [r["iterations"] for r in rows if r["iterations"] is not None]
+    known = [r["iterations"] for r in rows if r["iterations"] is not None]
     times = [seconds(r, limit) for r in rows]
     logs = sum(math.log(t + 1e-3) for t in times) / len(times)
     counted = column.removesuffix(" (budget)").replace(" ", "_")
@@ -87,7 +87,7 @@ def number(column, rows, limit):
         ),
         "time, median [ms]": 1e3 * quantile(times, 0.5),
         "time, shifted geometric mean [ms]": 1e3 * (math.exp(logs) - 1e-3),
-        "iterations, median": quantile(told, 0.5) if told else None,
+        "iterations, median": quantile(known, 0.5) if known else None,
         "said optimal, was wrong": sum(r["wrong"] and r["said_optimal"] for r in rows),
         "said infeasible, was wrong": sum(r["wrong"] and r["said_infeasible"] for r in rows),
     }
@@ -112,15 +112,15 @@ def rows_of_line(title, where, columns, line, rows):
     """The rows that one line of a table is about."""
     kept = picked(rows, where)
     names = ["label", "setting"]
-    if "all of them were asked on" in where:
+    if "all these solvers were run on" in where:
         kept = shared(kept, names)
-        told = re.search(r"on the ([\d,]+) problems", where)[1].replace(",", "")
-        assert int(told) == len({(r["problem"], r["repetition"]) for r in kept}), title
+        stated = re.search(r"on the ([\d,]+) problems", where)[1].replace(",", "")
+        assert int(stated) == len({(r["problem"], r["repetition"]) for r in kept}), title
     for name, cell in zip(columns, line, strict=True):
         if name == "solver":
             kept = [r for r in kept if cell in (said(r, "label"), r["solver"])]
         elif name in ("setting", "family", "interface"):
             kept = [r for r in kept if r[name] == cell]
-    if both := re.search(r"that both have, (\w+) aside", where):
+    if both := re.search(r"at every value of (\w+)", where):
         kept = shared(kept, [both[1]])
     return kept

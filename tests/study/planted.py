@@ -73,7 +73,7 @@ def peeks(P, q, G, h):
     return np.zeros(len(q)), np.zeros(len(h))
 
 def stops_the_clock(P, q, G, h):
-    """Right, and slow by 3 ms of which its process is told nothing."""
+    """Right, and slow by 3 ms of which its process knows nothing."""
     for module in list(sys.modules.values()):
         if getattr(module, "perf_counter", None) is not None:
             module.perf_counter = lambda: 0.0

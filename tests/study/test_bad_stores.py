@@ -28,10 +28,10 @@ def refused(tmp_path, capsys):
 
     def sentence(folder, command="report"):
         assert main(["study", command, str(folder), "--out", str(tmp_path / "out")]) == 2
-        told = capsys.readouterr()
-        assert told.out == ""
-        assert told.err.count("\n") == 1
-        return told.err
+        printed = capsys.readouterr()
+        assert printed.out == ""
+        assert printed.err.count("\n") == 1
+        return printed.err
 
     return sentence
 

@@ -109,12 +109,12 @@ def test_a_wall_of_bricks_is_bounded_and_has_few_entries():
 
 
 def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monkeypatch):
-    recipe, asked = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
+    recipe, made_ids = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
     honest = making.member_of
 
     def interrupted(one):
-        asked.append(one.id)
-        if len(asked) == 4:
+        made_ids.append(one.id)
+        if len(made_ids) == 4:
             raise KeyboardInterrupt
         return honest(one)
 
@@ -122,9 +122,9 @@ def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monk
     with pytest.raises(KeyboardInterrupt):
         made_set(recipe, tmp_path, progress=False)
     assert (tmp_path / NUMBERS / "wedge.npz").exists()
-    before = len([name for name in asked if name.startswith("wedge")])
+    before = len([name for name in made_ids if name.startswith("wedge")])
     made_set(recipe, tmp_path, progress=False)
-    assert len([name for name in asked if name.startswith("wedge")]) == before
+    assert len([name for name in made_ids if name.startswith("wedge")]) == before
     assert [one.facts["family"] for one in set_read(tmp_path)] == [
         *["wedge"] * 2, *["gaps"] * 3, *["infeasible"] * 2
     ]  # fmt: skip

@@ -40,7 +40,7 @@ def made(folder, seed, **fields):
 
 @pytest.fixture
 def stores(tmp_path):
-    """Two machines that were asked the same, and their rows."""
+    """Two machines that ran the same study, and their rows."""
     both = {"fast": made(tmp_path / "fast", 3), "slow": made(tmp_path / "slow", 4)}
     return tmp_path, both
 

@@ -1,4 +1,4 @@
-"""Solvers that installed packages announce: asked by name, and refused in a sentence."""
+"""Solvers that installed packages announce: called by name, and refused in a sentence."""
 
 import json
 import os
@@ -50,7 +50,7 @@ def planted(tmp_path, monkeypatch):
         del sys.modules[name]
 
 
-def test_a_solver_of_an_installed_package_is_asked_by_its_name(planted, run, tmp_path):
+def test_a_solver_of_an_installed_package_is_called_by_its_name(planted, run, tmp_path):
     """Right to 12 digits by *; half of x*, an option of its own, is wrong by x* / 2: few digits."""
     planted("planted-qp", {"mine": "planted_package:solve", "damped": "planted_package:damped"})
     own = '[solvers.half]\npackage = "damped"\noptions.default = { damping = 0.5 }\n'
@@ -66,12 +66,17 @@ def test_a_solver_of_an_installed_package_is_asked_by_its_name(planted, run, tmp
     assert {s["interface"] for s in study["solvers"]} == {"package", "qpsolvers"}
 
 
-def test_it_is_in_every_table_and_one_problem_is_asked_of_it(planted, run, tmp_path, capsys):
+def test_it_is_in_every_table_and_it_is_run_on_one_problem(planted, run, tmp_path, capsys):
     planted("planted-qp", {"mine": "planted_package:solve"})
     run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
     assert main(["study", "report", str(tmp_path / "store")]) == 0
     page = (tmp_path / "store" / "report" / "report.md").read_text()
-    for title in ("Time to 6", "Setting default", "Said optimal", "Worst 10 problems of package:"):
+    for title in (
+        "Time to 6",
+        "Setting default",
+        "False claims of success",
+        "Worst 10 problems of package:",
+    ):
         table = page.partition(f"**{title}")[2].partition("\n**")[0]
         assert "mine" in table, title
     capsys.readouterr()

@@ -7,11 +7,11 @@ from tests.study.plain_report import agrees, parsed, quantile, rows_of_line
 
 
 def test_set_up_solving_and_conversion_are_the_parts_of_calls(tmp_path):
-    """Planted: solving is half of a call, set-up a fifth (ant) or not told (cat)."""
+    """Planted: solving is half of a call, set-up a fifth (ant) or not reported (cat)."""
     rows = [row for row in made_store.written(tmp_path / "store") if row["repetition"] == 0]
     tables = parsed(markdown_page(study_report(tmp_path / "store")))
     ((_, where, columns, body),) = (t for t in tables if t[0].startswith("Set-up, solving"))
-    assert sorted(line[0] for line in body) == ["ant", "ant", "cat"]  # bee tells nothing
+    assert sorted(line[0] for line in body) == ["ant", "ant", "cat"]  # bee reports nothing
     for line in body:
         own = rows_of_line("", where.partition(";")[0], columns[:3], line[:3], rows)
         own = [row for row in own if row["outcome"] == "solved"]

@@ -43,7 +43,7 @@ def folder(tmp_path_factory):
     return place
 
 
-def asked(solver, problem, folder, limit=30.0):
+def row_of(solver, problem, folder, limit=30.0):
     with Keeper(solver, folder) as keeper:
         return measured(keeper, problem, DEFAULT, "natural", False, Limits(limit, limit))
 
@@ -55,13 +55,13 @@ def fake(name):
 @pytest.mark.parametrize("name", REPORTED)
 def test_a_planted_solver_is_reported_as_what_it_is(name, folder, problem):
     outcome, claimed, said_optimal, wrong = REPORTED[name]
-    row = asked(fake(name), problem, folder)
+    row = row_of(fake(name), problem, folder)
     assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
     assert claimed in row["claimed"]
 
 
 def test_an_honest_solver_gets_its_digits_and_a_liar_none(folder, problem):
-    honest, liar = (asked(fake(name), problem, folder) for name in ("honest", "liar"))
+    honest, liar = (row_of(fake(name), problem, folder) for name in ("honest", "liar"))
     assert min(honest["digits"].values()) > 12
     assert liar["digits"]["delta_q"] < 1
     # the residuals of x = 0, lam = 0 show nothing of it where gaps are positive: only the balance
@@ -130,7 +130,7 @@ def test_an_executable_reads_and_writes_json(name, tmp_path, problem):
     path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
     solver = Solver("mine", "executable", ("./solver",))
-    row = asked(solver, problem, tmp_path, limit=1.0 if name == "hangs" else 30.0)
+    row = row_of(solver, problem, tmp_path, limit=1.0 if name == "hangs" else 30.0)
     assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
     assert claimed in row["claimed"]
     if name == "writes":
@@ -160,6 +160,6 @@ def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(tmp_path,
 )
 def test_a_solver_that_cannot_be_reached_is_one_sentence(solver, says, folder, problem):
     with pytest.raises(InputError, match=says) as refused:
-        asked(solver, problem, folder)
+        row_of(solver, problem, folder)
     assert "\n" not in str(refused.value)
     assert os.linesep not in str(refused.value)

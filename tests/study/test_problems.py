@@ -37,11 +37,11 @@ def test_what_is_read_is_what_was_made_to_the_last_bit(folder):
 
 
 def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch):
-    honest, asked = problems.answer_of, []
+    honest, calls = problems.answer_of, []
 
     def interrupted(form):
-        asked.append(form)
-        if len(asked) in (5, 8):
+        calls.append(form)
+        if len(calls) in (5, 8):
             raise KeyboardInterrupt
         return honest(form)
 
@@ -54,7 +54,7 @@ def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch)
         assert not (tmp_path / problems.HEADER).exists()
     made_whole = problem_set(test_set, tmp_path, progress=False)
     # No answer is sought twice, but for those in which the keys were pressed.
-    assert len(asked) == sum(EACH.values()) + 2
+    assert len(calls) == sum(EACH.values()) + 2
     assert set_record(made_whole) == set_record(problems_read(folder))
     assert not (tmp_path / problems.BEGUN).exists()
 
@@ -111,8 +111,8 @@ def test_qpbenchmark_itself_runs_the_exported_test_set_with_two_solvers(folder, 
     with (tmp_path / "results.csv").open() as file:
         rows = list(csv.DictReader(file))
     settings = ("default", "low_accuracy", "mid_accuracy", "high_accuracy")
-    asked = {(p, s, t) for p in names for s in ("clarabel", "daqp") for t in settings}
-    assert {(r["problem"], r["solver"], r["settings"]) for r in rows} == asked
+    planned = {(p, s, t) for p in names for s in ("clarabel", "daqp") for t in settings}
+    assert {(r["problem"], r["solver"], r["settings"]) for r in rows} == planned
     found = [r for r in rows if r["solver"] == "daqp" and r["settings"] == "high_accuracy"]
     assert {r["found"] for r in found} == {"True"}
     assert max(float(r["primal_residual"]) for r in found) < 1e-8

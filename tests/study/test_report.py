@@ -39,7 +39,7 @@ def store(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def rows(store):
-    """Those that are compared: what was asked again is for the noise."""
+    """Those that are compared: what was repeated is for the noise."""
     every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
     return [row for row in every if row["repetition"] == 0]
 
@@ -86,7 +86,7 @@ def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
 
 
 def test_false_claims_are_those_of_the_rows(tables, rows):
-    found = lines(tables, titled="Said optimal")
+    found = lines(tables, titled="False claims of success")
     assert len(found) == 16
     for _, where, columns, (solver, *cells) in found:
         for setting, cell in zip(columns[1:], cells, strict=True):
@@ -142,7 +142,7 @@ def test_bootstraps_hold_their_value_and_narrow_with_the_root_of_the_count():
         assert high - 0.5 == pytest.approx(expected, rel=0.3)
 
 
-def test_the_noise_is_the_difference_of_what_was_asked_twice(store):
+def test_the_noise_is_the_difference_of_what_was_repeated(store):
     """Median of |t_1 / t_2 - 1|, the larger time above, over all pairs."""
     every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
     by_key = {}
@@ -182,7 +182,7 @@ def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):
                 assert shown == pytest.approx(100 * right / len(problems), rel=1e-12)
 
 
-def test_a_problem_that_nobody_gets_right_counts_for_nobody():
+def test_a_problem_that_no_solver_gets_right_counts_for_none():
     ratios = performance_ratios(
         np.array([[1.0, 2.0], [4.0, 1.0]]), np.array([[True, False], [True, False]])
     )
@@ -277,10 +277,10 @@ def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
                            "boundary layer [um]"]  # fmt: skip
     ordered = sorted(rows, key=lambda row: (row["values"]["mu"], row["values"]["h"]))
     for row, line in zip(ordered, body, strict=True):
-        told = [*row["values"].values(), *row["measures"].values()]
+        values = [*row["values"].values(), *row["measures"].values()]
         shown = line[:2] + line[3:]
         assert [c if c == "-" else float(c) for c in shown] == [
-            "-" if v is None else v for v in told
+            "-" if v is None else v for v in values
         ]
         assert line[2] == (row["reason"] or "done")
     (picture,) = report.pictures

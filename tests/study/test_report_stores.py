@@ -92,7 +92,7 @@ def test_nothing_is_drawn_of_calls_that_were_not_made(store, rows, tmp_path):
     (tmp_path / "rows.jsonl").write_text("".join(lines_))
     report = study_report(tmp_path)
     assert report.pictures == ()
-    assert "nothing to draw of `profiles`" in markdown_page(report)
+    assert "the figure `profiles` is not drawn" in markdown_page(report)
 
 
 def test_a_report_and_a_packed_store_stand_next_to_their_store(tmp_path, capsys):

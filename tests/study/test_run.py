@@ -30,7 +30,7 @@ settings = ["default", "high"]
 units = ["raw", "natural"]
 """
 CALLS = (4 + 3 + 1) * 2 * 2 * 2
-"""One problem of ten is asked again."""
+"""One problem of ten is run again."""
 
 
 @pytest.fixture(scope="module")
@@ -47,9 +47,9 @@ def test_every_measurement_of_the_plan_is_in_the_table_once(whole):
     rows = rows_read(whole)
     assert len(rows) == len({json.dumps(r) for r in table(rows)}) == CALLS
     assert {r["outcome"] for r in rows} <= {"solved", "failed"}
-    asked = study_read(whole)
-    assert asked["problems"]["count"] == asked["problems"]["exact"] == 7
-    assert {"clarabel", "daqp", "qpsolvers", "numpy"} <= set(asked["versions"])
+    there = study_read(whole)
+    assert there["problems"]["count"] == there["problems"]["exact"] == 7
+    assert {"clarabel", "daqp", "qpsolvers", "numpy"} <= set(there["versions"])
 
 
 def test_an_active_set_solver_in_natural_units_has_nearly_all_digits(whole):
@@ -104,9 +104,9 @@ def test_the_making_of_problems_is_shown_and_may_be_interrupted(tmp_path):
     assert printed.index("loads solvers") < printed.index("exact answers")
     quiet, status = on_a_terminal([*command(path, tmp_path / "store"), "--quiet"], None)
     assert "exact answers" not in quiet
-    assert "asked" not in quiet
+    assert "calls made" not in quiet
     assert status == 0
-    assert len(rows_read(tmp_path / "store")) == 3 + 1  # one is asked again
+    assert len(rows_read(tmp_path / "store")) == 3 + 1  # one is run again
 
 
 def command(path, store):
@@ -165,7 +165,7 @@ units = ["raw", "natural"]
 """
 
 
-def test_what_a_budget_does_not_reach_is_told_also_after_an_interruption(run, tmp_path):
+def test_what_a_budget_does_not_reach_is_said_also_after_an_interruption(run, tmp_path):
     text = PLANTED.format(budget=6.0)
     rows = run(text)
     outcomes = {n: [r["outcome"] for r in rows if r["solver"] == n] for n in ("loops", "honest")}

@@ -1,4 +1,4 @@
-"""Sequences asked in order: what each solver starts from, and modes that are not possible."""
+"""Sequences solved in order: what each solver starts from, and modes that are not possible."""
 
 import csv
 import json
@@ -14,10 +14,10 @@ from quasistatic_ref.lab.study import sequences
 from quasistatic_ref.lab.study.keeper import EXTRA
 from quasistatic_ref.lab.study.sequences import (
     Limits,
-    asked_in_order,
     checked,
     in_one_unit,
     modes_of,
+    sequence_rows,
 )
 
 CALLABLES = '''
@@ -63,7 +63,7 @@ def dies(P, q, G, h):
     return solved(P, q, G, h)
 
 def stops_the_clock(P, q, G, h):
-    """Right, after 5 ms of which its process is told nothing."""
+    """Right, after 5 ms of which its process knows nothing."""
     import __main__
 
     __main__.perf_counter = lambda: 0.0
@@ -109,11 +109,11 @@ def test_what_a_solver_can_start_from_is_a_fact_of_its_interface(own):
     ("clarabel", "primal-dual"), ("quadprog", "updates"), ("daqp", "primal"),
     ("sequence_solvers:solved", "primal-dual"),
 ])  # fmt: skip
-def test_a_mode_that_is_asked_for_and_not_possible_is_an_error(solver, mode, own, capsys):
-    with pytest.raises(InputError, match=f"cannot be asked of {solver}"):
+def test_a_mode_that_a_solver_does_not_have_is_an_error(solver, mode, own, capsys):
+    with pytest.raises(InputError, match=f"is no mode of {solver}"):
         checked([solver], ["cold", mode])
     assert main(["study", "sequences", solver, "--modes", mode]) == 2
-    assert "cannot be asked of" in capsys.readouterr().err
+    assert "is no mode of" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("more", "words"), [
@@ -126,7 +126,7 @@ def test_a_mode_that_is_asked_for_and_not_possible_is_an_error(solver, mode, own
     (["daqp", "--time-limit", "0"], "--time-limit: must be above 0"),
     (["daqp", "--memory", "nan"], "--memory: must be above 0"),
 ])  # fmt: skip
-def test_what_cannot_be_asked_is_refused(more, words, capsys):
+def test_what_cannot_be_run_is_refused(more, words, capsys):
     assert main(["study", "sequences", *more]) == 2
     assert words in capsys.readouterr().err
 
@@ -142,7 +142,7 @@ def test_a_sequence_has_one_system_of_units_and_the_same_answers(grasp):
 
 def test_solvers_keep_their_digits_in_every_mode(grasp):
     modes = checked(["daqp", "osqp", "clarabel", "qpsolvers:daqp"], None)
-    rows = list(asked_in_order(grasp, modes, 1e-9, 1))
+    rows = list(sequence_rows(grasp, modes, 1e-9, 1))
     assert len(rows) == 24 * sum(map(len, modes.values()))
     assert all(row.solved and row.digits > 4 for row in rows if row.solver != "osqp")
     assert sum(row.solved for row in rows if row.solver == "osqp") > 60
@@ -154,7 +154,7 @@ def test_solvers_keep_their_digits_in_every_mode(grasp):
 
 
 def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
-    list(asked_in_order(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, 1))
+    list(sequence_rows(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, 1))
     starts = [json.loads(line) for line in Path("starts.jsonl").read_text().splitlines()]
     assert len(starts) == 24
     for place, (start, _) in enumerate(starts):
@@ -166,7 +166,7 @@ def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
 
 def test_a_callable_that_raises_costs_itself_only(grasp, own):
     modes = {f"{own}:broken": ("cold",), f"{own}:solved": ("cold",)}
-    rows = list(asked_in_order(grasp, modes, 1e-9, 1))
+    rows = list(sequence_rows(grasp, modes, 1e-9, 1))
     assert {row.solver: row.solved for row in rows} == {f"{own}:broken": False,
                                                         f"{own}:solved": True}  # fmt: skip
 
@@ -182,7 +182,7 @@ def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(grasp, own, solver, 
     wait = 30.0 if solver == "eats" else 0.5
     limits = Limits(call=wait, warm_up=wait, memory=5e8)
     modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(asked_in_order(one, modes, 1e-9, 1, limits=limits))
+    rows = list(sequence_rows(one, modes, 1e-9, 1, limits=limits))
     assert all(row.solved and row.digits > 12 for row in rows if row.solver == "daqp")
     ends = [row for row in rows if row.solver == bad]
     assert len(ends) == 12
@@ -197,7 +197,7 @@ def test_a_budget_ends_a_solver_and_no_other(grasp, own):
     bad, one = f"{own}:hangs", {"stack/0": grasp["stack/0"]}
     limits = Limits(call=0.5, warm_up=0.5, budget=1.5)
     modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(asked_in_order(one, modes, 1e-9, 1, limits=limits))
+    rows = list(sequence_rows(one, modes, 1e-9, 1, limits=limits))
     assert sum(row.outcome == "timeout" for row in rows) == 2
     late = [row for row in rows if row.outcome == "not_run_budget"]
     assert {row.solver for row in late} == {bad}
@@ -206,7 +206,7 @@ def test_a_budget_ends_a_solver_and_no_other(grasp, own):
 
 def test_a_clock_that_was_stopped_is_not_believed(grasp, own):
     one = {"stack/0": grasp["stack/0"]}
-    rows = list(asked_in_order(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, 1))
+    rows = list(sequence_rows(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, 1))
     assert all(row.solved and row.seconds > 4e-3 for row in rows)
 
 

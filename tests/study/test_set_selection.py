@@ -53,7 +53,7 @@ def test_a_study_asks_the_problems_of_a_set_as_they_are(study, members, tmp_path
 
 @pytest.mark.parametrize("family", ["sparse", "ellipsoid"])
 def test_families_that_studies_have_no_place_for_are_refused(study, family):
-    with pytest.raises(InputError, match="studies ask dense rows"):
+    with pytest.raises(InputError, match="studies contain dense rows only"):
         problems_taken(taken(study, f"{family} = 2"))
 
 

@@ -42,7 +42,7 @@ BAD = {
     "warm that is no choice": (RUN + "warm = [1]", "runs[0].warm: must be a list of true and"),
     "no repetition": ("repetitions = 0", "repetitions: must be at least 1"),
     "no memory": ("memory = 0", "memory: must be greater than 0"),
-    "less than nothing asked again": (RUN + "again = -1", "runs[0].again: must be at least 0"),
+    "less than nothing run again": (RUN + "again = -1", "runs[0].again: must be at least 0"),
     "two interfaces": (MINE + 'qpsolvers = "daqp"', "solvers.mine: must say one of"),
     "no interface": ("[solvers.mine]\n", "solvers.mine: must say one of"),
     "no function": ('[solvers.mine]\ncallable = "module"', "must read module:function"),
@@ -80,9 +80,9 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
         if content is not None:
             path.write_text(content)
         assert main(["study", "run", str(path), "--out", str(tmp_path / "out")]) == 2
-        told = capsys.readouterr().err
-        assert says in told
-        assert told.removeprefix("loads solvers\n").count("\n") == 1
+        said = capsys.readouterr().err
+        assert says in said
+        assert said.removeprefix("loads solvers\n").count("\n") == 1
     assert main(["study", "run", "defalt"]) == 2
     assert "did you mean 'default'?" in capsys.readouterr().err
 
@@ -109,7 +109,7 @@ def test_a_tighter_accuracy_never_asks_for_less(name):
     assert all(tight[key] < loose[key] for key in changed)
 
 
-def test_all_solvers_are_asked_on_a_problem_before_the_next_and_take_turns(study):
+def test_all_solvers_are_run_on_a_problem_before_the_next_and_take_turns(study):
     spec = study(
         "[problems]\nfamilies.contacts = 6\n[[runs]]\n"
         'solvers = ["qpsolvers:daqp", "qpsolvers:osqp", "qpsolvers:clarabel"]\nagain = 1'
@@ -139,7 +139,7 @@ def test_settings_come_in_an_order_that_is_drawn_for_each_problem(study):
     assert planned == plan(spec, problems)
 
 
-def test_a_measurement_that_two_tables_ask_for_is_made_once(study):
+def test_a_measurement_that_two_tables_contain_is_made_once(study):
     once = RUN + "again = 0\n"
     spec = study("[problems]\nfamilies.contacts = 4\n" + once + once + "every = 2\nunits = ['raw']")
     planned = plan(spec, [(f"p{i}", "f") for i in range(4)])
@@ -148,7 +148,7 @@ def test_a_measurement_that_two_tables_ask_for_is_made_once(study):
     assert len(plan(again, [(f"p{i}", "f") for i in range(4)])) == 4
 
 
-def test_only_solvers_that_take_a_start_are_asked_warm(study):
+def test_only_solvers_that_take_a_start_are_called_warm(study):
     spec = study(
         "[problems]\nfamilies.contacts = 1\n[[runs]]\nagain = 0\nwarm = [false, true]\n"
         'solvers = ["qpsolvers:daqp", "qpsolvers:piqp"]'

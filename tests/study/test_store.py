@@ -6,6 +6,7 @@ import resource
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.environment import UNKNOWN
 from quasistatic_ref.lab.study.grade import CLOCKS, ungraded
 from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, study_read, table
 
@@ -134,7 +135,7 @@ def test_rows_of_version_1_are_read_with_what_they_did_not_measure_null(tmp_path
         Store(tmp_path, STUDY)
 
 
-def asked(*names, eps=1e-3):
+def begun(*names, eps=1e-3):
     solvers = [
         {"name": n, "interface": "callable", "target": "m:f", "options": {"high": {"eps": eps}}}
         for n in names
@@ -148,7 +149,7 @@ def test_solvers_come_and_go_while_a_study_goes_on(tmp_path):
     for names, gone in (
         (["a", "b"], []), (["b", "c"], ["callable:a"]), (["a", "b"], ["callable:c"])
     ):  # fmt: skip
-        with Store(tmp_path, asked(*names)) as store:
+        with Store(tmp_path, begun(*names)) as store:
             if "a" in names and not store.rows:
                 store.add(row("x", solver="a"))
             assert len(store.rows) == 1  # a's rows wait for it to come back
@@ -156,4 +157,14 @@ def test_solvers_come_and_go_while_a_study_goes_on(tmp_path):
         assert [solver["name"] for solver in there["solvers"]] == names
         assert there.get("removed", []) == gone
     with pytest.raises(InputError, match=r"another 'solvers\.callable:a'"):
-        Store(tmp_path, asked("a", eps=1e-6))
+        Store(tmp_path, begun("a", eps=1e-6))
+
+
+def test_a_store_begun_before_facts_were_unknown_goes_on(tmp_path):
+    """A fact that the system does not report was written "not told", today "unknown"."""
+    old, new = (
+        begun("a") | {"machine": {"cores": 2, "governor": words}} for words in ("not told", UNKNOWN)
+    )
+    (tmp_path / "study.json").write_text(json.dumps(old))
+    with Store(tmp_path, new):
+        assert json.loads((tmp_path / "study.json").read_text())["machine"] == new["machine"]

@@ -21,7 +21,7 @@ AGREEMENT = 1.5
 calls gave a ratio of 1.98 where calls in turns gave 1.15, 1.7 times less."""
 
 
-def asked(name):
+def plain_solver(name):
     return Solver(name, "qpsolvers", name)
 
 
@@ -32,7 +32,7 @@ def in_turns(problems):
         form, own = exam(problem).forms["natural"], {name: [] for name in PAIR}
         for _ in range(ROUNDS):
             for name in PAIR:
-                options = asked(name).settings_of(TUNED, 1.0) if name == "daqp" else {}
+                options = plain_solver(name).settings_of(TUNED, 1.0) if name == "daqp" else {}
                 own[name].append(qpsolvers_reply(form, name, options).call_seconds)
         for name in PAIR:
             found[name].append(np.median(own[name]))
@@ -43,7 +43,7 @@ def in_a_study(problems):
     found = {}
     for name in PAIR:
         setting = TUNED if name == "daqp" else SETTINGS[0]
-        with Keeper(asked(name)) as keeper:
+        with Keeper(plain_solver(name)) as keeper:
             rows = [measured(keeper, p, setting, "natural", False, Limits(5.0)) for p in problems]
         found[name] = float(np.median([row["seconds"]["call"] for row in rows]))
     return found
@@ -71,4 +71,4 @@ def test_set_up_and_solving_are_parts_of_a_call(name, problem):
     parts = [sum(seconds[part] or 0.0 for part in ("setup", "solver")) for seconds in every]
     assert min(parts) > 0
     assert any(p < 2 * seconds["high"] for p, seconds in zip(parts, every, strict=True))
-    assert every[0]["start"] > 0.05  # imports, beside the call's time
+    assert every[0]["start"] > 0.05  # imports, besides the call's time

@@ -1,4 +1,4 @@
-"""Solvers that fool or hurt a study, planted: each is found out, and costs nobody else."""
+"""Solvers that fool or hurt a study, planted: each is found out, and costs no other solver."""
 
 import os
 import time
@@ -24,30 +24,30 @@ def folder(tmp_path):
     return tmp_path
 
 
-def asked(name, problem, folder, limits=LIMITS, **options):
+def row_of(name, problem, folder, limits=LIMITS, **options):
     with Keeper(Solver(name, "callable", f"planted_solvers:{name}"), folder, **options) as keeper:
         return measured(keeper, problem, DEFAULT, "natural", False, limits)
 
 
 def test_no_answer_is_to_be_found_in_the_process_of_a_solver(folder, problem):
-    row = asked("peeks", problem, folder)
+    row = row_of("peeks", problem, folder)
     assert row["digits"]["delta_q"] < 1
     assert row["wrong"]
 
 
 def test_a_clock_that_was_stopped_is_not_believed(folder, problem):
     """It works for 3 ms; its process says 0."""
-    row = asked("stops_the_clock", problem, folder)
+    row = row_of("stops_the_clock", problem, folder)
     assert not row["clock_agrees"]
     assert row["seconds"]["call"] > 1e-3
-    honest = asked("honest", problem, folder)
+    honest = row_of("honest", problem, folder)
     assert honest["clock_agrees"]
     assert 0 < honest["seconds"]["low"] <= honest["seconds"]["call"] <= honest["seconds"]["high"]
     assert honest["calls"] >= LIMITS.repetitions
 
 
 def test_multipliers_that_are_none_are_found_beside_a_right_answer(folder, problem):
-    row, honest = (asked(name, problem, folder) for name in ("minus_one", "honest"))
+    row, honest = (row_of(name, problem, folder) for name in ("minus_one", "honest"))
     assert row["digits"]["delta_q"] == honest["digits"]["delta_q"] > 12
     assert row["wrong_multipliers"]
     assert row["digits"]["multipliers"] < 1
@@ -67,32 +67,32 @@ def zombie(pid):
 
 @pytest.mark.parametrize("name", ["detaches", "detaches_and_dies"])
 def test_what_a_solver_leaves_behind_is_ended(name, folder, problem):
-    asked(name, problem, folder)
+    row_of(name, problem, folder)
     end = time.monotonic() + 10
     while alive(folder) and time.monotonic() < end:
         time.sleep(0.05)
     assert alive(folder) == []
 
 
-def test_a_solver_that_eats_memory_is_ended_and_its_memory_told(folder, problem):
-    row = asked("eats", problem, folder, memory=3e8)
+def test_a_solver_that_eats_memory_is_ended_and_its_memory_reported(folder, problem):
+    row = row_of("eats", problem, folder, memory=3e8)
     assert row["outcome"] == "memory"
     assert "0.3 GB" in row["claimed"]
-    assert 1e7 < asked("honest", problem, folder)["memory"] < 3e8
+    assert 1e7 < row_of("honest", problem, folder)["memory"] < 3e8
 
 
 def test_what_is_no_reply_is_a_crash_and_nothing_is_unpickled(folder, problem):
-    assert asked("scribbles", problem, folder)["outcome"] == "crashed"
+    assert row_of("scribbles", problem, folder)["outcome"] == "crashed"
 
 
 def test_the_worst_of_repeated_answers_is_graded(folder, problem):
-    row = asked("second_thoughts", problem, folder)
+    row = row_of("second_thoughts", problem, folder)
     assert row["wrong"]
 
 
 def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem):
     """It takes 1 s where 0.5 s are allowed, once."""
-    row = asked("compiles", problem, folder, Limits(0.5, 10.0, 2))
+    row = row_of("compiles", problem, folder, Limits(0.5, 10.0, 2))
     assert row["outcome"] == "solved"
     assert row["seconds"]["warm_up"] >= 1.0 > row["seconds"]["first"]
 
@@ -115,8 +115,8 @@ JUDGED = {  # on a problem with a solution, and on one without: (says there is n
 
 @pytest.mark.parametrize("name", JUDGED)
 def test_a_claim_that_there_is_no_solution_is_judged(name, folder, problem):
-    for asked_of, (said, wrong) in zip((problem, none_to_find()), JUDGED[name], strict=True):
-        row = asked(name, asked_of, folder)
+    for judged, (said, wrong) in zip((problem, none_to_find()), JUDGED[name], strict=True):
+        row = row_of(name, judged, folder)
         assert (row["said_infeasible"], row["wrong"]) == (said, wrong)
 
 

@@ -1,4 +1,4 @@
-"""What a solver's author looks at first, and the command that asks one problem again."""
+"""What a solver's author looks at first, and the command that runs it on one problem again."""
 
 import json
 import math
@@ -73,7 +73,7 @@ def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tmp_path):
             assert false == ("yes" if row["wrong"] else "no")
 
 
-def test_each_command_asks_the_same_again_and_finds_the_same(run, tmp_path, monkeypatch, capsys):
+def test_each_command_runs_the_same_again_and_finds_the_same(run, tmp_path, monkeypatch, capsys):
     """Digits of a deterministic solver to the last; its options are those of the study."""
     run(STUDY)
     monkeypatch.chdir(tmp_path)
@@ -98,7 +98,7 @@ def test_each_command_asks_the_same_again_and_finds_the_same(run, tmp_path, monk
                 )
 
 
-def test_a_problem_of_the_set_is_asked_without_any_store(capsys):
+def test_a_problem_of_the_set_is_run_without_any_store(capsys):
     assert tuple(sorted(UNITS)) == study_ask.UNITS
     assert main(["study", "ask", WEDGE, "qpsolvers:daqp", "tuned"]) == 0
     out = capsys.readouterr().out
@@ -108,7 +108,7 @@ def test_a_problem_of_the_set_is_asked_without_any_store(capsys):
     assert "none (5.5 digits are promised by an optimal)" in out
 
 
-def test_a_callable_of_ones_own_is_asked_by_its_name_and_its_claim_judged(
+def test_a_callable_of_ones_own_is_run_by_its_name_and_its_claim_judged(
     study, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
@@ -126,7 +126,7 @@ def test_a_callable_of_ones_own_is_asked_by_its_name_and_its_claim_judged(
     ((WEDGE, "qpsolvers:clarabel", "default", "natural", True), "takes no start"),
     (("wedge/0.1/x", "qpsolvers:daqp", "default"), "is no problem of contact-qp-1"),
 ])  # fmt: skip
-def test_what_cannot_be_asked_is_refused_in_a_sentence(words, problem):
+def test_what_cannot_be_run_is_refused_in_a_sentence(words, problem):
     with pytest.raises(InputError, match=problem):
         question(*words)
 

@@ -19,9 +19,9 @@ ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
-    "ask": "ask one solver one problem, in a process of its own, and grade the answer",
+    "ask": "run one solver on one problem, in a process of its own, and grade the answer",
     "problems": "sets of problems with exact answers: list, export, check, make",
-    "sequences": "ask steps in order, from cold and from what the step before left",
+    "sequences": "run solvers on steps in order, from cold and from what the step before left",
     "merge": "join the results of several machines into one store",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }

@@ -11,7 +11,7 @@ UNITS = ("natural", "raw")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Declare what is asked."""
+    """Declare problem, solver and setting."""
     parser.add_argument("problem", metavar="PROBLEM", help="id, such as wedge/0.1/0")
     words = "interface:name, such as qpsolvers:daqp, or module:function"
     parser.add_argument("solver", metavar="SOLVER", help=words)
@@ -25,12 +25,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run_ask(options: argparse.Namespace) -> int:
-    """Ask, and print what came of it; 1 if the solver's claim is false."""
-    from quasistatic_ref.lab.study.ask import asked_again, question
+    """Run the solver, and print what came of it; 1 if the solver's claim is false."""
+    from quasistatic_ref.lab.study.ask import measured_again, question
 
     one = question(options.problem, options.solver, options.setting, options.units, options.warm,
                    options.store)  # fmt: skip
-    row = asked_again(one)
+    row = measured_again(one)
     if options.json:
         shared.print_json({"problem": options.problem, "solver": one.solver.label,
                            "setting": one.setting.name, **row})  # fmt: skip
@@ -62,16 +62,16 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
     return [
         ("problem", f"{facts.id}: {len(form.g)} coordinates, {len(form.b)} rows, "
          f"{facts.contacts} contacts" + ("" if row["feasible"] else ", no solution")),
-        ("asked", f"{one.solver.label} at {one.setting.name} ({options}), {one.units} units, "
+        ("call", f"{one.solver.label} at {one.setting.name} ({options}), {one.units} units, "
          f"{'warm' if one.warm else 'cold'}"),
         ("outcome", f"{row['outcome']}; its own status: {row['claimed']}"),
-        ("digits", _told(row["digits"], ".1f")),
-        ("residuals", _told(row["residuals"], ".1e")),
+        ("digits", _listed(row["digits"], ".1f")),
+        ("residuals", _listed(row["residuals"], ".1e")),
         ("time", time),
         ("false claims", ", ".join(false) or f"none ({promised})"),
     ]  # fmt: skip
 
 
-def _told(values: dict[str, float | None], form: str) -> str:
+def _listed(values: dict[str, float | None], form: str) -> str:
     return ", ".join(f"{name} {'-' if v is None else format(v, form)}" for name, v in
                      values.items())  # fmt: skip

@@ -1,4 +1,4 @@
-"""``study sequences``: steps asked in order, from cold and from what the step before left."""
+"""``study sequences``: solvers on steps in order, from cold and from what the step before left."""
 
 import argparse
 import csv
@@ -25,7 +25,7 @@ ORDINARY = ("solved", "failed")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Declare solvers, modes and what is asked."""
+    """Declare solvers, modes and sequences."""
     words = "daqp, osqp, ...: natively; qpsolvers:NAME; package:NAME; or module:function"
     parser.add_argument("solvers", nargs="+", metavar="SOLVER", help=words)
     parser.add_argument(
@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scenario", metavar="NAME", help="only sequences of this scenario")
     words = "steps from one problem to the next: 1 (default), 4 or 16"
     parser.add_argument("--stride", type=int, default=1, metavar="N", help=words)
-    words = "asked of the solvers, in natural units (1e-9)"
+    words = "that the solvers are set to, in natural units (1e-9)"
     parser.add_argument("--accuracy", type=float, default=1e-9, metavar="EPS", help=words)
     words = "of each sequence, whose times are medians (5)"
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help=words)
@@ -51,9 +51,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run_sequences(options: argparse.Namespace) -> int:
-    """Ask, and print a line for each solver and mode; InputError if that is not possible."""
+    """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
     from quasistatic_ref.files import text_written
-    from quasistatic_ref.lab.study.sequences import Asked, Limits, asked_in_order, checked
+    from quasistatic_ref.lab.study.sequences import Limits, SequenceRow, checked, sequence_rows
     from quasistatic_ref.lab.study.sets.folder import set_read
     from quasistatic_ref.lab.study.sets.member import Member
     from quasistatic_ref.progress import progress_bar
@@ -80,9 +80,11 @@ def run_sequences(options: argparse.Namespace) -> int:
         raise InputError("have no such sequence", field="--scenario and --stride",
                          value=[options.scenario, options.stride])  # fmt: skip
     total = sum(map(len, sequences.values())) * sum(map(len, modes.values()))
-    rows: list[Asked] = []
-    with progress_bar(total=total, unit="problem", words="asked", shown=not options.quiet) as bar:
-        for row in asked_in_order(
+    rows: list[SequenceRow] = []
+    with progress_bar(
+        total=total, unit="problem", words="calls made", shown=not options.quiet
+    ) as bar:
+        for row in sequence_rows(
             sequences, modes, options.accuracy, options.repetitions, limits=limits
         ):
             rows.append(row)

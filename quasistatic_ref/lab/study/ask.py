@@ -1,4 +1,4 @@
-"""One problem asked of one solver again, in a process of its own, and graded."""
+"""One solver run on one problem again, in a process of its own, and graded."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -94,11 +94,11 @@ def question(
         hint = suggestion(setting, known)
         raise InputError(f"is no setting that {own.label} takes{hint}", value=setting)
     if warm and not own.warm:
-        raise InputError(f"cannot be asked of {own.label}, which takes no start", field="--warm")
+        raise InputError(f"cannot be used with {own.label}, which takes no start", field="--warm")
     return Question(found, own, known[setting], units, warm, limits, memory)
 
 
-def asked_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
+def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
     """The fields of a row that are measured.
 
     Parameters
@@ -126,10 +126,12 @@ def _problem(name: str, store: str | Path | None) -> Problem:
     try:
         (member,) = set_read(problem_set_folder(), ids=[name])
     except InputError as error:
-        words = "is no problem of contact-qp-1; others are asked with --store, the folder of a "
+        words = "is no problem of contact-qp-1; others need --store, the folder of a "
         raise InputError(f"{words}study that holds its problems.npz", value=name) from error
     if member.facts["kind"] != QP or SPARSE in member.facts["tags"]:
-        raise InputError("has cones or sparse matrices; studies ask dense rows", value=name)
+        raise InputError(
+            "has cones or sparse matrices; studies contain dense rows only", value=name
+        )
     return member.problem
 
 
@@ -145,7 +147,7 @@ def _by_label(label: str) -> Solver:
 
 
 def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
-    """A solver as it was asked in a study, at the same options."""
+    """A solver as it was called in a study, at the same options."""
     entries: Sequence[Mapping[str, Any]] = study["solvers"]
     labels = {f"{one['interface']}:{one['name']}": one for one in entries}
     if label not in labels:

@@ -6,25 +6,25 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 
 FREE = ("runs",)
-"""What the study file may ask otherwise: rows that it no longer asks for stay."""
+"""What may change in the study file: rows that it no longer contains stay."""
 PASSING = ("load",)
 """What is of the moment, and not of the machine."""
 
 
-def continued(there: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, Any]:
+def continued(there: Mapping[str, Any], wanted: Mapping[str, Any]) -> dict[str, Any]:
     """``study.json`` of a study that goes on: solvers may come, and go.
 
     Parameters
     ----------
     there : mapping
         What the folder holds.
-    asked : mapping
+    wanted : mapping
         What the study file gives today.
 
     Returns
     -------
     dict
-        `asked`, with the settings, versions and machine of the rows that are there; ``removed``
+        `wanted`, with the settings, versions and machine of the rows that are there; ``removed``
         names the solvers that had rows and are no longer in the study.
 
     Raises
@@ -32,8 +32,8 @@ def continued(there: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, A
     InputError
         If rows of today could not be compared with those that are there.
     """
-    merged = dict(asked)
-    for name, value in asked.items():
+    merged = dict(wanted)
+    for name, value in wanted.items():
         old: Any = there.get(name)
         if name in FREE or (name == "removed" and not value):
             continue
@@ -46,8 +46,8 @@ def continued(there: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, A
             merged[name] = {**value, **old}
         elif old != value:
             raise _another(name)
-    if "solvers" in asked:
-        labels = {_label(solver) for solver in asked["solvers"]}
+    if "solvers" in wanted:
+        labels = {_label(solver) for solver in wanted["solvers"]}
         before = [*map(_label, there["solvers"]), *there.get("removed", [])]
         merged["removed"] = [label for label in dict.fromkeys(before) if label not in labels]
     return merged

@@ -39,7 +39,7 @@ def conduct_on_cluster(work: Work, address: str) -> None:
     Raises
     ------
     InputError
-        If Dask is not installed, or nobody answers at that address.
+        If Dask is not installed, or nothing answers at that address.
     """
 
     def answered(solver: Solver) -> Answered:
@@ -56,7 +56,7 @@ def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
     Raises
     ------
     InputError
-        If Dask is not installed, nobody answers at that address, or there are no workers.
+        If Dask is not installed, nothing answers at that address, or there are no workers.
     """
     client = _client(address)
     try:
@@ -90,5 +90,5 @@ def _client(address: str) -> Any:
         return Client(address, timeout=CONNECT, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise InputError(
-            f"nobody answers there: {error}", field="--scheduler", value=address
+            f"nothing answers there: {error}", field="--scheduler", value=address
         ) from None

@@ -28,10 +28,11 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     mapping of str to ndarray, shape (rows,)
         The fields of the rows, and ``way`` (interface:solver), ``who`` (solver, and behind an @
         the machine, where several were merged), ``label`` (interface:who); ``unit``, the problem
-        with its repetition; ``asked``, whether the call was made; ``digits``: those of delta_q that
-        were delivered, 0 where the solver does not say that it solved the problem; ``seconds``: of
-        the call, the time limit where it does not; ``own_setup`` and ``own_solver``: of set-up and
-        of solving by its own account, ``iterations``: NaN where it reports none; ``net``.
+        with its repetition; ``called``, whether the call was made; ``digits``: those of delta_q
+        that were delivered, 0 where the solver does not say that it solved the problem;
+        ``seconds``: of the call, the time limit where the solver does not say so; ``own_setup`` and
+        ``own_solver``: of set-up and of solving by its own account, ``iterations``:
+        NaN where the solver reports none; ``net``.
     """
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in TEXT}
     for name in FLAGS:
@@ -50,7 +51,7 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
     net = _numbers([row["digits"]["net_wrench"] for row in rows])
     call = _numbers([row["seconds"]["call"] for row in rows])
     columns["solved"] = solved
-    columns["asked"] = columns["outcome"] != NOT_RUN
+    columns["called"] = columns["outcome"] != NOT_RUN
     columns["digits"] = np.where(solved & np.isfinite(digits), digits, 0.0)
     columns["net"] = np.where(solved & np.isfinite(net), net, 0.0)
     columns["seconds"] = np.where(solved & np.isfinite(call), call, limit)
@@ -77,19 +78,20 @@ def chosen(columns: Columns, where: Where) -> Columns:
 
 
 def common(columns: Columns, by: Sequence[str] = ("label",)) -> Columns:
-    """The rows on problems that everybody was asked on.
+    """The rows on the problems that every solver was run on.
 
     Parameters
     ----------
     columns : mapping of str to ndarray
     by : sequence of str
-        What tells one from another. Those who were asked nothing at all are left out; what a
-        budget did not reach is not solved, so that it costs its own solver and no other.
+        The fields that distinguish one solver from another. A solver without any call is left
+        out; a call that a budget did not reach counts as not solved, which costs its own solver
+        and no other.
     """
     if not size(columns):
         return columns
     one = _numbered(columns, by)
-    columns = _kept(columns, np.isin(one, one[columns["asked"]]))
+    columns = _kept(columns, np.isin(one, one[columns["called"]]))
     if not size(columns):
         return columns
     _, unit = np.unique(columns["unit"], return_inverse=True)
@@ -110,7 +112,7 @@ def groups(columns: Columns, by: Sequence[str]) -> Iterator[tuple[tuple[str, ...
 
 
 def matrix(columns: Columns, name: str, labels: Sequence[str]) -> np.ndarray:
-    """One field, a row for each solver and a column for each problem that all were asked on.
+    """One field, a row for each solver and a column for each problem that all were run on.
 
     Parameters
     ----------

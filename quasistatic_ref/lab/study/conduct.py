@@ -136,7 +136,7 @@ def conduct(
     left = _left(work, queues)
     under_way: dict[Future[list[Row]], str] = {}
     total = len(work.todo)
-    with progress_bar(total=total, unit="call", words="asked", shown=work.progress) as bar:
+    with progress_bar(total=total, unit="call", words="calls made", shown=work.progress) as bar:
         try:
             while queues or under_way:
                 idle = {n: q for n, q in queues.items() if n not in under_way.values()}

@@ -10,6 +10,8 @@ from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.backends import BACKENDS
 
 CPU = Path("/sys/devices/system/cpu/cpu0")
+UNKNOWN = "unknown"
+"""What stands for a fact that the system does not report."""
 
 
 def machine() -> dict[str, object]:
@@ -18,7 +20,7 @@ def machine() -> dict[str, object]:
         "processor": _processor(),
         "cores": os.cpu_count(),
         "caches": _caches(),
-        "governor": _read(CPU / "cpufreq" / "scaling_governor") or "not told",
+        "governor": _read(CPU / "cpufreq" / "scaling_governor") or UNKNOWN,
         "memory [GB]": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "system": f"{platform.system()} {platform.release()}",
         "python": platform.python_version(),
@@ -58,7 +60,7 @@ def _caches() -> str:
     for folder in sorted((CPU / "cache").glob("index*")):
         kind = _read(folder / "type").lower().replace("unified", "")
         found.append(f"L{_read(folder / 'level')} {kind}".strip() + f" {_read(folder / 'size')}")
-    return ", ".join(found) or "not told"
+    return ", ".join(found) or UNKNOWN
 
 
 def _processor() -> str:

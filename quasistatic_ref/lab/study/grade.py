@@ -31,7 +31,7 @@ SLACK = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Exam:
-    """A problem prepared for asking and grading.
+    """A problem prepared for calls and their grading.
 
     Parameters
     ----------
@@ -66,13 +66,13 @@ def exam(problem: Problem) -> Exam:
     return Exam({"raw": problem.form, "natural": natural}, units, answer, norm, free)
 
 
-def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[str, Any]:
+def grades(paper: Exam, units: str, reply: Reply, promised: float) -> dict[str, Any]:
     """Outcome, claims, digits, residuals of one reply, as fields of a row.
 
     Parameters
     ----------
     paper : Exam
-    asked_in : str
+    units : str
         ``"raw"`` or ``"natural"``.
     reply : Reply
     promised : float
@@ -82,12 +82,12 @@ def grades(paper: Exam, asked_in: str, reply: Reply, promised: float) -> dict[st
     -------
     dict
     """
-    outcome, x, lam = _usable(paper.forms[asked_in], reply)
+    outcome, x, lam = _usable(paper.forms[units], reply)
     row = ungraded(outcome, reply.status, reply.call_seconds, isinstance(paper.answer, Truth))
     with np.errstate(all="ignore"):
         if x is not None:
-            row["residuals"] = _residuals(paper.forms[asked_in], x, lam)
-            if asked_in == "raw":
+            row["residuals"] = _residuals(paper.forms[units], x, lam)
+            if units == "raw":
                 x = x / (paper.units.size * paper.units.coordinate)
                 lam = None if lam is None else lam * (paper.units.length / paper.units.size)
             if isinstance(paper.answer, Truth):

@@ -20,7 +20,7 @@ from quasistatic_ref.lab.study.page import (
     options_words,
     percent,
 )
-from quasistatic_ref.lab.study.solver_tables import asked_names, asked_of, same_problems
+from quasistatic_ref.lab.study.solver_tables import same_problems, solver_cells, solver_headings
 from quasistatic_ref.lab.study.statistics import (
     SHIFT,
     interval,
@@ -116,7 +116,7 @@ def soonest_table(
         shares = interval(100 * resampled(good.astype(float), families))
         logs = resampled(np.log(one.times + SHIFT), families)
         span = interval(np.exp(logs) - SHIFT)
-        cells = [*asked_of(one.rows), one.setting]
+        cells = [*solver_cells(one.rows), one.setting]
         if options is not None:
             own = options[str(one.rows["way"][0])][one.setting]
             cells.append(f"`{options_words(own, LIMITS)}`")
@@ -135,7 +135,7 @@ def soonest_table(
         ]
         rows.append(tuple(cells))
     least = found[0].least if found else 0
-    first = asked_names(found[0].rows) if found else ("solver", "interface")
+    first = solver_headings(found[0].rows) if found else ("solver", "interface")
     names = [*first, "setting", *(["its own options"] if options is not None else [])]
     more = same_problems(found[0].rows) if found else ""
     columns = (

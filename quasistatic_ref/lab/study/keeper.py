@@ -18,7 +18,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study import processes
 from quasistatic_ref.lab.study.grade import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.study.solvers import Setting
-from quasistatic_ref.lab.study.wire import HEAD, Told, Unreadable, from_bytes
+from quasistatic_ref.lab.study.wire import HEAD, Response, Unreadable, from_bytes
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -118,7 +118,7 @@ class Keeper:
         self.seen: set[object] = set()
         """What has been warmed up since the process started."""
 
-    def answer(self, form: StandardForm, request: Request) -> tuple[Told, float]:
+    def answer(self, form: StandardForm, request: Request) -> tuple[Response, float]:
         """What the process says, and the seconds until it did by the clock of this one.
 
         Without those that either of the two waited for a core, if the system tells, but never

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.study.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.qp import Problem, Truth
 from quasistatic_ref.lab.study.solvers import Setting
-from quasistatic_ref.lab.study.wire import Told
+from quasistatic_ref.lab.study.wire import Response
 
 LONG = 2e-3
 """An exchange of calls lasts that long, if `MOST` times the repetitions suffice [s]."""
@@ -54,7 +54,7 @@ class Limits:
 def measured(
     keeper: Keeper, problem: Problem, setting: Setting, units: str, warm: bool, limits: Limits
 ) -> dict[str, Any]:
-    """Ask one solver one problem; whatever it does, fields of a row come back.
+    """Run one solver on one problem; whatever it does, fields of a row come back.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def measured(
             keeper.seen.add(shape)
             seconds["warm_up"] = perf_counter() - begin
         begin = perf_counter()
-        row = _asked(keeper, paper, Request(setting, limits.call, start=start), units, limits)
+        row = _graded(keeper, paper, Request(setting, limits.call, start=start), units, limits)
         memory = None if keeper.pid is None else processes.peak(keeper.pid)
     except Ended as end:
         if seconds["warm_up"] is None and shape not in keeper.seen:
@@ -104,18 +104,18 @@ def measured(
     return row | {"seconds": row["seconds"] | seconds, "memory": memory}
 
 
-def _asked(
+def _graded(
     keeper: Keeper, paper: Exam, request: Request, units: str, limits: Limits
 ) -> dict[str, Any]:
     """The graded row of one call, with the median of the calls after it."""
     form, promised = paper.forms[units], request.setting.promised
-    told, outside = keeper.answer(form, request)
-    if told.ended:
-        outcome = TIMEOUT if told.ended == TIMEOUT else CRASHED
-        raise Ended(outcome, told.reply.status, told.times[-1])
-    row = grades(paper, units, told.reply, promised)
-    row["seconds"]["first"] = told.times[0]
-    if not told.reply.solved and not says_infeasible(told.reply.status):
+    response, outside = keeper.answer(form, request)
+    if response.ended:
+        outcome = TIMEOUT if response.ended == TIMEOUT else CRASHED
+        raise Ended(outcome, response.reply.status, response.times[-1])
+    row = grades(paper, units, response.reply, promised)
+    row["seconds"]["first"] = response.times[0]
+    if not response.reply.solved and not says_infeasible(response.reply.status):
         return row | {"calls": 1}
     again, times, agrees = _timed(keeper, form, request, outside, limits)
     if again.ended:
@@ -123,7 +123,7 @@ def _asked(
     other = grades(paper, units, again.reply, promised)
     row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
     low, call, high = np.percentile(times, [25, 50, 75]).tolist()
-    clocks = {"first": told.times[0], "low": low, "call": call, "high": high}
+    clocks = {"first": response.times[0], "low": low, "call": call, "high": high}
     clocks |= {name: other["seconds"][name] for name in ("setup", "solver")}  # as warm as these
     return row | {"seconds": row["seconds"] | clocks}
 
@@ -140,7 +140,7 @@ def _goodness(row: dict[str, Any]) -> tuple[bool, bool, float]:
 
 def _timed(
     keeper: Keeper, form: Any, request: Request, outside: float, limits: Limits
-) -> tuple[Told, tuple[float, ...], bool]:
+) -> tuple[Response, tuple[float, ...], bool]:
     """Calls in one exchange: the last reply, their times [s], whether the keeper's clock agrees.
 
     Where it does not, each call took its share of the shortest exchange.
@@ -150,9 +150,9 @@ def _timed(
     many = Request(request.setting, request.limit, count, start=request.start)
     shortest = math.inf
     for _ in range(TRIES):
-        told, whole = keeper.answer(form, many)
+        response, whole = keeper.answer(form, many)
         beyond = whole - keeper.exchange
         shortest = min(shortest, beyond)
-        if request.start is not None or borne_out(told.times, beyond):
-            return told, told.times, True
-    return told, (shortest / count,) * count, False
+        if request.start is not None or borne_out(response.times, beyond):
+            return response, response.times, True
+    return response, (shortest / count,) * count, False

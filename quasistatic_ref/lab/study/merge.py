@@ -1,8 +1,8 @@
 """Results of several machines joined into one store, in which the machine is a column.
 
-Times of different machines are compared by nobody's wish alone: each row says where it was made,
-and the report writes the machine behind a solver's name. What cannot be told apart from a mistake,
-such as the same rows given twice, is refused.
+Times of different machines are never mixed unseen: each row says on which machine it was made,
+and the report writes the machine behind a solver's name. What cannot be distinguished from a
+mistake, such as the same rows given twice, is refused.
 """
 
 import os
@@ -72,7 +72,7 @@ def part_read(words: str) -> Part:
     Raises
     ------
     InputError
-        If there is no store of solvers, or one whose problems nobody can compare.
+        If there is no store of solvers, or one whose problems cannot be compared.
     """
     name, _, path = words.rpartition("=")
     folder = Path(path)
@@ -117,12 +117,12 @@ def _check_problems(
 ) -> None:
     stated = study.get("problems", {}).get("sha256")
     if not isinstance(stated, str):
-        raise InputError("does not say which problems it asked", field="problems.sha256")
+        raise InputError("does not say which problems it contains", field="problems.sha256")
     names = {fact["id"] for fact in facts}
     if stranger := next((row["problem"] for row in rows if row["problem"] not in names), None):
-        raise InputError("is asked in a row and not listed", file=folder / FACTS, value=stranger)
+        raise InputError("is in a row and not listed", file=folder / FACTS, value=stranger)
     if (folder / HEADER).exists() and set_record(problems_read(folder))["sha256"] != stated:
-        raise InputError("holds other problems than its study asked", file=folder / NUMBERS)
+        raise InputError("holds other problems than its study", file=folder / NUMBERS)
 
 
 def merged(parts: Sequence[Part], out: str | Path) -> Path:

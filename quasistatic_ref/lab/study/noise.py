@@ -16,7 +16,7 @@ MOST_OF = 90.0
 
 @dataclass(frozen=True)
 class Noise:
-    """How far two askings of the same differ.
+    """How far two measurements of the same call differ.
 
     Parameters
     ----------
@@ -63,13 +63,14 @@ def noise_words(noise: Noise) -> str:
     """The noise as a sentence."""
     if noise.floor is None or noise.call is None:
         return (
-            "Nothing was asked twice, or too little: the noise of these times is not known, and no "
-            "difference is called a tie."
+            "No measurement was repeated, or too few were: the noise of these times is not known, "
+            "and no difference is called a tie."
         )
     return (
-        f"{noise.pairs:,} measurements were made again after all others: one differs from its "
-        f"first by {100 * noise.call:.0f} % (median), the mean of a solver's times by at most "
-        f"{100 * noise.floor:.0f} % for nine solvers of ten. Differences within that are ties."
+        f"{noise.pairs:,} measurements were repeated after all others. The two times of a "
+        f"measurement differ by {100 * noise.call:.0f} % (median), the two mean times of a solver "
+        f"by at most {100 * noise.floor:.0f} % for nine solvers of ten. Solvers that differ by "
+        "less are tied."
     )
 
 

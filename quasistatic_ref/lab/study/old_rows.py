@@ -1,12 +1,13 @@
 """Stores of version 1, read as those of today: what they did not measure is null.
 
 Their rows name the interface ``road``, their times are of one call each, cold, in one fixed order;
-and a false claim that there is no solution, which their own status still tells, counted as a
+and a false claim that there is no solution, which their own status still shows, counted as a
 failure.
 """
 
 from typing import Any
 
+from quasistatic_ref.lab.study.environment import UNKNOWN
 from quasistatic_ref.lab.study.grade import CLOCKS
 from quasistatic_ref.lab.study.infeasibility import says_infeasible
 
@@ -39,11 +40,19 @@ def today_row(row: dict[str, Any]) -> dict[str, Any]:
 
 def today_study(study: dict[str, Any]) -> dict[str, Any]:
     """What ``study.json`` of a store of any version holds, with today's names."""
+    machine = study.get("machine")
+    if isinstance(machine, dict):
+        study = study | {"machine": {k: _known(v) for k, v in machine.items()}}
     solvers = study.get("solvers")
     if study.get("version") != 1 or not isinstance(solvers, list):
         return study
     named = [_renamed(solver) if isinstance(solver, dict) else solver for solver in solvers]
     return study | {"solvers": named}
+
+
+def _known(value: Any) -> Any:
+    """A fact of a machine; what the system did not report was once called "not told"."""
+    return UNKNOWN if value == "not told" else value
 
 
 def _renamed(solver: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ A package needs to import nothing of this one. In its ``pyproject.toml`` it says
     [project.entry-points."quasistatic_ref.solvers"]
     mine = "my_package.qp:solve"
 
-and a study asks ``package:mine``.
+and a study names it ``package:mine``.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def entry_of(name: str) -> EntryPoint:
     Raises
     ------
     InputError
-        If nobody announces it, or several packages do.
+        If no package announces it, or several packages do.
     """
     every = announced()
     if name not in every:

@@ -65,7 +65,7 @@ def plan(study: Study, problems: Sequence[tuple[str, str]]) -> list[Measurement]
     Returns
     -------
     list of Measurement
-        None twice, though several parts may ask for it. After all problems some are asked again,
+        None twice, though several parts may contain it. After all problems some are run again,
         as repetition 1: how much these differ from the first is the noise of the study.
     """
     rng = np.random.default_rng(study.problems.seed)
@@ -88,7 +88,7 @@ def plan(study: Study, problems: Sequence[tuple[str, str]]) -> list[Measurement]
 
 
 def _measurements(part: Part, problem: str, family: str, repetition: int) -> Iterator[Measurement]:
-    """What a part asks of one problem."""
+    """The measurements of a part on one problem."""
     for solver, setting, units, warm in product(part.solvers, part.settings, part.units, part.warm):
         if solver.takes(setting) and (solver.warm or not warm):
             yield Measurement(problem, family, solver, setting, units, warm, repetition)

@@ -51,7 +51,7 @@ def place_tables(study: Mapping[str, Any]) -> tuple[Table, Table]:
 
 
 def old_times(study: Mapping[str, Any]) -> list[str]:
-    """What must be said of the times of a store of version 1."""
+    """The warning about the times of a store of version 1."""
     return _words()["old"] if study.get("version") == 1 else []
 
 
@@ -67,7 +67,7 @@ def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:
-    """What the settings ask for and promise."""
+    """What the settings require and promise."""
     rows = tuple(
         (s["name"], "its own" if s["accuracy"] is None else f"{s['accuracy']:g}",
          f"{s['promised']:g}", "the simulator's" if s["tuned"] else "plain")

@@ -1,4 +1,4 @@
-"""The process of a solver that is asked sequences: it keeps what the step before left.
+"""The process of a solver that is called on sequences: it keeps what the step before left.
 
 Started, watched and ended as :mod:`~quasistatic_ref.lab.study.worker` is.
 """
@@ -8,22 +8,22 @@ from time import perf_counter
 from typing import Any
 
 from quasistatic_ref.lab.study.sessions import Session, modes_of, session_of
-from quasistatic_ref.lab.study.wire import NOTHING, Told
+from quasistatic_ref.lab.study.wire import NOTHING, Response
 from quasistatic_ref.lab.study.worker import Answering, serve
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 
-def asked_in_order(solver: Any, folder: str) -> Answering:
-    """A solver that is asked step after step; a request for no call is told its modes."""
+def called_in_order(solver: Any, folder: str) -> Answering:
+    """A solver that is called step after step; a request for no call gets the solver's modes."""
     modes = ",".join(modes_of(solver.name))
     session: Session | None = None
     before: Reply | None = None
 
-    def answered(form: StandardForm, message: dict[str, Any]) -> Told:
+    def answered(form: StandardForm, message: dict[str, Any]) -> Response:
         nonlocal session, before
         if not message["count"]:
-            return Told(Reply(None, None, False, modes))
+            return Response(Reply(None, None, False, modes))
         if message["first"] or session is None:
             setting = message["setting"]
             session, before = session_of(solver.name, setting.name, setting.accuracy), None
@@ -33,10 +33,10 @@ def asked_in_order(solver: Any, folder: str) -> Answering:
         except Exception as error:  # whatever another package raises
             words = " ".join(f"{type(error).__name__}: {error}".split())[:200]
             before, session = Reply(None, None, False, words), None
-        return Told(before or NOTHING, (perf_counter() - begin,))
+        return Response(before or NOTHING, (perf_counter() - begin,))
 
     return answered
 
 
 if __name__ == "__main__":
-    serve(int(sys.argv[1]), int(sys.argv[2]), asked_in_order)
+    serve(int(sys.argv[1]), int(sys.argv[2]), called_in_order)

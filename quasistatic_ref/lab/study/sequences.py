@@ -1,4 +1,4 @@
-"""Sequences of steps asked in order: from cold, and from what the step before left.
+"""Sequences of steps solved in order: from cold, and from what the step before left.
 
 Each solver has a process of its own, with limits of time and memory: one that hangs, crashes or
 eats memory is started again, cold, at the next step, and costs itself only. What a solver cannot
@@ -31,8 +31,8 @@ WORKER = "quasistatic_ref.lab.study.sequence_worker"
 
 
 @dataclass(frozen=True)
-class Asked:
-    """One problem of a sequence, asked in one way.
+class SequenceRow:
+    """One problem of a sequence, solved in one mode.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class Named:
 
 
 @dataclass(eq=False)
-class _Asker:
+class _Caller:
     """One solver's process, and what is left of its budget [s]."""
 
     keeper: Keeper
@@ -124,7 +124,7 @@ class _Asker:
         try:
             self.keeper.start()
             exchange(self.keeper, form, setting)
-            told, outside = self.keeper.answer(form, Step(setting, limit, first=first))
+            response, outside = self.keeper.answer(form, Step(setting, limit, first=first))
         except InputError as error:  # it could be imported before
             self.left = 0.0
             return Reply(None, None, False, error.problem), CRASHED, 0.0
@@ -136,12 +136,12 @@ class _Asker:
         self.seen.add(shape)
         self.left -= outside
         beyond = outside - self.keeper.exchange
-        seconds = told.times[0] if borne_out(told.times, beyond) else beyond
-        return told.reply, SOLVED if told.reply.solved else FAILED, seconds
+        seconds = response.times[0] if borne_out(response.times, beyond) else beyond
+        return response.reply, SOLVED if response.reply.solved else FAILED, seconds
 
 
 def modes_of(solver: str, folder: str | Path = ".") -> tuple[str, ...]:
-    """The modes in which a solver can be asked; a callable is imported in a process of its own.
+    """The modes in which a solver can be called; a callable is imported in a process of its own.
 
     Parameters
     ----------
@@ -161,10 +161,10 @@ def modes_of(solver: str, folder: str | Path = ".") -> tuple[str, ...]:
     form = StandardForm(one, one[0], one, one[0])
     with Keeper(Named(solver), folder, worker=WORKER) as keeper:
         try:
-            told, _ = keeper.answer(form, Request(Setting("cold", 1.0, 0.0), 1.0, count=0))
+            response, _ = keeper.answer(form, Request(Setting("cold", 1.0, 0.0), 1.0, count=0))
         except Ended as end:
             raise InputError(f"did not say what it takes: {end.words}", value=solver) from None
-    return tuple(told.reply.status.split(","))
+    return tuple(response.reply.status.split(","))
 
 
 def checked(
@@ -183,12 +183,12 @@ def checked(
             raise InputError(f"is none of {', '.join(MODES)}", field="--modes", value=mode)
         for solver, own in found.items():
             if mode not in own:
-                problem = f"cannot be asked of {solver}, which can {', '.join(own)}"
+                problem = f"is no mode of {solver}, which has {', '.join(own)}"
                 raise InputError(problem, field="--modes", value=mode)
     return {solver: tuple(modes or own) for solver, own in found.items()}
 
 
-def asked_in_order(
+def sequence_rows(
     sequences: Mapping[str, Sequence[Member]],
     modes: Mapping[str, Sequence[str]],
     accuracy: float,
@@ -196,8 +196,8 @@ def asked_in_order(
     seed: int = 1,
     limits: Limits = LIMITS,
     folder: str | Path = ".",
-) -> Iterator[Asked]:
-    """Every sequence asked of every solver in its modes.
+) -> Iterator[SequenceRow]:
+    """Every solver run on every sequence, in each of its modes.
 
     Parameters
     ----------
@@ -218,24 +218,24 @@ def asked_in_order(
     rng = np.random.default_rng(seed)
     ways = [(solver, mode) for solver, own in modes.items() for mode in own]
     with contextlib.ExitStack() as stack:
-        askers = {}
+        callers = {}
         for solver in modes:
             keeper = Keeper(Named(solver), folder, limits.memory, WORKER)
-            askers[solver] = _Asker(stack.enter_context(keeper), limits, limits.budget)
+            callers[solver] = _Caller(stack.enter_context(keeper), limits, limits.budget)
         for name, members in sequences.items():
             forms, answers = in_one_unit(members)
             norms = [energy_norm(form.H) for form in forms]
             for i in rng.permutation(len(ways)):
                 solver, mode = ways[i]
                 setting = Setting(mode, accuracy, 0.0)
-                runs = [list(_run(forms, askers[solver], setting)) for _ in range(repetitions)]
+                runs = [list(_run(forms, callers[solver], setting)) for _ in range(repetitions)]
                 for place, (form, exact, norm) in enumerate(
                     zip(forms, answers, norms, strict=True)
                 ):
                     own = [(*run[place], _digits(norm, form, exact, run[place][0])) for run in runs]
                     reply, outcome, _, found = min(own, key=lambda one: (one[0].solved, one[3]))
                     cost = float(np.median([seconds for _, _, seconds, _ in own]))
-                    yield Asked(name, place, solver, mode, outcome, reply.status, found,
+                    yield SequenceRow(name, place, solver, mode, outcome, reply.status, found,
                                 reply.iterations, cost)  # fmt: skip
 
 
@@ -248,12 +248,12 @@ def in_one_unit(members: Sequence[Member]) -> tuple[list[StandardForm], list[Arr
 
 
 def _run(
-    forms: Sequence[StandardForm], asker: _Asker, setting: Setting
+    forms: Sequence[StandardForm], caller: _Caller, setting: Setting
 ) -> Iterator[tuple[Reply, str, float]]:
     """Replies to a sequence, how they ended, and how long each took [s]."""
     first = True
     for place, form in enumerate(forms):
-        found = asker.next(form, setting, first, place)
+        found = caller.next(form, setting, first, place)
         first = found[1] not in (SOLVED, FAILED)  # its process was ended
         yield found
 

@@ -1,8 +1,8 @@
-"""A solver that is asked step after step: what it keeps of the one before.
+"""A solver that is called step after step: what it keeps of the one before.
 
-A simulation asks problems whose g, A and b all change a little; what a solver can keep of the last
-one differs: its point, its point and multipliers, its active set, or its memory and factors only.
-Which of these a solver takes is a fact of its interface.
+A simulation solves problems whose g, A and b all change a little; what a solver can keep of the
+last one differs: its point, its point and multipliers, its active set, or its memory and factors
+only. Which of these a solver takes is a fact of its interface.
 """
 
 import importlib
@@ -20,7 +20,7 @@ from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.step.standard_form import StandardForm
 
 MODES: Final = ("cold", "updates", "primal", "primal-dual", "active set")
-"""Set up anew each time; or from what was left: memory and factors alone, the point, the point
+"""Set up again each time; or from what was left: memory and factors alone, the point, the point
 with its multipliers, the active set."""
 NATIVE: Final = {"daqp": "active set", "osqp": "primal-dual"}
 """What the native adapters keep besides, where they start warm."""
@@ -33,7 +33,7 @@ Session = Callable[[StandardForm, Reply | None], Reply]
 
 
 def modes_of(solver: str) -> tuple[str, ...]:
-    """The modes in which a solver can be asked; a callable is imported to know.
+    """The modes in which a solver can be called; a callable is imported to know.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def modes_of(solver: str) -> tuple[str, ...]:
 
 
 def is_foreign(solver: str) -> bool:
-    """Whether the code of a solver is of somebody who may have written anything into it."""
+    """Whether the code of a solver comes from outside, and may do anything."""
     return ":" in solver and not solver.startswith(QPSOLVERS)
 
 
@@ -105,7 +105,7 @@ def _function(solver: str) -> Callable[..., Any]:
 
 
 class Native:
-    """A native solver that is kept through a sequence, or set up anew in each step.
+    """A native solver that is kept through a sequence, or set up again in each step.
 
     Parameters
     ----------

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
-from quasistatic_ref.lab.study.asked import Asked, asked_in
 from quasistatic_ref.lab.study.columns import (
     chosen,
     columns_of,
@@ -15,6 +14,7 @@ from quasistatic_ref.lab.study.columns import (
     matrix,
     size,
 )
+from quasistatic_ref.lab.study.comparison import Comparison, comparison_of
 from quasistatic_ref.lab.study.headline import WANTED, soonest_table
 from quasistatic_ref.lab.study.judged_tables import (
     claims_sentence,
@@ -76,28 +76,32 @@ def solver_report(
     """
     every = columns_of(rows, study["time_limit"])
     first = chosen(every, {"repetition": 0})
-    asked = asked_in(study, every)
-    columns, noise = asked.columns, asked.noise
+    comparison = comparison_of(study, every)
+    columns, noise = comparison.columns, comparison.noise
     families = list(dict.fromkeys(fact["family"] for fact in facts))
     head = (
         f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
         f"{len(rows):,} measurements."
     )
     if machines := study.get("machines"):
-        head += f" Made on {len(machines)} machines: {', '.join(machines)}; figures: {asked.drawn}."
+        head += f" Made on {len(machines)} machines: {', '.join(machines)}; "
+        head += f"the figures are of {comparison.drawn}."
     heads = [head, *old_times(study), noise_words(noise)]
     options = options_table(study["solvers"])
     sections: dict[str, Sequence[Block]] = {
-        "Time to so many digits": [*heads, *_headline(asked, unreached or {})],
-        "Accuracy and time": _compared(asked),
-        "False claims": [*_claims(asked), *detection(first)],
+        "Time to so many digits": [*heads, *_headline(comparison, unreached or {})],
+        "Accuracy and time": _compared(comparison),
+        "False claims": [*_claims(comparison), *detection(first)],
         "Worst problems": worst_problems(
-            columns, asked.base, [(one.label, one.setting) for one in asked.fastest()], facts
+            columns,
+            comparison.base,
+            [(one.label, one.setting) for one in comparison.fastest()],
+            facts,
         ),
-        "By problem family": _by_family(asked, families),
-        "Units, warm starts, interfaces": _contrasts(asked),
+        "By problem family": _by_family(comparison, families),
+        "Units, warm starts, interfaces": _contrasts(comparison),
         "Set-up, solving, conversion": parts_of_calls(
-            [(one.rows, one.setting) for one in asked.soonest(WANTED[0])], asked.base
+            [(one.rows, one.setting) for one in comparison.soonest(WANTED[0])], comparison.base
         ),
         "How calls ended": [outcome_table(first), *failing_clocks(first)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
@@ -110,26 +114,28 @@ def solver_report(
     return Report(title, tuple(parts))
 
 
-def _headline(asked: Asked, unreached: Mapping[str, str]) -> list[Block]:
-    options = {f"{s['interface']}:{s['name']}": s["options"] for s in asked.study["solvers"]}
+def _headline(comparison: Comparison, unreached: Mapping[str, str]) -> list[Block]:
+    options = {f"{s['interface']}:{s['name']}": s["options"] for s in comparison.study["solvers"]}
     tables = []
     for least in WANTED:
-        told = options if least == WANTED[0] else None
-        tables.append(soonest_table(asked.soonest(least), asked.base, asked.noise, told))
-    there = set(chosen(asked.columns, asked.base)["label"])
+        shown = options if least == WANTED[0] else None
+        tables.append(
+            soonest_table(comparison.soonest(least), comparison.base, comparison.noise, shown)
+        )
+    there = set(chosen(comparison.columns, comparison.base)["label"])
     words = [f"{label} was left out: it {reason}." for label, reason in unreached.items()]
-    if missing := sorted(set(asked.columns["label"]) - there):
+    if missing := sorted(set(comparison.columns["label"]) - there):
         names = f"{', '.join(missing)} {'was' if len(missing) == 1 else 'were'}"
         words.append(
-            f"{names} never asked with {filter_words(asked.base)}, and cannot be compared."
+            f"{names} never run with {filter_words(comparison.base)}, and cannot be compared."
         )
     return [*words, *tables]
 
 
-def _compared(asked: Asked) -> list[Block]:
-    panels, shares, said, best = [], [], [], asked.best()
+def _compared(comparison: Comparison) -> list[Block]:
+    panels, shares, said, best = [], [], [], comparison.best()
     for least in PROFILED:
-        found = {one.label: one for one in asked.soonest(least)}
+        found = {one.label: one for one in comparison.soonest(least)}
         lines = [found[label] for label in best if label in found]
         if not lines:
             continue
@@ -141,44 +147,53 @@ def _compared(asked: Asked) -> list[Block]:
         panels.append({"title": title, "labels": [one.label for one in lines], "ratios": ratios})
         said.append(f"{title}{same_problems(lines[0].rows)}")
     settings = "; ".join(said) + "; each at the setting of the table of that time"
-    profiles = f"{filter_words(asked.base)}; {settings}"
+    profiles = f"{filter_words(comparison.base)}; {settings}"
     said = []
-    for setting in asked.main:
-        own = common(chosen(asked.columns, asked.at(setting)))
+    for setting in comparison.main:
+        own = common(chosen(comparison.columns, comparison.at(setting)))
         labels = [label for (label,), _ in groups(own, ["label"]) if label in best]
         if labels:
             right = matrix(own, "digits", labels)
             of = np.array([[success(d, level) for level in LEVELS] for d in right])
             shares.append({"title": setting, "labels": labels, "shares": of})
             said.append(f"setting = {setting}{same_problems(own)}")
-    rows = f"{filter_words(asked.base)}; {'; '.join(said)}"
+    rows = f"{filter_words(comparison.base)}; {'; '.join(said)}"
     words, levels = "Problems solved to 3, 6 and 9 correct digits.", {"levels": LEVELS}
-    caption = "Performance profiles. Of each solver the interface with the fastest 6 digits."
+    caption = (
+        "Performance profiles, of each solver through the interface with the fastest 6 digits."
+    )
     return [
         _picture("profiles", panels, caption, profiles),
         _picture("success", shares, words, rows, **levels),
-        _against_time(asked, best),
-        *(solver_table(asked.columns, asked.at(setting)) for setting in asked.settings),
+        _against_time(comparison, best),
+        *(
+            solver_table(comparison.columns, comparison.at(setting))
+            for setting in comparison.settings
+        ),
     ]
 
 
 def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any) -> Block:
     """A picture, or a sentence in place of one that would be empty."""
     if not panels:
-        return f"No problem was asked of all solvers: nothing to draw of `{name}`."
+        return (
+            f"There is no problem that all solvers were run on: the figure `{name}` is not drawn."
+        )
     return Picture(name, name, {"panels": panels, **more}, caption, where)
 
 
-def _against_time(asked: Asked, best: Sequence[str]) -> Block:
+def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
-    own_ = {s["name"]: s["accuracy"] is None for s in asked.study["settings"]}
+    own_ = {s["name"]: s["accuracy"] is None for s in comparison.study["settings"]}
     panels, said = [], []
-    for units in sorted(set(asked.columns["units"])):
-        own = common(chosen(asked.columns, {**asked.base, "units": units}), ["label", "setting"])
+    for units in sorted(set(comparison.columns["units"])):
+        own = common(
+            chosen(comparison.columns, {**comparison.base, "units": units}), ["label", "setting"]
+        )
         lines = {
             label: [
                 (own_[s], float(np.median(at["seconds"])), float(np.median(at["digits"])))
-                for s in asked.settings
+                for s in comparison.settings
                 if size(at := chosen(part, {"setting": s}))
             ]
             for (label,), part in groups(own, ["label"])
@@ -187,30 +202,31 @@ def _against_time(asked: Asked, best: Sequence[str]) -> Block:
         if lines:
             panels.append({"title": f"{units} units", "lines": lines})
             said.append(f"units = {units}{same_problems(own)}")
-    where = {name: value for name, value in asked.base.items() if name != "units"}
+    where = {name: value for name, value in comparison.base.items() if name != "units"}
     caption = (
-        "Median digits against median time of a call. A mark is a setting: half filled the "
-        "solver's own, filled the tightest; a line joins the others from loose to tight."
+        "Median digits against median time of a call. Each mark is a setting: half "
+        "filled the solver's own, filled the tightest. A line joins the solver's other settings, "
+        "from loose to tight."
     )
     return _picture("digits_time", panels, caption, f"{filter_words(where)}; {'; '.join(said)}")
 
 
-def _claims(asked: Asked) -> list[Block]:
-    columns = asked.columns
-    promised = {s["name"]: s["promised"] for s in asked.study["settings"]}
+def _claims(comparison: Comparison) -> list[Block]:
+    columns = comparison.columns
+    promised = {s["name"]: s["promised"] for s in comparison.study["settings"]}
     tables = [
-        false_claims(columns, asked.settings, {"units": units, "warm": warm == "True"})
+        false_claims(columns, comparison.settings, {"units": units, "warm": warm == "True"})
         for (units, warm), _ in sorted(groups(columns, ["units", "warm"]), key=lambda one: one[0])
     ]
     return [*claims_sentence(columns), *tables, worst_claims(columns, promised)]
 
 
-def _by_family(asked: Asked, families: Sequence[str]) -> list[Block]:
+def _by_family(comparison: Comparison, families: Sequence[str]) -> list[Block]:
     panels, tables, said = [], [], []
-    for setting in asked.main:
-        where = asked.at(setting)
-        labels, found = family_digits(asked.columns, where, families)
-        more = same_problems(common(chosen(asked.columns, where)))
+    for setting in comparison.main:
+        where = comparison.at(setting)
+        labels, found = family_digits(comparison.columns, where, families)
+        more = same_problems(common(chosen(comparison.columns, where)))
         if not labels:
             continue
         panel = {"labels": labels, "families": families, "digits": found}
@@ -218,19 +234,19 @@ def _by_family(asked: Asked, families: Sequence[str]) -> list[Block]:
         tables.append(family_table(labels, found, where, families, more))
         said.append(f"setting = {setting}{more}")
     caption = "Median digits delivered, by problem family and solver."
-    rows = f"{filter_words(asked.base)}; {'; '.join(said)}"
+    rows = f"{filter_words(comparison.base)}; {'; '.join(said)}"
     return [_picture("families", panels, caption, rows), *tables]
 
 
-def _contrasts(asked: Asked) -> list[Block]:
-    units, cold = {"units": asked.base["units"]}, {"warm": False}
-    columns, ways = (asked.columns, asked.settings), ["label", "setting"]
+def _contrasts(comparison: Comparison) -> list[Block]:
+    units, cold = {"units": comparison.base["units"]}, {"warm": False}
+    columns, ways = (comparison.columns, comparison.settings), ["label", "setting"]
     raw = ("raw", "natural")
     tables = [
         contrast(*columns, "Raw units and natural units.", "units", raw, cold, ways),
         contrast(*columns, "Cold and warm starts.", "warm", (False, True), units, ways, True),
     ]
-    if len(machines := asked.study.get("machines", [])) > 1:
+    if len(machines := comparison.study.get("machines", [])) > 1:
         way, where = ["way", "setting"], units | cold
         tables.append(contrast(*columns, "Machines.", "machine", machines, where, way))
     for one, other in (("qpsolvers", "cvxpy"), ("native", "qpsolvers")):

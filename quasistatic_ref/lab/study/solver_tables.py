@@ -15,7 +15,7 @@ LEVELS = (3.0, 6.0, 9.0)
 """Digits at which success is counted."""
 WORST = 12
 """How many false claims are shown."""
-ASKED_OF_ALL = "; on the {} that all of them were asked on"
+RUN_BY_ALL = "; on the {} that all these solvers were run on"
 
 
 def solver_table(columns: Columns, where: Where) -> Table:
@@ -23,7 +23,7 @@ def solver_table(columns: Columns, where: Where) -> Table:
     own = common(chosen(columns, where))
     rows = [
         (
-            *asked_of(part),
+            *solver_cells(part),
             str(size(part)),
             percent(100 * float(part["solved"].mean())),
             *(percent(success(part["digits"], least)) for least in LEVELS),
@@ -38,26 +38,27 @@ def solver_table(columns: Columns, where: Where) -> Table:
     return Table(
         f"Setting {where['setting']}, {where['units']} units.",
         filter_words(where, same_problems(own)),
-        (*asked_names(columns), "calls", "solved [%]", *(f">= {d:g} digits [%]" for d in LEVELS),
-         "digits, 1st percentile", "digits, median", "digits of the net wrench, median",
-         "time, median [ms]", "time, shifted geometric mean [ms]"),
-        tuple(rows), left=len(asked_names(columns)),
+        (*solver_headings(columns), "calls", "solved [%]",
+         *(f">= {d:g} digits [%]" for d in LEVELS), "digits, 1st percentile",
+         "digits, median", "digits of the net wrench, median", "time, median [ms]",
+         "time, shifted geometric mean [ms]"),
+        tuple(rows), left=len(solver_headings(columns)),
     )  # fmt: skip
 
 
-def asked_names(columns: Columns) -> tuple[str, ...]:
+def solver_headings(columns: Columns) -> tuple[str, ...]:
     """The first columns of tables on solvers: the machine is one where several were merged."""
     return ("solver", "interface", *(("machine",) if columns["machine"].any() else ()))
 
 
-def asked_of(part: Columns) -> list[str]:
+def solver_cells(part: Columns) -> list[str]:
     """What stands in these columns, of rows of one solver."""
-    return [str(part[name][0]) for name in asked_names(part)]
+    return [str(part[name][0]) for name in solver_headings(part)]
 
 
 def same_problems(columns: Columns) -> str:
     """How many problems a comparison is on, as the end of a filter."""
-    return ASKED_OF_ALL.format(f"{len(np.unique(columns['unit'])):,} problems")
+    return RUN_BY_ALL.format(f"{len(np.unique(columns['unit'])):,} problems")
 
 
 def outcome_table(columns: Columns) -> Table:
@@ -86,8 +87,8 @@ def false_claims(columns: Columns, settings: Sequence[str], where: Where) -> Tab
         rows.append((label, *cells))
     units, way = where["units"], "warm" if where["warm"] else "cold"
     return Table(
-        "Said optimal, was wrong + said infeasible, was wrong + wrong multipliers / said optimal: "
-        f"{units} units, {way}.",
+        "False claims of success + false claims of infeasibility + wrong multipliers / all claims "
+        f"of success: {units} units, {way}.",
         filter_words(where),
         ("solver", *settings),
         tuple(rows),
@@ -95,7 +96,7 @@ def false_claims(columns: Columns, settings: Sequence[str], where: Where) -> Tab
 
 
 def worst_claims(columns: Columns, promised: Mapping[str, float]) -> Table:
-    """The false claims that were furthest off, one of each solver, setting, units and warmth.
+    """The false claims with the fewest digits of those promised, one of each kind of call.
 
     Parameters
     ----------
@@ -119,8 +120,9 @@ def worst_claims(columns: Columns, promised: Mapping[str, float]) -> Table:
     )  # fmt: skip
     names = ("solver", "setting", "units", "warm", "problem", "its own status",
              "digits promised", "digits")  # fmt: skip
-    return Table("The false claims that were furthest off, one of each solver, setting, units and "
-                 "warmth.", "wrong = true", names, rows, left=6)  # fmt: skip
+    return Table("The false claims that fall furthest short of the digits promised, one for each "
+                 "solver, setting, units, and warm or cold start.", "wrong = true", names, rows,
+                 left=6)  # fmt: skip
 
 
 def contrast(
@@ -148,7 +150,7 @@ def contrast(
         What a line is about: a solver (``who``), or a solver with its interface (``label``,
         ``way``), and a setting.
     iterations : bool
-        Whether to tell their median.
+        Whether to add columns of the median number of iterations.
     """
     rows = []
     every = dict(groups(chosen(columns, where), ways))
@@ -165,7 +167,7 @@ def contrast(
         cells += [percent(success(p["digits"], 6.0)) for p in parts]
         cells += [milliseconds(float(np.median(p["seconds"]))) for p in parts]
         if iterations:
-            cells += [_median_told(p["iterations"]) for p in parts]
+            cells += [_median_known(p["iterations"]) for p in parts]
         rows.append(tuple(cells))
     names = [filter_words({by: value}) for value in values]
     columns_ = ["solver", "setting", "problems"]
@@ -173,7 +175,7 @@ def contrast(
     columns_ += [f"time, median [ms], {name}" for name in names]
     if iterations:
         columns_ += [f"iterations, median, {name}" for name in names]
-    said = f"; a line is on the problems that both have, {by} aside"
+    said = f"; each line is on the problems with a call at every value of {by}"
     return Table(title, filter_words(where, said), tuple(columns_), tuple(rows), left=2)
 
 
@@ -244,6 +246,6 @@ def _span(values: Sequence[float]) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def _median_told(values: np.ndarray) -> str:
+def _median_known(values: np.ndarray) -> str:
     known = values[np.isfinite(values)]
     return f"{np.median(known):g}" if len(known) else "-"

@@ -31,7 +31,7 @@ class Setting:
 
 
 # By strong convexity ||x - x*||_H^2 <= 2 gap, so that an accuracy of eps promises an error of
-# sqrt(2 eps) in natural units, about half of its digits. Of a default nobody expects fewer than 3.
+# sqrt(2 eps) in natural units, about half of its digits. A default is expected to give at least 3.
 SETTINGS = (
     Setting("default", None, 3.0),
     Setting("low", 1e-3, 1.0),

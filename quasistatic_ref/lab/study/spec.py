@@ -77,9 +77,9 @@ class Part:
     units : tuple of str
     warm : tuple of bool
     every : int
-        3 asks every third problem, in a random order of all families.
+        3 runs every third problem, in a random order of all families.
     again : int
-        10 asks every tenth of these once more, after all others; 0 none.
+        10 runs every tenth of these once more, after all others; 0 none.
     """
 
     solvers: tuple[Solver, ...]

@@ -130,8 +130,9 @@ TABLES = Tables({
                       schema={"type": "array", "items": {"type": "boolean"}}),
         "every": Field("integer", "take the first problem of every so many", default=1, least=1,
                        most=MOST_PROBLEMS),
-        "again": Field("integer", "ask one of so many of these problems again, after all, which "
-                       "measures the noise; 0: none", default=10, least=0, most=MOST_PROBLEMS),
+        "again": Field("integer", "run one of so many of these problems again, after all "
+                       "others, which measures the noise; 0: none", default=10, least=0,
+                       most=MOST_PROBLEMS),
     },
     SWEEPS: {
         **_head("sweep"),

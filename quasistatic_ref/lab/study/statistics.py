@@ -6,7 +6,7 @@ SHIFT = 1e-3
 """Of the shifted geometric mean [s]: what is far faster than that counts alike."""
 
 TICK = 1e-9
-"""Shortest time that a clock tells apart [s]: a call of no time at all took that long."""
+"""Shortest time that a clock distinguishes [s]: a call of no time at all took that long."""
 SAMPLES = 400
 """Of a bootstrap."""
 LOW = 1.0

@@ -51,8 +51,8 @@ def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[
     names = [(key, words) for key, words in MEASURES if any(key in r["measures"] for r in rows)]
     ordered = sorted(rows, key=lambda row: [_sortable(v) for v in row["values"].values()])
     cells = tuple(
-        (*(_told(v) for v in row["values"].values()), row["reason"] or row["outcome"],
-         *(_told(row["measures"].get(key)) for key, _ in names))
+        (*(_cell(v) for v in row["values"].values()), row["reason"] or row["outcome"],
+         *(_cell(row["measures"].get(key)) for key, _ in names))
         for row in ordered
     )  # fmt: skip
     where = f"sweep = {sweep['name']}"
@@ -72,7 +72,7 @@ def _drawn(axes: Sequence[str], rows: Sequence[Row]) -> dict[str, Any]:
     lines: dict[str, list[tuple[Any, float, float]]] = {}
     for row in rows:
         first, *rest = row["values"].values()
-        key = f"{axes[1]} = {_told(rest[0])} {UNITS.get(axes[1], '')}".strip() if rest else ""
+        key = f"{axes[1]} = {_cell(rest[0])} {UNITS.get(axes[1], '')}".strip() if rest else ""
         measures = row["measures"]
         lines.setdefault(key, []).append(
             (first, measures["rotation_deg"], measures["boundary_layer_um"])
@@ -91,7 +91,7 @@ def _sortable(value: object) -> tuple[int, float, str]:
     return (0, float(value), "") if isinstance(value, int | float) else (1, 0.0, str(value))
 
 
-def _told(value: object) -> str:
+def _cell(value: object) -> str:
     if value is None:
         return "-"
     return f"{value:.4g}" if isinstance(value, int | float) else str(value)

@@ -32,7 +32,7 @@ WANTED = 6.0
 """Digits that the time is given for."""
 LIMITS = Limits(0.5, 5.0, 1)
 """A call that takes longer does not deliver: of the problems here most take 1 ms."""
-ASKED = Setting("searched", None, 3.0)
+SEARCHED = Setting("searched", None, 3.0)
 AGAIN = ("time_step/bunny_grasp", "closest_points/bunny_grasp", "bunny_grasp/")
 """Beginnings of the names of problems that come from one run."""
 
@@ -96,15 +96,15 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
         ``module:function``, of solvers that take some options in no other way.
     """
     interface = "callable" if function else "qpsolvers"
-    one = Solver(solver, interface, function or solver, {ASKED.name: options})
-    names = {"family": "", "solver": solver, "interface": interface, "setting": ASKED.name,
+    one = Solver(solver, interface, function or solver, {SEARCHED.name: options})
+    names = {"family": "", "solver": solver, "interface": interface, "setting": SEARCHED.name,
              "units": "natural", "warm": False, "repetition": 0}  # fmt: skip
     late = perf_counter() + PATIENCE * len(problems)
     rows = []
     with Keeper(one) as keeper:
         for p in problems:
             if perf_counter() < late:
-                row = measured(keeper, p, ASKED, "natural", False, LIMITS)
+                row = measured(keeper, p, SEARCHED, "natural", False, LIMITS)
             else:
                 row = ungraded(NOT_RUN, "not run (patience)", None, isinstance(p.answer, Truth))
             rows.append(names | {"problem": p.id} | row)

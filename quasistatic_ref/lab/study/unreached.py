@@ -1,4 +1,4 @@
-"""Solvers of a study that could not be imported: a file beside its rows."""
+"""Solvers of a study that could not be imported: a file next to the rows."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,7 +10,7 @@ UNREACHED = "unreached.json"
 
 
 def unreached_written(folder: Path, reasons: Mapping[str, str]) -> None:
-    """Write which solvers could not be imported, and why; a later run asks them again."""
+    """Write which solvers could not be imported, and why; a later run tries them again."""
     path = folder / UNREACHED
     if reasons:
         text_written(path, json_text(reasons) + "\n")

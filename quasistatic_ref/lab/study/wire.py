@@ -15,7 +15,7 @@ from quasistatic_ref.step.data import Array
 
 HEAD = 1 << 16
 """Largest line of JSON [bytes]."""
-NOTHING = Reply(None, None, False, "not asked")
+NOTHING = Reply(None, None, False, "not called")
 
 
 class Unreadable(Exception):
@@ -23,8 +23,8 @@ class Unreadable(Exception):
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
-    """What a solver's process says of a request.
+class Response:
+    """What a solver's process sends back for a request.
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ class Told:
     ended: str = ""
 
 
-def to_bytes(told: Told, sizes: tuple[int, int]) -> bytes:
+def to_bytes(response: Response, sizes: tuple[int, int]) -> bytes:
     """A message; arrays of other shapes than (n,) and (m,) are sent as their shapes alone."""
-    reply, arrays, shapes = told.reply, [], []
+    reply, arrays, shapes = response.reply, [], []
     for array, size in zip((reply.x, reply.lam), sizes, strict=True):
         shapes.append(None if array is None else list(array.shape)[:8])
         if array is not None and array.shape == (size,):
@@ -51,12 +51,12 @@ def to_bytes(told: Told, sizes: tuple[int, int]) -> bytes:
     head = {
         "shapes": shapes, "solved": bool(reply.solved), "status": reply.status[:1000],
         "iterations": reply.iterations, "own": reply.own, "setup": reply.setup,
-        "times": list(told.times), "ended": told.ended,
+        "times": list(response.times), "ended": response.ended,
     }  # fmt: skip
     return b"\n".join([json.dumps(head).encode(), b"".join(arrays)])
 
 
-def from_bytes(message: bytes, sizes: tuple[int, int]) -> Told:
+def from_bytes(message: bytes, sizes: tuple[int, int]) -> Response:
     """What a message says.
 
     Raises
@@ -79,7 +79,7 @@ def from_bytes(message: bytes, sizes: tuple[int, int]) -> Told:
         iterations = None if head["iterations"] is None else int(head["iterations"])
         reply = Reply(arrays[0], arrays[1], head["solved"] is True, str(head["status"]), iterations,
                       own, times[-1] if times else 0.0, own, setup)  # fmt: skip
-        return Told(reply, times, str(head["ended"]))
+        return Response(reply, times, str(head["ended"]))
     except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
         raise Unreadable from None
 

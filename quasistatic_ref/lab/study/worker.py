@@ -18,11 +18,11 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.calls import Call, Crashed, call_of, on_path
 from quasistatic_ref.lab.study.processes import adopt_orphans
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.lab.study.wire import NOTHING, Told, to_bytes
+from quasistatic_ref.lab.study.wire import NOTHING, Response, to_bytes
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
-Answering = Callable[[StandardForm, dict[str, Any]], Told]
+Answering = Callable[[StandardForm, dict[str, Any]], Response]
 """(program, request) -> what is sent back."""
 KEPT = 2
 """Programs that are kept, as :class:`~.keeper.Keeper` knows."""
@@ -56,8 +56,8 @@ def serve(read: int, write: int, opened: Callable[[Any, str], Answering]) -> Non
         return  # the keeper is gone
 
 
-def asked_one_by_one(solver: Solver, folder: str) -> Answering:
-    """A solver that is asked one problem at a time, and keeps nothing of it."""
+def called_one_by_one(solver: Solver, folder: str) -> Answering:
+    """A solver that is called on one problem at a time, and keeps nothing of it."""
     call = call_of(solver, folder)
     return lambda form, message: _answered(form, solver, call, message)
 
@@ -75,12 +75,12 @@ def _served(inbox: Connection, outbox: Connection, answering: Answering) -> None
         form = forms[message["form"]]
         # A looping solver holds the interpreter; this signal's default action ends the process.
         signal.setitimer(signal.ITIMER_REAL, message["patience"] + GRACE)
-        told = answering(form, message)
-        outbox.send_bytes(to_bytes(told, (len(form.g), len(form.b))))
+        response = answering(form, message)
+        outbox.send_bytes(to_bytes(response, (len(form.g), len(form.b))))
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
-def _answered(form: StandardForm, solver: Solver, call: Call, request: dict[str, Any]) -> Told:
+def _answered(form: StandardForm, solver: Solver, call: Call, request: dict[str, Any]) -> Response:
     limit, start = float(request["limit"]), None
     # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
     if request["g"] is not None:
@@ -96,11 +96,11 @@ def _answered(form: StandardForm, solver: Solver, call: Call, request: dict[str,
             times.append(reply.call_seconds)
     except subprocess.TimeoutExpired:
         late = Reply(None, None, False, f"no answer in {limit:g} s")
-        return Told(late, (perf_counter() - begin,), "timeout")
+        return Response(late, (perf_counter() - begin,), "timeout")
     except Crashed as crash:
-        return Told(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
-    return Told(reply, tuple(times))
+        return Response(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
+    return Response(reply, tuple(times))
 
 
 if __name__ == "__main__":
-    serve(int(sys.argv[1]), int(sys.argv[2]), asked_one_by_one)
+    serve(int(sys.argv[1]), int(sys.argv[2]), called_one_by_one)

@@ -1,4 +1,4 @@
-"""The worst problems of each solver, each with the command that asks it again."""
+"""The worst problems of each solver, each with the command that runs it again."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -26,18 +26,19 @@ def worst_problems(
     ----------
     columns : mapping of str to ndarray
     base : mapping
-        Units and warmth.
+        Units, and warm or cold starts.
     ways : sequence of (str, str)
         Label and setting of each solver.
     facts : sequence of mapping
         ``problems.jsonl``: how far the answer of each problem is known.
     """
     words = (
-        "What to look at first, of each solver at the setting that delivers 6 digits soonest, by "
-        "the interface that does: the calls that missed the most of the digits that are known, and "
-        "of equal ones the slowest. The command asks the problem again, with the same options, and "
-        "says how wrong the answer is; `--store FOLDER` names the folder of this study, which it "
-        "needs for problems and solvers of the study's own."
+        "Each table is of one solver, at the setting and through the interface that deliver 6 "
+        "digits soonest. It lists the calls whose answers miss the most of the known digits; of "
+        "calls that miss equally many, the slowest come first. The command runs the solver on the "
+        "problem again, with the same options, and prints how wrong the answer is; "
+        "`--store FOLDER` names the folder of this study, which the command needs for problems and "
+        "solvers that only this study has."
     )
     known = {fact["id"]: digits_of_error(fact["bound"]) for fact in facts}
     tables = (_table(columns, {**base, "setting": s}, label, known) for label, s in ways)
@@ -73,7 +74,7 @@ def _table(columns: Columns, where: Where, label: str, known: Mapping[str, float
         )
         for i in order
     )  # fmt: skip
-    names = ("problem", "outcome", "its own status", "false claim", "again", "digits",
+    names = ("problem", "outcome", "its own status", "false claim", "command", "digits",
              "digits known", "time [ms]")  # fmt: skip
     title = f"Worst {SHOWN} problems of {label} at {where['setting']}."
     return Table(title, filter_words({**where, "label": label}), names, rows, left=5)

@@ -30,8 +30,8 @@ def windows(
     scenario, run = scenario_run(name, count)
     k = max(pair.k for pair in scenario.pairs)
     taken: list[set[int]] = []
-    for i, asked in enumerate(strides):
-        stride = min(asked, (run.steps - 1) // (LENGTH - 1))
+    for i, wanted in enumerate(strides):
+        stride = min(wanted, (run.steps - 1) // (LENGTH - 1))
         steps = _busiest(run, stride, taken)
         taken.append(set(steps))
         for place, s in enumerate(steps):

@@ -76,7 +76,7 @@ def family_made(
         for name in names:
             yield from windows(name, count=count_steps)
         return
-    asked = dict.fromkeys(FAMILIES, 0) | {family: count}
-    for one in made(TestSet(seed, asked, names), count_steps):
+    counts = dict.fromkeys(FAMILIES, 0) | {family: count}
+    for one in made(TestSet(seed, counts, names), count_steps):
         dial = {"time_step": one.step.h, "closest_points": float(one.k)}.get(family)
         yield replace(one, id=one.id if dial else f"scenarios/{one.id}", family=family, dial=dial)

@@ -44,7 +44,7 @@ def set_identity(source: str) -> dict[str, Any]:
 
 
 def problems_taken(test_set: TestSet) -> list[Problem]:
-    """The problems that a study asks of a set.
+    """The problems that a study takes from a set.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def problems_taken(test_set: TestSet) -> list[Problem]:
         own = [one for one in members if one.facts["family"] == family]
         for one in own:
             if one.facts["kind"] != QP or SPARSE in one.facts["tags"]:
-                words = "has cones or sparse matrices; studies ask dense rows"
+                words = "has cones or sparse matrices; studies contain dense rows only"
                 raise InputError(words, field="problems.families", value=family)
         found += chosen(own, family, count, test_set.most.get(family))
     return [one.problem for one in found]

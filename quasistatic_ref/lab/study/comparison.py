@@ -1,4 +1,4 @@
-"""What a study of solvers asked, and what of it a report compares first."""
+"""The rows of a study of solvers that a report compares first."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,8 +12,8 @@ from quasistatic_ref.lab.study.noise import Noise, noise_of
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
-    """What a study asked, and the calls that are compared first.
+class Comparison:
+    """The rows of a study that a report compares first.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class Asked:
     settings : list of str
         Each solver's own first, then from loose to tight.
     base : mapping
-        The units and warmth that most solvers were asked in.
+        The units, and warm or cold starts, with which most solvers were run.
     noise : Noise
     """
 
@@ -53,7 +53,7 @@ class Asked:
         return sorted(by_solver.values(), key=lambda one: one.mean)
 
     def best(self) -> list[str]:
-        """Their labels."""
+        """The labels of these solvers."""
         return [one.label for one in self.fastest()]
 
     @property
@@ -63,19 +63,19 @@ class Asked:
         return str(names[counts.argmax()])
 
     def at(self, setting: str) -> Where:
-        """The calls at one setting, of those that are compared first."""
+        """The fields of the rows that are compared first, at one setting."""
         return {**self.base, "setting": setting}
 
     @property
     def main(self) -> list[str]:
-        """The settings, at most two, at which most problems were asked."""
+        """The settings, at most two, with the most calls."""
         counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
         two = sorted(self.settings, key=lambda s: -counts[s])[:2]
         return [s for s in self.settings if s in two and counts[s]]
 
 
-def asked_in(study: Mapping[str, Any], every: Columns) -> Asked:
-    """What a store asked.
+def comparison_of(study: Mapping[str, Any], every: Columns) -> Comparison:
+    """The comparison of a store.
 
     Parameters
     ----------
@@ -88,18 +88,18 @@ def asked_in(study: Mapping[str, Any], every: Columns) -> Asked:
     first = chosen(every, {"repetition": 0})
     columns = chosen(first, {"feasible": True})
     columns = columns if size(columns) else first
-    return Asked(study, columns, _settings(study, columns), _widest(columns), noise_of(every))
+    return Comparison(study, columns, _settings(study, columns), _widest(columns), noise_of(every))
 
 
 def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
-    """The settings that were asked, each solver's own first, then from loose to tight."""
-    asked = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
-    asked.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
-    return [s["name"] for s in asked]
+    """The settings in the rows, each solver's own first, then from loose to tight."""
+    found = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
+    found.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
+    return [s["name"] for s in found]
 
 
 def _widest(columns: Columns) -> Where:
-    """The units and warmth that most solvers were asked in: what is compared first."""
+    """The units, and warm or cold starts, with which most solvers were run."""
     every = groups(columns, ["units", "warm"])
     (units, warm), _ = max(every, key=lambda one: (len(set(one[1]["label"])), size(one[1])))
     return {"units": units, "warm": warm == "True"}
