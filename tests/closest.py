@@ -28,7 +28,7 @@ from quasistatic_ref.model.shapes import (
     Cylinder,
     Ellipsoid,
     HalfSpace,
-    Solid,
+    Shape,
     Sphere,
 )
 
@@ -37,7 +37,7 @@ MEETING = 1e-8
 """A distance [m] that the cone program cannot tell from none."""
 
 
-def solids() -> dict[str, Solid]:
+def solids() -> dict[str, Shape]:
     """One of each kind, of sizes that have nothing in common."""
     points = np.random.default_rng(7).normal(size=(30, 3)) * [0.03, 0.04, 0.05]
     return {
@@ -85,12 +85,12 @@ def poses(count: int, seed: int) -> Iterator[tuple[Array, Array]]:
         yield R, t
 
 
-def gap(a: Solid, b: Solid, R: Array, t: Array, n: Array) -> Array:
+def gap(a: Shape, b: Shape, R: Array, t: Array, n: Array) -> Array:
     """Gap between the solids along unit vectors n, shape (N, 3): least of b minus most of a."""
     return n @ t - _most(b, -n @ R) - _most(a, n)
 
 
-def _most(solid: Solid, n: Array) -> Array:
+def _most(solid: Shape, n: Array) -> Array:
     """Support function: the largest n . x over the solid, for each n, shape (N, 3)."""
     axial, radial = n[:, 2], np.hypot(n[:, 0], n[:, 1])
     match solid:
@@ -114,7 +114,7 @@ def _most(solid: Solid, n: Array) -> Array:
             raise AssertionError(solid)
 
 
-def signed_distance(a: Solid, b: Solid, R: Array, t: Array) -> float | None:
+def signed_distance(a: Shape, b: Shape, R: Array, t: Array) -> float | None:
     """Signed distance of b, at pose (R, t) in a's frame, to a; None where nothing is exact."""
     if isinstance(a, HalfSpace) or isinstance(b, HalfSpace):
         if isinstance(a, HalfSpace):
@@ -136,7 +136,7 @@ def signed_distance(a: Solid, b: Solid, R: Array, t: Array) -> float | None:
     return distance if distance > MEETING else None
 
 
-def _corners(solid: Solid) -> tuple[Array | None, float]:
+def _corners(solid: Shape) -> tuple[Array | None, float]:
     """Corners of the core, and the radius of the ball about every point of it."""
     match solid:
         case Box():
@@ -149,7 +149,7 @@ def _corners(solid: Solid) -> tuple[Array | None, float]:
             return None, 0.0
 
 
-def _on_sphere(solid: Solid, centre: Array, radius: float) -> float:
+def _on_sphere(solid: Shape, centre: Array, radius: float) -> float:
     match solid:
         case Sphere():
             return float(np.linalg.norm(centre)) - solid.radius - radius
@@ -248,7 +248,7 @@ def _of_differences(points: Array) -> float:
 _PROBLEMS: dict[tuple[int, int], tuple[cp.Problem, cp.Parameter, cp.Parameter]] = {}
 
 
-def _by_cones(a: Solid, b: Solid, R: Array, t: Array) -> float:
+def _by_cones(a: Shape, b: Shape, R: Array, t: Array) -> float:
     """Distance, at least 0, as a second-order cone program."""
     key = (id(a), id(b))
     if key not in _PROBLEMS:
@@ -267,7 +267,7 @@ def _by_cones(a: Solid, b: Solid, R: Array, t: Array) -> float:
     return float(problem.value) / 10
 
 
-def _membership(solid: Solid, x: cp.Variable) -> list[cp.Constraint]:
+def _membership(solid: Shape, x: cp.Variable) -> list[cp.Constraint]:
     match solid:
         case Box():
             return [cp.abs(x) <= solid.half_extents]

@@ -34,10 +34,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solid_pair import solid_pair
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Solid, Sphere
+from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape, Sphere
 from tests import closest
 
 DIGITS, RADIUS, LAST = 60, arb("1e-4"), arb("1e-13")
@@ -46,7 +45,7 @@ CUTS = 400
 Vector = list[arb]
 
 
-def random_solid(kind: str, random: np.random.Generator, scale: float) -> Solid:
+def random_solid(kind: str, random: np.random.Generator, scale: float) -> Shape:
     """A solid of some kind whose lengths are within a factor of four of a scale [m]."""
     x = scale * np.exp(random.uniform(-0.7, 0.7, size=3))
     match kind:
@@ -66,7 +65,7 @@ def random_solid(kind: str, random: np.random.Generator, scale: float) -> Solid:
 
 
 def random_pose(
-    a: Solid, b: Solid, random: np.random.Generator, scale: float
+    a: Shape, b: Shape, random: np.random.Generator, scale: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Apart, touching or deep; every third pair with parallel axes or faces, or axes that meet."""
     turns = Rotation.create_group("O").as_matrix().round()
@@ -84,7 +83,7 @@ def random_pose(
     return R, (beyond - reach) * way
 
 
-def support(solid: Solid, n: Vector) -> Vector:
+def support(solid: Shape, n: Vector) -> Vector:
     """The farthest point along n in 60 digits."""
     radial = (n[0] * n[0] + n[1] * n[1]).sqrt()
     rim = [n[0] / radial, n[1] / radial] if radial > 0 else [arb(0), arb(0)]
@@ -115,7 +114,7 @@ def support(solid: Solid, n: Vector) -> Vector:
     raise AssertionError(solid)
 
 
-def between(a: Solid, b: Solid, R: list[Vector], t: Vector, n: Vector) -> Vector:
+def between(a: Shape, b: Shape, R: list[Vector], t: Vector, n: Vector) -> Vector:
     """From a's farthest point along n to b's along -n."""
     own = [-sum(R[i][j] * n[i] for i in range(3)) for j in range(3)]
     on_a, on_b = support(a, n), support(b, own)
@@ -123,7 +122,7 @@ def between(a: Solid, b: Solid, R: list[Vector], t: Vector, n: Vector) -> Vector
 
 
 def widest(
-    a: Solid, b: Solid, R: np.ndarray, t: np.ndarray, n: np.ndarray
+    a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, n: np.ndarray
 ) -> tuple[arb, np.ndarray]:
     """The maximum of the gap near n and where it is, by the ellipsoid method in two tangents."""
     turn = [[arb(x) for x in row] for row in R.tolist()]
@@ -162,10 +161,10 @@ def widest(
 
 
 def errors(
-    a: Solid, b: Solid, R: np.ndarray, t: np.ndarray, found: Witness, directions: np.ndarray
+    a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness, directions: np.ndarray
 ) -> dict[str, float]:
     """How wrong an answer is, relative to the pair's size."""
-    size = extent(a) + extent(b) + float(np.abs(t).max())
+    size = a.extent + b.extent + float(np.abs(t).max())
     best, place = widest(a, b, R, t, found.n)
     turn = [[arb(x) for x in row] for row in R.tolist()]
     drops = []

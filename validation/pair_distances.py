@@ -25,7 +25,7 @@ from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import HalfSpace, Solid
+from quasistatic_ref.model.shapes import HalfSpace, Shape
 from tests import closest
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
@@ -37,7 +37,7 @@ are upper bounds: the machine did other work meanwhile.
 """
 
 
-def pair_errors(a: Solid, b: Solid, count: int, seed: int = 0) -> tuple[dict[str, float], int, int]:
+def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str, float], int, int]:
     """Largest errors over some poses, how many were in penetration, how many were refused."""
     random = np.random.default_rng(seed)
     directions = random.normal(size=(4000, 3))

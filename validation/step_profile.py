@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import sys
 
+from quasistatic_ref.lab.study.bench.profile import PARTS, SOLVE, Microseconds, measured, share
 from quasistatic_ref.lab.study.environment import machine
-from quasistatic_ref.lab.validate.paper.profile import PARTS, SOLVE, Microseconds, share
-from quasistatic_ref.lab.validate.paper.step_time import measured
 
 
 def main() -> int:

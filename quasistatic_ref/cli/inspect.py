@@ -11,7 +11,6 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
-from quasistatic_ref.cli.shape_words import shape_words
 from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
@@ -68,7 +67,7 @@ def system_record(system: System) -> dict[str, Any]:
                 "mass": float(system.masses[i]),
                 "inertia": system.inertias[i].tolist(),
                 "shapes": [
-                    {"name": s.name, "kind": type(s.shape).__name__, "size": shape_words(s.shape)}
+                    {"name": s.name, "kind": type(s.shape).__name__, "size": s.shape.words()}
                     for s in system.shapes
                     if s.link == i
                 ],
@@ -109,8 +108,8 @@ def steps_by(scenario: Scenario) -> str:
 def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
     return {
         "name": pair.name,
-        "alpha": shape_words(pair.alpha.shape),
-        "beta": shape_words(pair.beta.shape),
+        "alpha": pair.alpha.shape.words(),
+        "beta": pair.beta.shape.words(),
         "mu_v": pair.mu_v,
         "mu_omega": pair.mu_omega,
         "contacts": pair.n_c,

@@ -9,7 +9,6 @@ coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two
 nothing, until its size is about one; every number below is relative to that size.
 """
 
-from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -18,11 +17,9 @@ import numpy as np
 
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.settle import settled
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.contact.ways_out import gaps, rival_directions
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.convex_mesh import ConvexMesh
-from quasistatic_ref.model.shapes import Box, Ellipsoid, PointCloud, Round, Shape, Solid
+from quasistatic_ref.model.shapes import Shape
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUPPORT, WITNESS
 
@@ -69,7 +66,7 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     ContactError
         If coal has no answer that proves itself.
     """
-    size = extent(a.shape) + extent(b.shape) + float(np.abs(b.t - a.t).max())
+    size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
     scale = 2.0 ** -np.round(np.log2(size))
     here = Placed(_resized(a.shape, scale), a.R, np.zeros(3))
     there = Placed(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
@@ -90,24 +87,9 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
 
 
 @lru_cache(maxsize=256)
-def _resized(shape: Shape, scale: float) -> Solid:
-    """The shape with all lengths multiplied."""
-    match shape:
-        case Round():
-            return type(shape)(scale * shape.radius, scale * shape.half_length)
-        case Box():
-            return Box(scale * shape.half_extents)
-        case Ellipsoid():
-            return Ellipsoid(scale * shape.half_axes)
-        case ConvexMesh():
-            return replace(
-                shape,
-                vertices=scale * shape.vertices,
-                offsets=scale * shape.offsets,
-                volume=scale**3 * shape.volume,
-            )
-        case _:
-            raise ContactError("has no coal object of another size", field="shape")
+def _resized(shape: Shape, scale: float) -> Shape:
+    """The shape with all lengths multiplied; kept, with its coal object."""
+    return shape.resized(scale)
 
 
 def _best(a: Placed, b: Placed, start: Judged) -> Judged:
@@ -122,8 +104,6 @@ def _best(a: Placed, b: Placed, start: Judged) -> Judged:
 
 def _by_coal(a: Placed, b: Placed) -> Judged:
     """The best of coal's answers, with its defect."""
-    assert not isinstance(a.shape, PointCloud)
-    assert not isinstance(b.shape, PointCloud)
     best: Judged | None = None
     for accuracy in ACCURACIES:
         request, result = coal.DistanceRequest(), coal.DistanceResult()

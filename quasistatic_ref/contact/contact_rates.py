@@ -11,7 +11,6 @@ from quasistatic_ref.contact.features import Feature
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.model.motion_rates import crossed
-from quasistatic_ref.model.shapes import Cone, Cylinder
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
@@ -90,9 +89,10 @@ def contact_rates(
 def nearly_level(couple: Couple) -> bool:
     """Whether a contact is on a rim that is level but for more than rounding."""
     for body, end in zip(couple.bodies, couple.points, strict=True):
-        if isinstance(body.shape, Cylinder | Cone):
+        radius = body.shape.rim_radius
+        if radius is not None:
             x, n = body.R.T @ (end - body.t), body.R.T @ couple.n
-            on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * body.shape.radius
+            on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * radius
             if on_rim and SPLIT < np.hypot(*n[:2]) <= LEVEL:
                 return True
     return False

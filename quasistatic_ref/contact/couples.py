@@ -6,15 +6,16 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud_tracker import cloud_tree
-from quasistatic_ref.contact.corners import QUARTERS, corner_count, corners
 from quasistatic_ref.contact.distance import ClosestPoints, placed
 from quasistatic_ref.contact.features import Feature, ball, feature
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.support import extent
-from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, PointCloud, Sphere
+from quasistatic_ref.model.shapes import Cylinder, PointCloud, Sphere
+from quasistatic_ref.model.solids.round import QUARTERS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
+
+Z = np.array([0.0, 0.0, 1.0])
 
 
 class Rim(NamedTuple):
@@ -105,7 +106,7 @@ def _extents(a: Placed, b: Placed) -> tuple[float, float]:
         for body in (a, b)
     ]
     first, second = (
-        extent(body.shape) if box is None else float(np.ptp(box, axis=0).max())
+        body.shape.extent if box is None else float(np.ptp(box, axis=0).max())
         for body, box in zip((a, b), boxes, strict=True)
     )
     return first, second
@@ -140,18 +141,13 @@ def _corner(
             return side, 0.0, None
     if pair.n_c == 1 or index == pair.corners:
         return None
-    first = corner_count(a.shape)
+    first = a.shape.corner_count
     side, k = (0, index) if index < first else (1, index - first)
     shape = (a, b)[side].shape
-    match shape:
-        case Capsule():
-            return side, shape.radius, None
-        case Cylinder():
-            return side, 0.0, Rim(side, k % 4, shape.radius)
-        case Cone() if k > 0:
-            return side, 0.0, Rim(side, (k - 1) % 4, shape.radius)
-        case _:
-            return side, 0.0, None
+    before = shape.corner_count % 4  # its rims come last, with four corners each
+    if shape.rim_radius is not None and k >= before:
+        return side, 0.0, Rim(side, (k - before) % 4, shape.rim_radius)
+    return side, shape.corners(Z)[1], None
 
 
 def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Array | None:
@@ -174,7 +170,7 @@ def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Arra
     """
     own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
     length = np.hypot(*own)
-    first = corners(Cylinder(1.0, 1.0), np.array([*own, 0.0]))[0][0, :2]
+    first = Cylinder(1.0, 1.0).corners(np.array([*own, 0.0]))[0][0, :2]
     if length <= LEVEL:
         return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
     d_first = (d_own - np.outer(first, first @ d_own)) / length

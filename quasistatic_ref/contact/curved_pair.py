@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.polytope import polytope
-from quasistatic_ref.contact.support import support_point, support_value
 from quasistatic_ref.model.shapes import Capsule, Cylinder
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import PROVED
@@ -76,8 +75,8 @@ def _witness(a: Placed, b: Placed) -> Witness | None:
         if not len(phi):
             continue
         # No gap along a normal exceeds the distance: who equals its gap proves itself.
-        reach = support_value(a.shape, -normal @ R) - margin - np.sum(normal * t, axis=1)
-        defect = np.abs(phi + reach + support_value(b.shape, normal))
+        reach = a.shape.support_value(-normal @ R) - margin - np.sum(normal * t, axis=1)
+        defect = np.abs(phi + reach + b.shape.support_value(normal))
         defect = np.maximum(defect, signed_distance(a.shape, (points - t) @ R)[0] + margin)
         defect[phi <= 0] = np.inf
         defect /= np.abs(points).max() + np.abs(t).max()
@@ -163,7 +162,7 @@ def _across(normal: Array, ways: Array) -> Array:
 
 def _towards(b: Placed, ways: Array, offsets: Array) -> Candidates:
     """From planes ways @ x = offsets to the farthest points of a solid towards them."""
-    lowest = np.array([support_point(b.shape, -way) for way in ways])
+    lowest = np.array([b.shape.support_point(-way) for way in ways])
     gap = np.sum(ways * lowest, axis=1) - offsets
     return Candidates(lowest - gap[:, None] * ways, gap, -ways)
 

@@ -13,13 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
-from quasistatic_ref.contact.corners import corners
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import Cone, Cylinder, PlacedShape, PointCloud
+from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import ON_RIM, REPEATED, UPRIGHT
@@ -105,8 +104,8 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
 def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
     """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair."""
     n = nearest.n[0]
-    corners_a, radius_a = corners(a.shape, _towards(a, nearest.alpha[0], n))
-    corners_b, radius_b = corners(b.shape, _towards(b, nearest.beta[0], -n))
+    corners_a, radius_a = a.shape.corners(_towards(a, nearest.alpha[0], n))
+    corners_b, radius_b = b.shape.corners(_towards(b, nearest.beta[0], -n))
     on_b = _points_on_solid(b, a, corners_a, radius_a).swapped()
     on_a = _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a))
     return joined([on_b, on_a, nearest])
@@ -119,12 +118,11 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
     contact the normal is what is left of a difference.
     """
     local, way = body.R.T @ (nearest - body.t), body.R.T @ n
-    match body.shape:
-        case Cylinder(radius=radius) | Cone(radius=radius):
-            on_rim = np.hypot(*local[:2]) >= (1 - ON_RIM) * radius
-            return local if on_rim and np.hypot(*way[:2]) > UPRIGHT else way
-        case _:
-            return way
+    radius = body.shape.rim_radius
+    if radius is None:
+        return way
+    on_rim = np.hypot(*local[:2]) >= (1 - ON_RIM) * radius
+    return local if on_rim and np.hypot(*way[:2]) > UPRIGHT else way
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:

@@ -12,7 +12,6 @@ import numpy as np
 
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.polytope import polytope
-from quasistatic_ref.contact.support import support_point
 from quasistatic_ref.model.shapes import Capsule, Cone, Cylinder, Ellipsoid, Shape
 from quasistatic_ref.step.data import Array
 
@@ -59,6 +58,11 @@ def kinks(shape: Shape) -> Kinks:
     Parameters
     ----------
     shape : any bounded solid other than a sphere
+
+    Raises
+    ------
+    ContactError
+        If its faces are not known.
     """
     z, none = np.array([[0.0, 0.0, 1.0]]), np.zeros((0, 3))
     match shape:
@@ -72,7 +76,8 @@ def kinks(shape: Shape) -> Kinks:
             slant = np.hypot(shape.radius, 2 * shape.half_length)
             return Kinks(z, np.array([shape.radius / slant]), -z)
     flat = polytope(shape)
-    assert flat is not None
+    if flat is None:
+        raise shape.lacks("has no known faces")
     ways = flat.vertices[flat.edges[:, 1]] - flat.vertices[flat.edges[:, 0]]
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
     return Kinks(ways, np.zeros(len(ways)), flat.normals)
@@ -116,7 +121,7 @@ def curvature(solid: Placed, n: Array) -> Array:
         case Cylinder() | Cone():
             radial = np.hypot(own[0], own[1])
             # Of a cone the very point that is taken for farthest decides, not another rounding.
-            on_rim = isinstance(shape, Cylinder) or support_point(shape, own)[2] < 0
+            on_rim = isinstance(shape, Cylinder) or shape.support_point(own)[2] < 0
             around = np.array([-own[1], own[0], 0.0]) / (radial or 1.0)
             D = shape.radius * on_rim / (radial or np.inf) * np.outer(around, around)
         case _:

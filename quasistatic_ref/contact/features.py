@@ -17,7 +17,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.polytope import Polytope, polytope
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import (
     Box,
@@ -79,6 +78,11 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
     shape : any shape
     x, n : ndarray, shape (3,)
         Point [m] and outward normal [-].
+
+    Raises
+    ------
+    ContactError
+        If the shape has no derivatives.
     """
     match shape:
         case PointCloud():
@@ -100,7 +104,9 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         case ConvexMesh():
             flat = polytope(shape)
             assert flat is not None
-            return _of_polytope(flat, x, n, ON_RIM * extent(shape))
+            return _of_polytope(flat, x, n, ON_RIM * shape.extent)
+        case _:
+            raise shape.lacks("has no derivatives")
 
 
 def _of_box(box: Box, x: Array, n: Array) -> Feature:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.contact.corners import corner_count
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
@@ -76,7 +75,7 @@ class ContactPair(Plain):
     @property
     def corners(self) -> int:
         """Number of corners of both shapes: the candidates other than the closest pair."""
-        return corner_count(self.alpha.shape) + corner_count(self.beta.shape)
+        return self.alpha.shape.corner_count + self.beta.shape.corner_count
 
     @property
     def candidates(self) -> int:

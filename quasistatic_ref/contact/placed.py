@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-from quasistatic_ref.contact.support import support_point, support_value
 from quasistatic_ref.model.shapes import Shape
 from quasistatic_ref.step.data import Array
 
@@ -16,11 +15,11 @@ class Placed(NamedTuple):
 
     def farthest(self, direction: Array) -> Array:
         """The farthest point along a direction, shape (3,) [m]; both in the world frame."""
-        return self.R @ support_point(self.shape, self.R.T @ direction) + self.t
+        return self.R @ self.shape.support_point(self.R.T @ direction) + self.t
 
     def reach(self, directions: Array) -> Array:
         """How far it reaches along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
-        return support_value(self.shape, directions @ self.R) + directions @ self.t
+        return self.shape.support_value(directions @ self.R) + directions @ self.t
 
 
 class Witness(NamedTuple):

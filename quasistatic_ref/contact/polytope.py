@@ -8,10 +8,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import distance_to_rounded_box, rounded_box, signed_distance
-from quasistatic_ref.contact.corners import corners
+from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
+from quasistatic_ref.model.solids.rounded import distance_to_rounded_box
 from quasistatic_ref.step.data import Array, Indices
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -56,7 +56,7 @@ class Polytope:
     def core_distance(self, points: Array) -> tuple[Array, Array]:
         """Signed distance and normal of points, in the shape's own frame, to the core."""
         if isinstance(self.shape, Capsule):
-            return distance_to_rounded_box(points, rounded_box(self.shape)[0])
+            return distance_to_rounded_box(points, self.shape.core[0])
         return signed_distance(self.shape, points)
 
 
@@ -65,7 +65,7 @@ def polytope(shape: Shape) -> Polytope | None:
     """The polytope that a shape is, in its own frame; None where it is none."""
     match shape:
         case Capsule():
-            ends, radius = corners(shape, UP)
+            ends, radius = shape.corners(UP)
             angle = 2 * np.pi / 3 * np.arange(3)
             around = np.stack([np.cos(angle), np.sin(angle), np.zeros(3)], axis=1)
             sides = np.array([[0, 1], [1, 2], [2, 0]])
@@ -88,7 +88,7 @@ def _box(box: Box) -> Polytope:
         for corner in np.flatnonzero(bits[:, axis] == 0):
             edges.append((corner, corner | 1 << axis))
             sides.append([a if bits[corner, a] else a + 3 for a in (first, second)])
-    vertices, margin = corners(box, UP)
+    vertices, margin = box.corners(UP)
     offsets = np.tile(box.half_extents, 2)
     return Polytope(box, margin, vertices, normals, offsets, np.array(edges), np.array(sides))
 

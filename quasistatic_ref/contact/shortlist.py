@@ -10,7 +10,6 @@ import numpy as np
 from quasistatic_ref.contact.ball_tree import BallTree
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.support import support_value
 from quasistatic_ref.model.shapes import HalfSpace, Shape
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.tolerances import UNSEEN
@@ -57,7 +56,7 @@ def reach(shape: Shape, n: Array) -> float:
     """
     if isinstance(shape, HalfSpace):
         return shape.offset
-    return float(support_value(shape, n[None])[0])
+    return float(shape.support_value(n[None])[0])
 
 
 def size(shape: Shape) -> float:

@@ -4,14 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import (
-    Rounded,
-    distance_to_rounded_box,
-    rounded_box,
-    signed_distance,
-)
-from quasistatic_ref.contact.hull import dot
+from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.model.shapes import HalfSpace, Shape
+from quasistatic_ref.model.solids.hull import dot
+from quasistatic_ref.model.solids.rounded import Rounded, distance_to_rounded_box
 from quasistatic_ref.step.data import Array
 
 
@@ -39,7 +35,7 @@ class SolidRows:
 
     def __init__(self, shapes: Sequence[Shape], W: int) -> None:
         ranks = [_rank(shape) for shape in shapes]
-        cores = [rounded_box(s) for s in shapes if isinstance(s, Rounded)]
+        cores = [s.core for s in shapes if isinstance(s, Rounded)]
         walls = [s for s in shapes if isinstance(s, HalfSpace)]
         first, second = len(cores) * W, (len(cores) + len(walls)) * W
         self.boxes, self.planes = slice(0, first), slice(first, second)

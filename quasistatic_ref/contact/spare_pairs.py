@@ -11,7 +11,6 @@ import numpy as np
 
 from quasistatic_ref.certify import reason
 from quasistatic_ref.contact.contact_rates import couple_rates, merged_features
-from quasistatic_ref.contact.corners import corner_count
 from quasistatic_ref.contact.couples import Couple, closest_pair
 from quasistatic_ref.contact.distance import ClosestPoints, with_corners
 from quasistatic_ref.contact.faces import face
@@ -51,7 +50,7 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
     every = with_corners(a, b, one)
     level = every.phi <= found.phi + REPEATED
-    first = corner_count(a.shape)
+    first = a.shape.corner_count
     counts = int(level[:first].sum()), int(level[first:-1].sum())
     for body, way, count in ((a, found.n, counts[0]), (b, -found.n, counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)

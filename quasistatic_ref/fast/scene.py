@@ -4,13 +4,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.batch import bounds
-from quasistatic_ref.contact.cloud import Rounded, rounded_box
 from quasistatic_ref.contact.cloud_tracker import CloudTracker
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.fast.library import library
 from quasistatic_ref.fast.poses import Poses
 from quasistatic_ref.fast.structure import Structure
 from quasistatic_ref.model import shapes
+from quasistatic_ref.model.solids.rounded import Rounded
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.friction import cone_function, cone_matrix
 from quasistatic_ref.step.posed import Constants
@@ -162,7 +162,7 @@ def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:
             return CYLINDER, [shape.radius, shape.half_length, 0.0, 0.0]
         case _:
             assert isinstance(shape, Rounded)
-            half_extents, ball = rounded_box(shape)
+            half_extents, ball = shape.core
             return ROUNDED_BOX, [*half_extents.tolist(), ball]
 
 

@@ -4,7 +4,6 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.model import shapes
-from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.step.data import Array, Indices
 
 AROUND, UP = 48, 25
@@ -19,33 +18,7 @@ def surface_points(placed: shapes.PlacedShape, around: int = AROUND, up: int = U
 
     A half-space has none: see :func:`patch`.
     """
-    shape = placed.shape
-    if isinstance(shape, shapes.PointCloud):
-        return shape.points
-    if isinstance(shape, ConvexMesh):
-        return shape.vertices
-    if isinstance(shape, shapes.Box):
-        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
-        return np.asarray(signs * shape.half_extents)
-    if isinstance(shape, shapes.HalfSpace):
-        return np.zeros((0, 3))
-    angle = np.linspace(0, 2 * np.pi, around)
-    circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(around)], axis=1)
-    if isinstance(shape, shapes.Cylinder | shapes.Cone):
-        end = np.array([0, 0, shape.half_length])
-        top = end[None] if isinstance(shape, shapes.Cone) else shape.radius * circle + end
-        return np.concatenate([shape.radius * circle - end, top])
-    azimuth, height = np.meshgrid(angle, np.linspace(-1, 1, up))
-    r = np.sqrt(1 - height**2)
-    ball = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1).reshape(-1, 3)
-    if isinstance(shape, shapes.Ellipsoid):
-        return np.asarray(ball * shape.half_axes)
-    points = np.asarray(shape.radius * ball)
-    if isinstance(shape, shapes.Capsule):
-        end = np.array([0, 0, shape.half_length])
-        return np.concatenate([points + end, points - end])
-    assert isinstance(shape, shapes.Sphere)
-    return points
+    return placed.shape.surface(around, up)
 
 
 def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:

@@ -1,6 +1,6 @@
 """Convex polytopes: the hull of a mesh's vertices, and how far the mesh is from being it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.frozen import freeze_array
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.model.solids.hull import distance_to_hull
+from quasistatic_ref.model.solids.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.tolerances import CONVEX
 
@@ -19,7 +20,7 @@ BLOCK = 1 << 22
 
 
 @dataclass(frozen=True, eq=False)
-class ConvexMesh(Plain):
+class ConvexMesh(Shape):
     """A convex polytope; made by :func:`convex_hull` or :func:`hull_of_mesh`.
 
     Parameters
@@ -64,6 +65,37 @@ class ConvexMesh(Plain):
         points.extend(list(self.vertices))
         polygons.extend([coal.Triangle(*map(int, corners)) for corners in self.triangles])
         return coal.Convex(points, polygons)
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], to planes inside and to triangles outside."""
+        return distance_to_hull(points, self)
+
+    def support_point(self, direction: Array) -> Array:
+        """The first vertex farthest along a `direction`; both of shape (3,), [m] and [-]."""
+        return np.asarray(self.vertices[(self.vertices @ direction).argmax()])
+
+    def support_value(self, directions: Array) -> Array:
+        """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
+        return np.asarray((directions @ self.vertices.T).max(axis=1))
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
+        return self.vertices, 0.0
+
+    def resized(self, scale: float) -> "ConvexMesh":
+        """All lengths by a scale [-]."""
+        vertices, offsets = scale * self.vertices, scale * self.offsets
+        return replace(self, vertices=vertices, offsets=offsets, volume=scale**3 * self.volume)
+
+    def surface(self, around: int, up: int) -> Array:
+        """Its vertices, shape (V, 3) [m]."""
+        return self.vertices
+
+    def words(self) -> str:
+        """Kind, number of corners, and the edges of the box about them [m]."""
+        extent = lengths(np.ptp(self.vertices, axis=0))
+        what = "convex mesh" if self.is_convex else "convex hull of a mesh"
+        return f"{what}, {len(self.vertices)} corners within {extent}"
 
 
 def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:

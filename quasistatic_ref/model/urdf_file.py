@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files import bytes_read, text_of
-from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Solid, Sphere
+from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.model.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf_xml import Tag, xml_root
 from quasistatic_ref.quoting import suggestion
@@ -57,7 +57,7 @@ class FileLink:
         Centre of mass in the link's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of (Solid or FileMesh, R (3, 3), t (3,))
+    collisions : tuple of (Shape or FileMesh, R (3, 3), t (3,))
         Each shape and its frame in the link's [m].
     defect : Defect or None
         What makes its inertia that of no body; it only matters where something un-actuated
@@ -68,7 +68,7 @@ class FileLink:
     mass: float
     com: Array
     inertia: Array
-    collisions: tuple[tuple[Solid | FileMesh, Array, Array], ...]
+    collisions: tuple[tuple[Shape | FileMesh, Array, Array], ...]
     defect: Defect | None = None
 
 
@@ -187,7 +187,7 @@ def inertia_defect(inertia: Array) -> Defect | None:
     return None
 
 
-def _geometry(collision: Tag) -> Solid | FileMesh:
+def _geometry(collision: Tag) -> Shape | FileMesh:
     geometry = collision.child("geometry")
     tags = [child.tag for child in geometry.element]
     if len(tags) != 1:

@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.mesh_files import hull_note, hull_of_loaded, mesh_path
-from quasistatic_ref.model.shapes import PlacedShape, Solid
+from quasistatic_ref.model.shapes import PlacedShape, Shape
 from quasistatic_ref.model.urdf_file import FileMesh, UrdfFile
 from quasistatic_ref.model.urdf_xml import xml_root
 from quasistatic_ref.step.arrays import Array
@@ -84,7 +84,7 @@ def same_pose(placement: Any, R: Array, t: Array) -> bool:
     return not (off or np.abs(placement.rotation - R).max() > LOADED)
 
 
-def _solid(shape: Solid | FileMesh, given: Any, where: str) -> Any:
+def _solid(shape: Shape | FileMesh, given: Any, where: str) -> Any:
     """The shape, or None where another one was loaded."""
     if not isinstance(shape, FileMesh):
         same = (given.meshScale == 1).all() and given.geometry == shape.coal

@@ -13,6 +13,7 @@ from quasistatic_ref.schema import json_schema
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
+from quasistatic_ref.simulate.world_solids import SOLIDS
 from quasistatic_ref.solve.engines import ENGINES
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import CONES, PYRAMID
@@ -23,19 +24,9 @@ MOST_STEPS = 10_000_000
 TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
 BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
 SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
-SOLIDS = ("halfspace", "box", "sphere", "cylinder", "capsule", "cone", "ellipsoid", "mesh")
 NUMBER, TEXT = {"type": "number"}, {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
-
-
-def _length(says: str) -> Field:
-    return Field("number", says, "m", above=0.0)
-
-
-_SIZE = Field("three numbers", "edges, or axes, along x, y, z", "m",
-              schema={"items": {"minimum": 0, "exclusiveMinimum": True}})  # fmt: skip
-_ROUND = {"radius": _length("radius"), "length": _length("length along z, without caps")}
 _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
 _SIDE = {"anyOf": [TEXT, {"type": "array", "items": TEXT, "minItems": 1}]}
 _NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of links (hand/*)"
@@ -127,21 +118,7 @@ TABLES = Tables({
         "pose": Field("table", "where it stands", default={}, of=POSE),
         **{kind: Field("table", f"a {kind}", default=None, of=kind) for kind in SOLIDS},
     },
-    "halfspace": {
-        "normal": Field("three numbers", "out of the solid, of any length", "-"),
-        "offset": Field("number", "of the plane along the normal", "m", 0.0),
-    },
-    "box": {"size": _SIZE},
-    "sphere": {"radius": _ROUND["radius"]},
-    "cylinder": _ROUND,
-    "capsule": _ROUND,
-    "cone": _ROUND,
-    "ellipsoid": {"size": _SIZE},
-    "mesh": {
-        "file": Field("text", "file in the scenario's folder, whose convex hull is taken"),
-        "scale": Field("three numbers", "along x, y, z; not 0", "-", (1.0, 1.0, 1.0),
-                       schema={"items": {"not": {"enum": [0]}}}),
-    },
+    **{kind: dict(one.fields) for kind, one in SOLIDS.items()},
     CONTACT: {
         "alpha": Field("name or names", _NAMES, schema=_SIDE),
         "beta": Field("name or names", "the same; normals point towards it", schema=_SIDE),

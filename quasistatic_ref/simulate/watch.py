@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
@@ -63,7 +62,7 @@ def _table(pair: ContactPair) -> str:
 
 def _size(shapes: Iterable[PlacedShape]) -> list[float]:
     """Extents [m] of those shapes that have one: neither half-spaces nor single points."""
-    extents = [extent(placed.shape) for placed in shapes]
+    extents = [placed.shape.extent for placed in shapes]
     return [x for x in extents if 0 < x < np.inf]
 
 
@@ -173,7 +172,7 @@ def doubtful_units(scene: Scene) -> Iterator[str]:
     system, pairs = scene
     shapes = [*system.shapes, *(side for pair in pairs for side in (pair.alpha, pair.beta))]
     modelled = {p.name: p.shape for p in shapes if isinstance(p.shape, PointCloud | ConvexMesh)}
-    long = {name: x for name, shape in modelled.items() if (x := extent(shape)) > IN_METRES}
+    long = {name: x for name, shape in modelled.items() if (x := shape.extent) > IN_METRES}
     if long:
         name = max(long, key=long.__getitem__)
         others = f" ({len(long) - 1} more are as suspect)" if len(long) > 1 else ""

@@ -25,7 +25,7 @@ from quasistatic_ref.lab.examples import (
 )
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.lab.validate.paper import step_time
+from quasistatic_ref.lab.study.bench import profile
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
@@ -49,7 +49,7 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
     monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
-    monkeypatch.setattr(step_time, "STEPS", 20)
+    monkeypatch.setattr(profile, "STEPS", 20)
 
 
 @pytest.fixture(autouse=True)

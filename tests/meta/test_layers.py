@@ -86,6 +86,11 @@ PLANTED = {
         "from quasistatic_ref.solve.solve import solve_step",
         "closed to lab/figures",
     ),
+    "a claim in an example": (
+        "lab/examples/a.py",
+        "from quasistatic_ref.lab.validate.paper.grasp import evidence",
+        "closed to lab/examples",
+    ),
     "flint in solve": ("solve/a.py", "from flint import fmpq", "imports flint"),
 }
 

@@ -16,8 +16,8 @@ from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import slope
+from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
-from quasistatic_ref.lab.validate.paper.contact_geometry import geometry
 from quasistatic_ref.model.shapes import HalfSpace, PlacedShape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array

@@ -14,8 +14,7 @@ import numpy as np
 from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.scenes.slider import GYRATION, H
-from quasistatic_ref.lab.validate.closed_forms.planar_push import RADII, SPEEDS, turns
+from quasistatic_ref.lab.scenes.slider import GYRATION, RADII, SPEEDS, H, turns
 from quasistatic_ref.step.data import Array
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.validate.paper.step_time import measured
+from quasistatic_ref.lab.study.bench.profile import measured
 
 
 def main() -> Numbers:

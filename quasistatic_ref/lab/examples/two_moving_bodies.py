@@ -17,8 +17,8 @@ from quasistatic_ref.figures.legible import DRAWING
 from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
-from quasistatic_ref.lab.validate.paper.contact_geometry import geometry
 from quasistatic_ref.model.motion import cross_matrix
 from quasistatic_ref.model.shapes import Box, Sphere
 from quasistatic_ref.model.system import Kinematics

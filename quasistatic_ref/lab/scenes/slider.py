@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
@@ -17,6 +18,11 @@ TILT: Final = 0.2
 
 MU_PUSHER: Final = 1.0
 """Friction of a sticking pusher [-]; it holds up to an angle of pi / 4."""
+
+
+RADII = (0.02, GYRATION, 0.045)
+SPEEDS = np.geomspace(1e-3, 3.0, 9)
+"""mu_omega / mu_v [m] and quasi-dynamic numbers [-] at which it turns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,3 +159,14 @@ def push_step(of: Push) -> StepData:
         ),
         cone=ELLIPSOID,
     )  # fmt: skip
+
+
+def turns(c: float) -> list[float]:
+    """Turn over that of Lynch's relation, c^2 omega = x_c v_y - y_c v_x, at each speed."""
+    point, direction = np.array([0.03, 0.02]), np.array([0.0, 1.0])
+    ratios = []
+    for Pi in SPEEDS:
+        of = push(point, direction, mu_v=0.4, c=c, Pi=Pi, lifted=1.0, sticks=True)
+        motion = exact(push_step(of)).delta_q[2:]
+        ratios.append(c**2 * motion[3] / (turned(point) @ motion[:2]))
+    return ratios

@@ -11,7 +11,7 @@ from quasistatic_ref.contact.settle import settled
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Solid
+from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 from tests import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, EXACT
 
@@ -26,7 +26,7 @@ SCALES = (1e-5, 1e-3, 0.3, 10.0)
 HERE = np.eye(3), np.zeros(3)
 
 
-def enlarged(solid: Solid, scale: float) -> Solid:
+def enlarged(solid: Shape, scale: float) -> Shape:
     match solid:
         case Box():
             return Box(scale * solid.half_extents)

@@ -10,9 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.curved_pair import curved_witness
 from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.support import support_point
 from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Solid
+from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 from tests.tolerances import CURVED_PAIR, EXACT, FOUR_ULP, ROUNDING, WAY_OUT
 from tests.unit.contact.test_curved_pairs import enlarged
 
@@ -44,7 +43,7 @@ FEATURES = {
 OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
 
 
-def put(feature: str, other: Solid, distance: float, scale: float = 1.0) -> tuple[Placed, ...]:
+def put(feature: str, other: Shape, distance: float, scale: float = 1.0) -> tuple[Placed, ...]:
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
@@ -52,7 +51,7 @@ def put(feature: str, other: Solid, distance: float, scale: float = 1.0) -> tupl
     alpha = scale * R @ point + t
     beta = alpha + distance * n
     there = Placed(enlarged(other, scale), S, np.zeros(3))
-    there = there._replace(t=beta - S @ support_point(there.shape, S.T @ -n))
+    there = there._replace(t=beta - S @ there.shape.support_point(S.T @ -n))
     return Placed(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
 
 

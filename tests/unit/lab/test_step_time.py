@@ -5,9 +5,7 @@ import pytest
 
 from quasistatic_ref.contact import cloud_tracker, shortlist
 from quasistatic_ref.contact.solid_rows import SolidRows
-from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
-from quasistatic_ref.lab.validate.paper import step_time
-from quasistatic_ref.lab.validate.paper.profile import (
+from quasistatic_ref.lab.study.bench.profile import (
     BACKENDS,
     BRUTE_FORCE,
     PARTS,
@@ -20,6 +18,8 @@ from quasistatic_ref.lab.validate.paper.profile import (
     share,
     tracked_distances,
 )
+from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.validate.paper import step_time
 from quasistatic_ref.simulate import simulator
 from tests.tolerances import ROUNDING
 

@@ -11,7 +11,8 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.resources import scenario_names, scenario_path
 from quasistatic_ref.simulate.scenario import load_scenario
-from quasistatic_ref.simulate.scenario_table import SOLIDS, TABLES, scenario_schema
+from quasistatic_ref.simulate.scenario_table import TABLES, scenario_schema
+from quasistatic_ref.simulate.world_solids import SOLIDS
 from tests.errors.scene import SCENE, changed, scene_written, toml_text
 
 RICH = changed(

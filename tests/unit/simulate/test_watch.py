@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.support import extent
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import (
     Box,
@@ -152,7 +151,7 @@ CORNERS = np.array([[0.0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]])
     (convex_hull(CORNERS), 3.0),
 ])  # fmt: skip
 def test_the_extent_of_a_shape_is_the_longest_edge_of_its_box(shape, expected):
-    np.testing.assert_allclose(extent(shape), expected, rtol=ROUNDING)
+    np.testing.assert_allclose(shape.extent, expected, rtol=ROUNDING)
 
 
 def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):

@@ -5,6 +5,8 @@ import numpy as np
 from quasistatic_ref.lab.measures import exact, grid, slope
 from quasistatic_ref.lab.scenes.slider import (
     GYRATION,
+    RADII,
+    SPEEDS,
     STIFFNESS,
     H,
     Push,
@@ -13,7 +15,7 @@ from quasistatic_ref.lab.scenes.slider import (
     rotated,
     sliding_motion,
     sticking_motion,
-    turned,
+    turns,
 )
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.step.data import Array
@@ -22,10 +24,6 @@ from quasistatic_ref.tolerances import CLOSED_FORM, FITTED
 
 ENCLOSED = 1e-15
 """Largest error_bound: below the rounding of data and formulas that CLOSED_FORM is made for."""
-
-RADII = (0.02, GYRATION, 0.045)
-SPEEDS = np.geomspace(1e-3, 3.0, 9)
-"""mu_omega / mu_v [m] and quasi-dynamic numbers [-] of the figure."""
 
 SLOW_PUSHES = 1e-4 * 2.0 ** np.arange(4)
 """Quasi-dynamic numbers from which the quasi-static limit is extrapolated [-]."""
@@ -67,17 +65,6 @@ def slow_pushes() -> tuple[Array, Array, Array]:
         SLOW_PUSHES / SLOW_PUSHES[-1], np.moveaxis(measured, 1, 0).reshape(len(SLOW_PUSHES), -1), 3
     )
     return measured, cubic[0].reshape(lynch.shape), lynch
-
-
-def turns(c: float) -> list[float]:
-    """Turn over that of Lynch's relation, c^2 omega = x_c v_y - y_c v_x, at each speed."""
-    point, direction = np.array([0.03, 0.02]), np.array([0.0, 1.0])
-    ratios = []
-    for Pi in SPEEDS:
-        of = push(point, direction, mu_v=0.4, c=c, Pi=Pi, lifted=1.0, sticks=True)
-        motion = exact(push_step(of)).delta_q[2:]
-        ratios.append(c**2 * motion[3] / (turned(point) @ motion[:2]))
-    return ratios
 
 
 def evidence() -> Evidence:

@@ -5,14 +5,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
-from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, on_link, system_of
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.scenes.free_pair import geometry, outline, pair_system
+from quasistatic_ref.lab.scenes.systems import cloud_on, on_link
 from quasistatic_ref.lab.validate.claim import Claim, Evidence, comparison
 from quasistatic_ref.model.shapes import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Array
 
 SHAPES: Final[dict[str, Shape]] = {
     "sphere": Sphere(0.05),
@@ -32,20 +31,6 @@ DIFFERENCE = 1e-6
 
 DIFFERENCE_TOLERANCE = 1e-6
 """Of derivatives of size 1: curvature over a gap of 1 mm leaves (1e-6 / 1e-3)^2."""
-
-
-def pair_system() -> System:
-    """Two free bodies."""
-    text = body_text(1.0, (1e-3, 1e-3, 1e-3), com=(0.01, 0.02, -0.01))
-    return system_of({"one": text, "two": text})
-
-
-def geometry(system: System, pair: ContactPair, q: Array) -> tuple[ClosestPoints, Contacts]:
-    """Closest points of a pair at q, and the contacts made of them."""
-    kinematics = system.kinematics(q)
-    points = closest_points((pair,), kinematics)
-    between = ContactGeometry(contact_layout((pair,)), system.motion)
-    return points, between.contacts(points, kinematics)
 
 
 def evidence() -> Evidence:
@@ -78,7 +63,7 @@ def evidence() -> Evidence:
         comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
         comparison("{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE),
         comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
-        outline=_outline(),
+        outline=outline(),
     )
 
 
@@ -92,34 +77,6 @@ def _differences(system: System, pair: ContactPair, q: Array, chosen: NDArray[np
         change = (ahead.phi - behind.phi) / (2 * DIFFERENCE)
         columns.append(change if same else np.full(len(chosen), np.nan))
     return np.stack(columns, axis=1)
-
-
-def _outline() -> dict[str, Array]:
-    """A planar case to draw: a capsule next to a box, seen along y."""
-    system = pair_system()
-    alpha = on_link(system, "one", Capsule(0.03, 0.05))
-    corners = np.array([[x, 0.0, z] for x in (-0.04, 0.04) for z in (-0.03, 0.03)])
-    beta = cloud_on(system, "two", corners)
-    q = system.integrate(system.q_start, np.r_[0, 0, 0, 0, 0.6, 0, 0.115, 0, 0.035, 0, 0, 0])
-    q = system.integrate(q, np.r_[np.zeros(6), 0, 0, 0, 0, -0.35, 0])
-    points, found = geometry(system, ContactPair("draw", alpha, beta, 0.5, 0, 4, 1), q)
-    at = system.kinematics(q)
-    t = np.linspace(0, 2 * np.pi, 200)
-    capsule = np.stack(
-        [0.03 * np.cos(t), 0 * t, 0.03 * np.sin(t) + 0.05 * np.sign(np.sin(t))], axis=1
-    )
-    box = corners[[0, 1, 3, 2, 0]]
-    one, two = system.link("one"), system.link("two")
-    return {
-        "capsule": capsule @ at.R[one].T + at.t[one],
-        "box": box @ at.R[two].T + at.t[two],
-        "alpha": points.alpha[0],
-        "beta": points.beta[0],
-        "n": found.n[0],
-        "d1": found.d1[0],
-        "d2": found.d2[0],
-        "phi": points.phi,
-    }
 
 
 CLAIM = Claim(

@@ -1,21 +1,14 @@
 """Figure 4: where the time of a step goes."""
 
-from typing import Any
-
-from quasistatic_ref.lab.validate.claim import Claim, Comparison, Evidence, comparison, within
-from quasistatic_ref.lab.validate.paper.profile import (
+from quasistatic_ref.lab.study.bench.profile import (
     BRUTE_FORCE,
     SOLVE,
     TRACKER,
-    UNCERTIFIED,
     Profiles,
-    all_distances,
-    grasp_scenario,
-    profiles,
+    measured,
     share,
-    tracked_distances,
 )
-from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.lab.validate.claim import Claim, Comparison, Evidence, comparison, within
 
 MAJORITY, MINORITY = (0.5, 1.0), (0.0, 0.5)
 """Shares that make the paper's sentence true or false [-]."""
@@ -26,20 +19,6 @@ processor, or another build of the solver, may make it a majority or not."""
 
 FEWER = 0.1
 """Of all signed distances the tracker evaluates at most this share [-]."""
-
-STEPS = 300
-"""All of the grasp."""
-
-
-def measured() -> dict[str, Any]:
-    """Profiles of the steps of bunny_grasp, and how many signed distances a step evaluates."""
-    scenario = grasp_scenario(DEFAULT, UNCERTIFIED)
-    return {
-        "profiles": profiles(STEPS),
-        "all": all_distances(scenario),
-        "tracked": float(tracked_distances(scenario, STEPS).mean()),
-        "h": float(scenario.h),
-    }
 
 
 def evidence() -> Evidence:

@@ -53,7 +53,7 @@ def pairs_of(scenario: Scenario) -> tuple[Json, Json]:
 
 
 def shape_of(shape: Shape) -> Json:
-    """The table of a shape."""
+    """The table of a shape; ContactError if the cases have none such."""
     match shape:
         case shapes.Sphere():
             return {"kind": "sphere", "radius": shape.radius}
@@ -70,6 +70,8 @@ def shape_of(shape: Shape) -> Json:
             return {"kind": "convex", "vertices": shape.vertices.tolist()}
         case shapes.PointCloud():
             return {"kind": "cloud", "points": shape.points.tolist()}
+        case _:
+            raise shape.lacks("has no kind in the cases")
 
 
 def pose_of(R: Array, t: Array) -> Json:

@@ -1,16 +1,20 @@
 """Signed distance of points to a convex polytope, vectorised over points and triangles."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from quasistatic_ref.model.convex_mesh import ConvexMesh
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
+
+if TYPE_CHECKING:
+    from quasistatic_ref.model.convex_mesh import ConvexMesh
 
 CHUNK = 1 << 17
 """Points times triangles handled at once: some tens of megabytes."""
 
 
-def distance_to_hull(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
+def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     """Signed distance and outward normal of points (N, 3) against a convex polytope.
 
     Inside, the largest of the signed distances to the planes of its faces, which is exact;
@@ -32,7 +36,7 @@ def distance_to_hull(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
     return phi, normal
 
 
-def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
+def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     x, y, z = points.T[:, :, None]
     level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
     face = level.argmax(axis=1)
@@ -50,7 +54,7 @@ def _distance(points: Array, hull: ConvexMesh) -> tuple[Array, Array]:
     return phi, normal
 
 
-def nearest_offsets(points: Array, hull: ConvexMesh) -> Array:
+def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
     """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
     corners = hull.vertices[hull.triangles]
     best = np.full(len(points), np.inf)

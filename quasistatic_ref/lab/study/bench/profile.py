@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cache, partial
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -36,6 +36,9 @@ CERTIFIED, UNCERTIFIED = "full", "off"
 TURN = 10
 """Steps that one backend takes before the next one's turn: most of them find the processor's caches
 as in a run of their own, and a drift of the machine's speed meets all backends alike."""
+
+STEPS = 300
+"""All of the grasp."""
 
 Microseconds = Mapping[str, float]
 """Part of ``PARTS`` -> time [us]."""
@@ -93,6 +96,17 @@ class Profiles(NamedTuple):
         """The one profile with these properties."""
         wanted = (backend, certify, distances)
         return next(p for p in self.all if (p.backend, p.certify, p.distances) == wanted)
+
+
+def measured() -> dict[str, Any]:
+    """Profiles of the steps of bunny_grasp, and how many signed distances a step evaluates."""
+    scenario = grasp_scenario(DEFAULT, UNCERTIFIED)
+    return {
+        "profiles": profiles(STEPS),
+        "all": all_distances(scenario),
+        "tracked": float(tracked_distances(scenario, STEPS).mean()),
+        "h": float(scenario.h),
+    }
 
 
 @cache

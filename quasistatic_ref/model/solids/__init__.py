@@ -1,0 +1,1 @@
+"""Shapes, one a file: all that concerns one shape alone."""
