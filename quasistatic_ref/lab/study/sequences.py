@@ -67,12 +67,14 @@ class Asked:
 
 @dataclass(frozen=True)
 class SolverLimits(Limits):
-    """What a call may take, and a solver; `repetitions` are of a whole sequence.
+    """What a call may take, and a solver in all its calls.
 
     Parameters
     ----------
-    call, warm_up, repetitions
-        As of :class:`~quasistatic_ref.lab.study.measure.Limits`.
+    call, warm_up : float
+        Of a call, and of one at a sequence's beginning [s].
+    repetitions : int
+        Of a whole sequence.
     memory : float
         Of its processes [bytes].
     budget : float
