@@ -31,13 +31,13 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape, Sphere
 from tests import closest
+from validation.pair_distances import points_off
 
 DIGITS, RADIUS, LAST = 60, arb("1e-4"), arb("1e-13")
 KINDS = ("sphere", "box", "capsule", "mesh", "cylinder", "cone", "ellipsoid")
@@ -173,12 +173,9 @@ def errors(
             m = [arb(x) for x in (place + sign * way) / np.hypot(1, 1e-4)]
             w = between(a, b, turn, [arb(x) for x in t], m)
             drops.append(float(best - sum(x * z for x, z in zip(w, m, strict=True))) / 1e-8)
-    on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
-    on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
-    apart = np.abs(found.beta - found.alpha - found.phi * found.n).max()
     return {
         "phi": abs(float(arb(found.phi) - best)) / size,
-        "points": max(abs(on_a), abs(on_b), apart) / size,
+        "points": points_off(a, b, R, t, found) / size,
         "normal": float(np.abs(place - found.n).max()) * min(max(min(drops) / size, 0.0), 1.0),
         "elsewhere": (closest.gap(a, b, R, t, directions).max() - found.phi) / size,
     }

@@ -9,12 +9,11 @@ status 1 if a verdict is wrong, or a number without one.
 """
 
 import argparse
-import json
 import sys
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -23,7 +22,8 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.files import text_written
 from quasistatic_ref.simulate.derivatives import derivatives
 from quasistatic_ref.step.data import Array
-from validation.gradients.placing import Kink, Rng
+from validation.gradients.log import Record, logged
+from validation.gradients.placing import Kink, Rng, unit_vector
 from validation.gradients.reference import reference, slope, tied_pairs
 from validation.gradients.row_kinks import ROWS
 from validation.gradients.shape_kinks import SHAPES
@@ -43,7 +43,6 @@ WITHIN: Final = 1e-9
 """Largest difference that is promised, relative to the largest entry of the same derivative."""
 UNSEEN: Final = (reason.ZERO_FRICTION, reason.HALF_TURN)
 """Kinks by what they are, which no motion of q shows."""
-Record = dict[str, Any]
 
 
 def kink(i: int) -> Kink:
@@ -64,7 +63,7 @@ def record(i: int, *, nearby: bool = True) -> Record:
     said |= {"right": bool(right), "shown": None, "near": []}
     if nearby and one.kind not in UNSEEN:
         said["shown"] = _shown(one, rng)
-        e = _unit(rng, len(one.force))
+        e = unit_vector(rng, len(one.force))
         said["near"] = [[r, *_near(one, r * e, rng)] for r in NEAR]
     return said
 
@@ -81,7 +80,7 @@ def _shown(one: Kink, rng: Rng) -> bool:
         if one.kind == reason.POINTS and tied_pairs(reference(_state(one, 0 * one.force))):
             return True
         for _ in range(TRIES):
-            e = _unit(rng, len(one.force))
+            e = unit_vector(rng, len(one.force))
             ahead, behind = (
                 slope(reference(_state(one, side * ASIDE * e)), "dq_dq", e)[0] for side in (1, -1)
             )
@@ -100,30 +99,13 @@ def _near(one: Kink, way: Array, rng: Rng) -> tuple[str, float | None, float]:
         found = derivatives(state.simulator, state.q, state.q_bar_a, state.force)
         if any("dq_dq" in why.fields for why in found.reasons):
             return "verdict", None, 0.0
-        e = _unit(rng, len(way))
+        e = unit_vector(rng, len(way))
         there, smooth = slope(reference(state), "dq_dq", e)
     except (QuasistaticError, ArithmeticError, IndexError) as failure:
         return f"none: {failure}"[:120], None, 0.0
     size = float(np.abs(found.dq_dq).max())
     wrong = float(np.abs(found.dq_dq @ e - there).max()) / size
     return ("numbers" if smooth else "kink"), wrong, size
-
-
-def _unit(rng: Rng, n: int) -> Array:
-    e = rng.normal(size=n)
-    return np.asarray(e / np.linalg.norm(e))
-
-
-def records(count: int, log: Path | None) -> Iterator[Record]:
-    """Records of the first kinks; those of the log first, new ones added to it."""
-    lines = log.read_text().splitlines() if log and log.exists() else []
-    known = {one["i"]: one for one in map(json.loads, lines)}
-    for i in range(count):
-        one = known.get(i) or record(i)
-        if log and i not in known:
-            with log.open("a") as file:
-                file.write(json.dumps(one) + "\n")
-        yield one
 
 
 def faults(one: Record) -> list[str]:
@@ -186,7 +168,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--log", type=Path)
     parser.add_argument("--out", type=Path)
     asked = parser.parse_args(arguments)
-    found = list(records(asked.kinks, asked.log))
+    found = list(map(logged(record, asked.log), range(asked.kinks)))
     bad = [(one, said) for one in found if (said := faults(one))]
     for one, said in bad:
         print(f"kink {one['i']}, {one['what']} ({one['kind']}): {said}", file=sys.stderr)

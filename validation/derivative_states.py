@@ -8,12 +8,11 @@ where it was. Exit status 1 if a number is wrong, or stands where there is a kin
 """
 
 import argparse
-import json
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.files import text_written
 from quasistatic_ref.lab.vectors.layers.derivative import QUIET, STILL
 from validation.gradients.judge import judged
+from validation.gradients.log import Record, logged
 from validation.gradients.reference import FIELDS
 from validation.gradients.states import state
 
@@ -31,7 +31,6 @@ EVERY: Final = 29
 MODES: Final = ("sticking", "sliding", "spinning", "lifting", "separated")
 COUNTS: Final = ((0, 1), (2, 4), (5, 9), (10, 20))
 """Numbers of contacts, from and to."""
-Record = dict[str, Any]
 
 
 def record(i: int) -> Record:
@@ -50,14 +49,9 @@ def record(i: int) -> Record:
 
 def records(count: int, log: Path | None) -> Iterator[Record]:
     """Records until `count` states are judged; those of the log first, new ones added to it."""
-    lines = log.read_text().splitlines() if log and log.exists() else []
-    known = {one["i"]: one for one in map(json.loads, lines)}
-    i = done = 0
+    one_of, i, done = logged(record, log), 0, 0
     while done < count:
-        one = known.get(i) or record(i)
-        if log and i not in known:
-            with log.open("a") as file:
-                file.write(json.dumps(one) + "\n")
+        one = one_of(i)
         done += "none" not in one
         i += 1
         yield one

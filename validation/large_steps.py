@@ -16,9 +16,10 @@ import numpy as np
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.environment import machine
-from quasistatic_ref.lab.study.large import CHAINS, exponent
+from quasistatic_ref.lab.study.large import CHAINS
 
 Shape = tuple[int, int, int]
 ROWS: tuple[Shape, ...] = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
@@ -144,7 +145,7 @@ def large() -> tuple[dict[str, float], float]:
             times.setdefault(backend, []).append(off.median)
             heap = off.first if backend == "piqp" else heap
     print_table(rows)
-    return {b: exponent(CHAINS, t[:-1]) for b, t in times.items()}, heap
+    return {b: slope(CHAINS, t[:-1]) for b, t in times.items()}, heap
 
 
 def in_contacts() -> dict[str, float]:
@@ -152,7 +153,7 @@ def in_contacts() -> dict[str, float]:
     counts, found = (2, 4, 8, 16, 32), {}
     for backend in ("piqp", "clarabel"):
         some = [cost((16, 1, 1), f"{backend} sparse", k=k) for k in counts]
-        found[backend] = exponent([s.size[1] for s in some], [s.median for s in some])
+        found[backend] = slope([s.size[1] for s in some], [s.median for s in some])
     return found
 
 

@@ -22,7 +22,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from quasistatic_ref.contact import cloud
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import HalfSpace, Shape
@@ -35,6 +35,14 @@ apart the reference is a cone program in float64: at the largest difference, of 
 ellipsoid, the gap along n, a lower bound of the distance, exceeds the reference. Microseconds
 are upper bounds: the machine did other work meanwhile.
 """
+
+
+def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness) -> float:
+    """How far closest points are off the surfaces, or apart by another vector than phi n [m]."""
+    on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
+    on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
+    apart = np.abs(found.beta - found.alpha - found.phi * found.n).max()
+    return float(max(abs(on_a), abs(on_b), apart))
 
 
 def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str, float], int, int]:
@@ -55,10 +63,8 @@ def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str
         phi, n = found.phi, found.n
         inside += phi < 0
         reference = closest.signed_distance(a, b, R, t)
-        on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
-        on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
         errors = {
-            "points": max(abs(on_a), abs(on_b), np.abs(found.beta - found.alpha - phi * n).max()),
+            "points": points_off(a, b, R, t, found),
             "moved": abs(moved.phi - phi - STEP),
             "normal": abs(n @ n - 1),
         }

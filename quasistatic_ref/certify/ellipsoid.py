@@ -24,6 +24,7 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
+Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)
 UNSTATED = Certificate("exact", error_bound=0.0)
 """What an answer without a certificate counts as."""
@@ -101,12 +102,7 @@ def ellipsoid_verdict(
 
 
 def _not_exact(
-    step: StepData,
-    form: ExactForm,
-    delta_q: Array,
-    active: tuple[tuple[int, int], ...],
-    lam: Array,
-    claims: Certificate,
+    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
     """Return the rational optimum in the form's units, and what is wrong with the claim of it."""
     working = apex_rows(step, form, lam)
@@ -123,12 +119,7 @@ def _not_exact(
 
 
 def _not_enclosed(
-    step: StepData,
-    form: ExactForm,
-    delta_q: Array,
-    active: tuple[tuple[int, int], ...],
-    lam: Array,
-    claims: Certificate,
+    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
     """Return a point next to the optimum in the form's units, and what is wrong with the claim."""
     found = checked_pair(step)

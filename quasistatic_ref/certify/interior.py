@@ -81,7 +81,7 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
     A, count = problem.A, len(problem.A)
     x = problem.H.solve(problem.g).mid()
     s = [_inside(A_j * x - b_j) for A_j, b_j in zip(A, problem.b, strict=True)]
-    y = [_unit(s_j) for s_j in s]
+    y = [[arb(1), *([arb(0)] * (len(s_j) - 1))] for s_j in s]
     if not count:
         return Pair(x, s, y)
     for _ in range(ITERATIONS):
@@ -148,12 +148,8 @@ def _centrality(s: list[Vector], y: list[Vector]) -> arb:
 def _inside(s: arb_mat) -> Vector:
     """Return a point well inside of the cone, near s."""
     v = s.mid().entries()
-    least = _norm(v[1:]) + 1
+    least = _dot(v[1:], v[1:]).sqrt().mid() + 1
     return [max(v[0], least).mid(), *v[1:]]
-
-
-def _unit(s: Vector) -> Vector:
-    return [arb(1), *([arb(0)] * (len(s) - 1))]
 
 
 def _column(v: Sequence[arb]) -> arb_mat:
@@ -162,10 +158,6 @@ def _column(v: Sequence[arb]) -> arb_mat:
 
 def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
     return sum((a * b for a, b in zip(u, v, strict=True)), arb(0)).mid()
-
-
-def _norm(v: Sequence[arb]) -> arb:
-    return _dot(v, v).sqrt().mid()
 
 
 def _det(v: Sequence[arb]) -> arb:

@@ -6,9 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.couples import Couple, closest_pair, rim_velocity
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.distance import nearest_of_solids
 from quasistatic_ref.contact.features import Feature
-from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.model.motion_rates import crossed
 from quasistatic_ref.step.data import Array, Mask
@@ -161,19 +160,16 @@ def _rim_slide(couple: Couple, J: Array) -> Array | None:
     """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
     rim, (a, b), pair = couple.rim, couple.bodies, couple.pair
     assert rim is not None
-    found = solid_pair(pair.name, a, b)
-    one = ClosestPoints(
-        np.array([found.phi]), found.alpha[None], found.beta[None], found.n[None], np.zeros(1, int)
-    )
-    nearest = closest_pair(pair, a, b, one)
-    across = np.linalg.svd(found.n[None])[2][1:]
+    one = nearest_of_solids(pair, a, b)
+    nearest, n = closest_pair(pair, a, b, one), one.n[0]
+    across = np.linalg.svd(one.n)[2][1:]
     rates = couple_rates([nearest], across[None], J)
     if not rates.unique[0] or any(len(f.ends) for f in nearest.features):
         return None
     link = (pair.alpha, pair.beta)[rim.side].link
-    turn = rates.n[0] - np.cross(J[link, 3:], found.n[:, None], axis=0)
+    turn = rates.n[0] - np.cross(J[link, 3:], n[:, None], axis=0)
     sign = 1.0 if rim.side == 0 else -1.0
-    return rim_velocity(rim, couple.bodies[rim.side], sign * found.n, sign * turn)
+    return rim_velocity(rim, couple.bodies[rim.side], sign * n, sign * turn)
 
 
 def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:

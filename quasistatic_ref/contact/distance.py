@@ -91,14 +91,19 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
         return _points_on_solid(a, b, b.shape.points, 0.0, pair.k)
     if isinstance(a.shape, PointCloud):
         return _points_on_solid(b, a, a.shape.points, 0.0, pair.k).swapped()
-    found = solid_pair(pair.name, a, b)
-    phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
-    nearest = ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
+    nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
     candidates = with_corners(a, b, nearest)
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
+
+
+def nearest_of_solids(pair: ContactPair, a: Placed, b: Placed) -> ClosestPoints:
+    """The closest points of two solids alone; among several contacts they come after corners."""
+    found = solid_pair(pair.name, a, b)
+    phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
+    return ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
 
 
 def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:

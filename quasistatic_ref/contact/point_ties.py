@@ -7,11 +7,10 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.cloud_tracker import cloud_tree
 from quasistatic_ref.contact.couples import Couple
-from quasistatic_ref.contact.distance import ClosestPoints, late, with_corners
+from quasistatic_ref.contact.distance import ClosestPoints, late, nearest_of_solids, with_corners
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.shortlist import shortlist
-from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.tolerances import TIED
 
@@ -39,12 +38,7 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     elif isinstance(a.shape, PointCloud):
         index, phi = _near(b, a, a.shape, points.phi, pair.n_c)
     else:
-        found = solid_pair(pair.name, a, b)
-        last = np.array([pair.corners])
-        one = ClosestPoints(
-            np.array([found.phi]), found.alpha[None], found.beta[None], found.n[None], last
-        )
-        every = with_corners(a, b, one)
+        every = with_corners(a, b, nearest_of_solids(pair, a, b))
         index, phi = every.point, np.where(late(every, pair.k), np.inf, every.phi)
     chosen = set(points.point.tolist())
     out = [(int(i), p) for i, p in zip(index, phi, strict=True) if int(i) not in chosen]

@@ -12,9 +12,8 @@ import numpy as np
 from quasistatic_ref.certify import reason
 from quasistatic_ref.contact.contact_rates import couple_rates, merged_features
 from quasistatic_ref.contact.couples import Couple, closest_pair
-from quasistatic_ref.contact.distance import ClosestPoints, with_corners
+from quasistatic_ref.contact.distance import ClosestPoints, nearest_of_solids, with_corners
 from quasistatic_ref.contact.faces import face
-from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.model.shapes import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED
@@ -34,13 +33,9 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     pair, (a, b) = kept[0].pair, kept[0].bodies
     if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
         return None
-    found = solid_pair(pair.name, a, b)
-    last = np.array([pair.corners])
-    one = ClosestPoints(
-        np.array([found.phi]), found.alpha[None], found.beta[None], found.n[None], last
-    )
+    one = nearest_of_solids(pair, a, b)
     nearest = closest_pair(pair, a, b, one)
-    across = np.linalg.svd(found.n[None])[2][1:]
+    across = np.linalg.svd(one.n)[2][1:]
     unique = couple_rates([nearest], across[None], J).unique[0]
     ends = any(len(f.ends) for f in nearest.features)
     if unique and not ends:
@@ -49,10 +44,10 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     if merged.unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
     every = with_corners(a, b, one)
-    level = every.phi <= found.phi + REPEATED
+    level = every.phi <= one.phi + REPEATED
     first = a.shape.corner_count
     counts = int(level[:first].sum()), int(level[first:-1].sum())
-    for body, way, count in ((a, found.n, counts[0]), (b, -found.n, counts[1])):
+    for body, way, count in ((a, one.n[0], counts[0]), (b, -one.n[0], counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
         if whole and count >= len(face(body, way).corners):
             return None  # all of the smaller face lies on the larger one

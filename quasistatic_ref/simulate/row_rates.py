@@ -56,10 +56,10 @@ class RowRates:
             d_turn += sign * d_omega
         d_d1, d_d2 = tangent_rates(c.n, r.n)
         found = np.empty((c.n_c, 4, len(x)))
-        found[:, 0] = r.phi + _dot(r.n, u) + _along(c.n, d_u)
-        found[:, 1] = _dot(d_d1, u) + _along(c.d1, d_u)
-        found[:, 2] = _dot(d_d2, u) + _along(c.d2, d_u)
-        found[:, 3] = _dot(r.n, turn) + _along(c.n, d_turn)
+        found[:, 0] = r.phi + _along(u, r.n) + _along(c.n, d_u)
+        found[:, 1] = _along(u, d_d1) + _along(c.d1, d_u)
+        found[:, 2] = _along(u, d_d2) + _along(c.d2, d_u)
+        found[:, 3] = _along(turn, r.n) + _along(c.n, d_turn)
         found[:, 1:] *= c.mu[:, :, None]
         return found
 
@@ -91,10 +91,6 @@ class RowRates:
         """Links, points, their derivatives and the sign of both bodies."""
         p, r, of = self.points, self.rates, self.layout
         return (of.link_beta, p.beta, r.beta, 1.0), (of.link_alpha, p.alpha, r.alpha, -1.0)
-
-
-def _dot(rates: Array, vectors: Array) -> Array:
-    return np.asarray(np.einsum("jak,ja->jk", rates, vectors))
 
 
 def _along(vectors: Array, rates: Array) -> Array:

@@ -82,8 +82,8 @@ def metric(H: Array) -> Metric:
 
 
 def coordinate_units(diagonal: Array) -> Array:
-    """Diagonal of S [m, rad], shape (n_v,), from the `diagonal` of H."""
-    return _powers_of_two(1 / np.sqrt(diagonal))
+    """Diagonal of S [m, rad], powers of two, shape (n_v,), from the `diagonal` of H."""
+    return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
 
 
 def natural_units(step: StepData) -> Units:
@@ -231,10 +231,6 @@ def _typical(squares: Array) -> float:
         return 1.0
     lower, upper = (first + n - 1) // 2, (first + n) // 2
     return (math.sqrt(squares[lower]) + math.sqrt(squares[upper])) / 2
-
-
-def _powers_of_two(x: Array) -> Array:
-    return np.exp2(np.round(np.log2(x)))
 
 
 def _power_of_two(x: float) -> float:

@@ -135,6 +135,7 @@ def test_a_scenario_that_does_not_exist_is_refused(refused, name):
         (["study", "run", "x.toml", "--fast"], "usage: quasistatic-ref study run "),
         (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
         (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
+        (["extract", "x.npz"], "required: --step"),
     ],
 )
 def test_wrong_usage_is_status_2(capsys, arguments, words):

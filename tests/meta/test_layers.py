@@ -137,12 +137,15 @@ def test_the_checker_lets_pass_what_is_allowed(tmp_path, file, source):
     assert violations(house(tmp_path, file, source)) == []
 
 
-def run(source):
-    command = [sys.executable, "-W", "error", "-c", source]
+def printed(*lines):
+    """What these lines print in an interpreter of their own, which must end well."""
+    command = [sys.executable, "-W", "error", "-c", "\n".join(lines)]
     root = str(PACKAGE.parent)
-    return subprocess.run(
+    done = subprocess.run(
         command, capture_output=True, text=True, timeout=60, cwd=root, check=False
     )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
 
 
 def test_step_certify_and_solve_work_without_pinocchio_and_coal():
@@ -153,43 +156,34 @@ def test_step_certify_and_solve_work_without_pinocchio_and_coal():
         if path.name != "__init__.py"
     ]
     assert len(modules) >= 9
-    source = "\n".join(
-        [
-            "import sys",
-            "for name in ('pinocchio', 'coal', 'hppfcl', 'matplotlib'): sys.modules[name] = None",
-            *(f"import {module}" for module in modules),
-            "from tests.helpers import sphere_on_floor",
-            "from quasistatic_ref import solve_step",
-            "print(solve_step(sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0))).status)",
-        ]
+    said = printed(
+        "import sys",
+        "for name in ('pinocchio', 'coal', 'hppfcl', 'matplotlib'): sys.modules[name] = None",
+        *(f"import {module}" for module in modules),
+        "from tests.helpers import sphere_on_floor",
+        "from quasistatic_ref import solve_step",
+        "print(solve_step(sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0))).status)",
     )
-    done = run(source)
-    assert (done.returncode, done.stdout.strip()) == (0, "optimal"), done.stderr
+    assert said == "optimal"
 
 
 def test_the_judge_runs_without_cvxpy():
-    source = "\n".join(
-        [
-            "import sys",
-            "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
-            "import numpy as np",
-            "from tests.helpers import planted_step",
-            "from quasistatic_ref.certify.optimality import optimality_residuals",
-            "step, delta_q, lam = planted_step(np.random.default_rng(1))",
-            "print(optimality_residuals(step, delta_q, lam).worst < 1e-9)",
-        ]
+    said = printed(
+        "import sys",
+        "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
+        "import numpy as np",
+        "from tests.helpers import planted_step",
+        "from quasistatic_ref.certify.optimality import optimality_residuals",
+        "step, delta_q, lam = planted_step(np.random.default_rng(1))",
+        "print(optimality_residuals(step, delta_q, lam).worst < 1e-9)",
     )
-    done = run(source)
-    assert (done.returncode, done.stdout.strip()) == (0, "True"), done.stderr
+    assert said == "True"
 
 
 def test_importing_the_package_loads_none_of_its_rooms():
-    source = "\n".join(
-        [
-            "import sys, quasistatic_ref",
-            "loaded = [m for m in sys.modules if m.startswith('quasistatic_ref.')]",
-            "print(loaded, 'numpy' in sys.modules, 'cvxpy' in sys.modules)",
-        ]
+    said = printed(
+        "import sys, quasistatic_ref",
+        "loaded = [m for m in sys.modules if m.startswith('quasistatic_ref.')]",
+        "print(loaded, 'numpy' in sys.modules, 'cvxpy' in sys.modules)",
     )
-    done = run(source)
-    assert (done.returncode, done.stdout.strip()) == (0, "[] False False"), done.stderr
+    assert said == "[] False False"

@@ -1,5 +1,7 @@
 """Studies small enough for a test: a few scaled problems, and solvers planted on purpose."""
 
+import os
+
 import pytest
 
 from quasistatic_ref.lab.study.problems import problem_of
@@ -7,6 +9,7 @@ from quasistatic_ref.lab.study.run import run_study
 from quasistatic_ref.lab.study.sets.folder import set_read
 from quasistatic_ref.lab.study.spec import solver_study, study_tables
 from quasistatic_ref.resources import problem_set_folder
+from tests.study import made_store
 from tests.study.planted import FAKES, slab
 
 
@@ -43,3 +46,23 @@ def problem():
 def members():
     """Every problem of the set that ships."""
     return set_read(problem_set_folder())
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    """The folder of a study that nobody ran: rows at random, of every outcome."""
+    folder = tmp_path_factory.mktemp("report") / "store"
+    made_store.written(folder)
+    return folder
+
+
+@pytest.fixture
+def importable(monkeypatch):
+    """A function: modules of a folder can be imported, and in processes that are started too."""
+
+    def added(folder):
+        monkeypatch.syspath_prepend(str(folder))
+        there = os.environ.get("PYTHONPATH", "")
+        monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(folder), there])))
+
+    return added

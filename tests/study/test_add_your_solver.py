@@ -1,6 +1,5 @@
 """docs/guides/add_your_solver.md: every file and command of the page, as it stands there."""
 
-import os
 import re
 import shlex
 import subprocess
@@ -21,7 +20,7 @@ def blocks(language):
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
+def folder(tmp_path, monkeypatch, importable):
     """An empty folder in which what the page shows was done: files, a compiler, a package."""
     monkeypatch.chdir(tmp_path)
     (function,), (program,), (study, entries) = map(blocks, ("python", "c", "toml"))
@@ -37,9 +36,7 @@ def folder(tmp_path, monkeypatch):
     lines = entries.replace('[project.entry-points."quasistatic_ref.solvers"]',
                             "[quasistatic_ref.solvers]").replace('"', "")  # fmt: skip
     (info / "entry_points.txt").write_text(lines)
-    monkeypatch.syspath_prepend(str(tmp_path))
-    there = os.environ.get("PYTHONPATH", "")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(tmp_path), there])))
+    importable(tmp_path)
     yield tmp_path
     sys.modules.pop("my_solver", None)
 

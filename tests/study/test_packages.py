@@ -1,7 +1,6 @@
 """Solvers that installed packages announce: called by name, and refused in a sentence."""
 
 import json
-import os
 import sys
 
 import pytest
@@ -29,13 +28,11 @@ NUMBER = 3.0
 
 
 @pytest.fixture
-def planted(tmp_path, monkeypatch):
+def planted(tmp_path, importable):
     """A function that installs a package: a module, and a folder that describes it."""
     site = tmp_path / "site"
     site.mkdir()
-    monkeypatch.syspath_prepend(str(site))
-    there = os.environ.get("PYTHONPATH", "")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(site), there])))
+    importable(site)
 
     def installed(package, entries, module="planted_package", text=MODULE):
         (site / f"{module}.py").write_text(text)

@@ -31,13 +31,6 @@ TEXT = {"solver", "setting", "its own options", "family", "interface", "tie with
 
 
 @pytest.fixture(scope="module")
-def store(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("report") / "store"
-    made_store.written(folder)
-    return folder
-
-
-@pytest.fixture(scope="module")
 def rows(store):
     """Those that are compared: what was repeated is for the noise."""
     every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]

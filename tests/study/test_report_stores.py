@@ -16,13 +16,6 @@ from tests.study import made_store, plain_report
 
 
 @pytest.fixture(scope="module")
-def store(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("report") / "store"
-    made_store.written(folder)
-    return folder
-
-
-@pytest.fixture(scope="module")
 def rows(store):
     return [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
 

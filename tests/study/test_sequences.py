@@ -13,13 +13,14 @@ from quasistatic_ref.lab.commands import study_sequences
 from quasistatic_ref.lab.study import sequences
 from quasistatic_ref.lab.study.keeper import EXTRA
 from quasistatic_ref.lab.study.sequences import (
-    Limits,
+    SolverLimits,
     checked,
     in_one_unit,
     modes_of,
     sequence_rows,
 )
 
+ONCE = SolverLimits(repetitions=1)
 CALLABLES = '''
 import json
 import os
@@ -142,7 +143,7 @@ def test_a_sequence_has_one_system_of_units_and_the_same_answers(grasp):
 
 def test_solvers_keep_their_digits_in_every_mode(grasp):
     modes = checked(["daqp", "osqp", "clarabel", "qpsolvers:daqp"], None)
-    rows = list(sequence_rows(grasp, modes, 1e-9, 1))
+    rows = list(sequence_rows(grasp, modes, 1e-9, ONCE))
     assert len(rows) == 24 * sum(map(len, modes.values()))
     assert all(row.solved and row.digits > 4 for row in rows if row.solver != "osqp")
     assert sum(row.solved for row in rows if row.solver == "osqp") > 60
@@ -154,7 +155,7 @@ def test_solvers_keep_their_digits_in_every_mode(grasp):
 
 
 def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
-    list(sequence_rows(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, 1))
+    list(sequence_rows(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, ONCE))
     starts = [json.loads(line) for line in Path("starts.jsonl").read_text().splitlines()]
     assert len(starts) == 24
     for place, (start, _) in enumerate(starts):
@@ -166,7 +167,7 @@ def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
 
 def test_a_callable_that_raises_costs_itself_only(grasp, own):
     modes = {f"{own}:broken": ("cold",), f"{own}:solved": ("cold",)}
-    rows = list(sequence_rows(grasp, modes, 1e-9, 1))
+    rows = list(sequence_rows(grasp, modes, 1e-9, ONCE))
     assert {row.solver: row.solved for row in rows} == {f"{own}:broken": False,
                                                         f"{own}:solved": True}  # fmt: skip
 
@@ -180,9 +181,9 @@ def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(grasp, own, solver, 
     """After each start of its process it is right twice: of 12 steps 8, 4 ended."""
     bad, one = f"{own}:{solver}", {"stack/0": grasp["stack/0"]}
     wait = 30.0 if solver == "eats" else 0.5
-    limits = Limits(call=wait, warm_up=wait, memory=5e8)
+    limits = SolverLimits(repetitions=1, call=wait, warm_up=wait, memory=5e8)
     modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(sequence_rows(one, modes, 1e-9, 1, limits=limits))
+    rows = list(sequence_rows(one, modes, 1e-9, limits))
     assert all(row.solved and row.digits > 12 for row in rows if row.solver == "daqp")
     ends = [row for row in rows if row.solver == bad]
     assert len(ends) == 12
@@ -195,9 +196,9 @@ def test_a_budget_ends_a_solver_and_no_other(grasp, own):
     """A hang takes its limit and what is waited beyond it, 1 s: two of them are over 1.5 s."""
     assert 0.5 + EXTRA == 1.0
     bad, one = f"{own}:hangs", {"stack/0": grasp["stack/0"]}
-    limits = Limits(call=0.5, warm_up=0.5, budget=1.5)
+    limits = SolverLimits(repetitions=1, call=0.5, warm_up=0.5, budget=1.5)
     modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(sequence_rows(one, modes, 1e-9, 1, limits=limits))
+    rows = list(sequence_rows(one, modes, 1e-9, limits))
     assert sum(row.outcome == "timeout" for row in rows) == 2
     late = [row for row in rows if row.outcome == "not_run_budget"]
     assert {row.solver for row in late} == {bad}
@@ -206,7 +207,7 @@ def test_a_budget_ends_a_solver_and_no_other(grasp, own):
 
 def test_a_clock_that_was_stopped_is_not_believed(grasp, own):
     one = {"stack/0": grasp["stack/0"]}
-    rows = list(sequence_rows(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, 1))
+    rows = list(sequence_rows(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, ONCE))
     assert all(row.solved and row.seconds > 4e-3 for row in rows)
 
 

@@ -9,6 +9,7 @@ from quasistatic_ref.lab.vectors.layers.derivative import free_sizes
 from quasistatic_ref.simulate.derivatives import Derivatives, derivatives
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import frame_jacobian
+from validation.gradients.placing import unit_vector
 from validation.gradients.reference import FIELDS, Reference, reference, slope, tied_pairs
 from validation.gradients.states import State
 
@@ -71,7 +72,7 @@ def judged(state: State, rng: np.random.Generator, every_column: bool = False) -
             free = sizes[FIELDS[field]]
             record["fields"][field] = [max(errors), size, free, len(errors)]
         if (can & ~known).any():
-            e = np.where(can, _unit(rng, len(can)), 0.0)
+            e = np.where(can, unit_vector(rng, len(can)), 0.0)
             record["refused"][field] = not slope(one, field, e)[1] or tied_pairs(one)
     return record
 
@@ -110,11 +111,6 @@ def _directions(rng: np.random.Generator, known: np.ndarray, every_column: bool)
         e = np.where(known, rng.normal(size=len(known)), 0.0)
         found.append(e / np.linalg.norm(e))
     return found
-
-
-def _unit(rng: np.random.Generator, n: int) -> Array:
-    e = rng.normal(size=n)
-    return np.asarray(e / np.linalg.norm(e))
 
 
 def modes(found: Derivatives) -> list[str]:

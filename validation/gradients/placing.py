@@ -39,6 +39,12 @@ def turned(axis: Sequence[float], angle: float) -> Array:
     return np.asarray(np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * (K @ K))
 
 
+def unit_vector(rng: Rng, n: int) -> Array:
+    """A random direction, shape (n,) [-]."""
+    e = rng.normal(size=n)
+    return np.asarray(e / np.linalg.norm(e))
+
+
 def any_turn(rng: Rng) -> Array:
     """A random rotation matrix (3, 3)."""
     return turned(rng.normal(size=3), rng.uniform(0.2, 3.0))

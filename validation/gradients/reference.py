@@ -84,25 +84,25 @@ def moved(one: Reference, name: str, way: Vector) -> Inputs:
     massive = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
 
     def inputs(by: fmpq) -> Json:
-        step, found = scaled(way, by), case
         match name:
             case "q":
-                return along.with_q(tree, case, step)
+                return along.with_q(tree, way, case, by)
             case "q_bar_a":
-                return along.with_target(tree, case, step)
+                return along.with_target(tree, way, case, by)
             case "tau":
-                return along.with_force(case, step)
+                return along.with_force(way, case, by)
             case "h":
-                return along.with_time(case, step[0])
-        for k, change in enumerate(step):
+                return along.with_time(case, way[0] * by)
+        found = case
+        for k, change in enumerate(scaled(way, by)):
             if not change:
                 continue
             if name == "K_q":
-                found = along.with_stiffness(found, k, change)
+                found = along.with_stiffness(k, found, change)
             elif name == "m":
-                found = along.with_mass(found, massive[k], change)
+                found = along.with_mass(massive[k], found, change)
             else:
-                found = along.with_friction(found, name, k, change)
+                found = along.with_friction(name, k, found, change)
         return found
 
     return inputs

@@ -97,9 +97,7 @@ def flat(rng: Rng) -> Kink:
         lambda: (Capsule(radius, half), lying, radius),
         lambda: (Cone(radius, half), about_z(rng), half),
     )[kind]()
-    under = (FLOOR, *HERE)
-    if rng.integers(2):
-        under = (Box(np.array([0.3, 0.3, 0.1])), np.eye(3), -0.1 * UP)
+    under = _floor_or_box(rng)
     # Curved solids that meet have no tie that rounding leaves alone; so they stay apart.
     gap = IN if isinstance(shape, Cylinder | Cone) else -IN
     force = np.array([0.1, 0.2, -6.0, 0.01, 0.02, 0.01])
@@ -192,9 +190,7 @@ def switching_axis(rng: Rng) -> Kink:
 def upright(rng: Rng) -> Kink:
     """A cylinder or cone that stands on its rim, with corners."""
     shape = (Cylinder, Cone)[int(rng.integers(2))](rng.uniform(0.04, 0.08), rng.uniform(0.05, 0.1))
-    under = (FLOOR, *HERE)
-    if rng.integers(2):
-        under = (Box(np.array([0.3, 0.3, 0.1])), np.eye(3), -0.1 * UP)
+    under = _floor_or_box(rng)
     scene = Scene(
         shape, about_z(rng), spot(rng) + (shape.half_length + 1e-5) * UP, [under],
         k=int(rng.choice([3, 4])), mu=(0.2, 0.01),
@@ -202,6 +198,13 @@ def upright(rng: Rng) -> Kink:
     )  # fmt: skip
     also = frozenset({reason.POINTS, reason.MANY, reason.CONTRADICTION})
     return Kink(reason.RIM, f"a {type(shape).__name__} upright", *anywhere(rng, scene), also=also)
+
+
+def _floor_or_box(rng: Rng) -> tuple[Shape, Array, Array]:
+    """What lies below z = 0: a shape, its rotation (3, 3) and its place (3,) [m]."""
+    if rng.integers(2):
+        return Box(np.array([0.3, 0.3, 0.1])), np.eye(3), -0.1 * UP
+    return FLOOR, *HERE
 
 
 SHAPES: Final[tuple[Callable[[Rng], Kink], ...]] = (

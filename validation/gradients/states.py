@@ -26,6 +26,7 @@ from quasistatic_ref.simulate.scenario import Scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from validation.gradients.contacts import starts
+from validation.gradients.placing import unit_vector
 
 COUPLES: Final = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
 TURN: Final = ("pushes", "scenario", "pushes", "pair", "scenario",
@@ -85,7 +86,7 @@ def _of_scenario(rng: np.random.Generator, turn: int) -> State:
     scenario, run, table = _ran(name)
     system = scenario.system
     k = int(rng.integers(run.steps))
-    q = system.integrate(run.q[k], 10 ** rng.uniform(-4, -2) * _unit(rng, system.n_v))
+    q = system.integrate(run.q[k], 10 ** rng.uniform(-4, -2) * unit_vector(rng, system.n_v))
     t = (k + 1) * scenario.h
     target = scenario.targets(t)
     force = np.zeros(system.n_v)
@@ -93,7 +94,7 @@ def _of_scenario(rng: np.random.Generator, turn: int) -> State:
         force = force + scenario.force(t, q)
     if rng.integers(2):
         # About as large as what the scene has to bear, so that contacts slide and part.
-        push = rng.uniform(0, 20) * float(system.masses.sum()) * _unit(rng, system.n_v)
+        push = rng.uniform(0, 20) * float(system.masses.sum()) * unit_vector(rng, system.n_v)
         force += push * np.where(np.arange(system.n_v) % 6 < 3, 1.0, 0.05)
     return whole_state("scenario", name, scenario.simulator(), table, q, target, force)
 
@@ -158,7 +159,7 @@ def _of_pushes(rng: np.random.Generator, turn: int) -> State:
     system = simulator.system
     force = np.zeros(system.n_v)
     if rng.integers(2):
-        force[6:] = rng.uniform(0, 8) * _unit(rng, 6) * [1, 1, 1, 0.05, 0.05, 0.05]
+        force[6:] = rng.uniform(0, 8) * unit_vector(rng, 6) * [1, 1, 1, 0.05, 0.05, 0.05]
     return whole_state(
         "pushes", "-".join(couple), simulator, table_of(simulator), q, q_bar_a, force
     )
@@ -218,11 +219,6 @@ def _of_crowd(rng: np.random.Generator, turn: int) -> State:
     torque = rng.uniform(0, 0.5) * rng.uniform(-1, 1, 3)
     wrench = {"body": "body", "force": few_digits(force), "torque": few_digits(torque)}
     return _of_case("crowd", f"{k}-{under}", {**table, "wrenches": [wrench]})
-
-
-def _unit(rng: np.random.Generator, n: int) -> Array:
-    e = rng.normal(size=n)
-    return np.asarray(e / np.linalg.norm(e))
 
 
 GROUPS: Final = {

@@ -29,11 +29,7 @@ ACTIONS = {
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below this one, and their options."""
-    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
-    parsers = {
-        name: actions.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
-        for name, words in ACTIONS.items()
-    }
+    parsers = study_problems.parsers_of(parser, "action", ACTIONS)
     run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
     study_sequences.add_options(parsers["sequences"])

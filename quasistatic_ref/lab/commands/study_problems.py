@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
@@ -22,11 +23,7 @@ FORMATS = ("npz", "parquet", "mat", "json")
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below ``study problems``."""
-    actions = parser.add_subparsers(dest="problems", metavar="ACTION", required=True)
-    parsers = {
-        name: actions.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
-        for name, words in ACTIONS.items()
-    }
+    parsers = parsers_of(parser, "problems", ACTIONS)
     for name in ("list", "export", "check"):
         words = "of a set of problems; else contact-qp-1, which comes along"
         parsers[name].add_argument(
@@ -47,6 +44,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add(parsers["make"], "--out", default=Path("contact-qp-1"))
     for name in ("list", "check"):
         shared.add(parsers[name], "--json")
+
+
+def parsers_of(
+    parser: argparse.ArgumentParser, dest: str, actions: Mapping[str, str]
+) -> dict[str, argparse.ArgumentParser]:
+    """A parser for each action of a command, whose name is kept as `dest`."""
+    below = parser.add_subparsers(dest=dest, metavar="ACTION", required=True)
+    return {
+        name: below.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        for name, words in actions.items()
+    }
 
 
 def run_problems(options: argparse.Namespace) -> int:

@@ -53,7 +53,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run_sequences(options: argparse.Namespace) -> int:
     """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
     from quasistatic_ref.files import text_written
-    from quasistatic_ref.lab.study.sequences import Limits, SequenceRow, checked, sequence_rows
+    from quasistatic_ref.lab.study.sequences import (
+        SequenceRow,
+        SolverLimits,
+        checked,
+        sequence_rows,
+    )
     from quasistatic_ref.lab.study.sets.folder import set_read
     from quasistatic_ref.lab.study.sets.member import Member
     from quasistatic_ref.progress import progress_bar
@@ -67,8 +72,8 @@ def run_sequences(options: argparse.Namespace) -> int:
         if not 0 < (value := getattr(options, name)) < LONGEST:
             words = f"must be above 0 and below {LONGEST:g}"
             raise InputError(words, field=f"--{name.replace('_', '-')}", value=value)
-    limits = Limits(options.time_limit, max(WARM_UP, options.time_limit), 1e9 * options.memory,
-                    options.budget)  # fmt: skip
+    limits = SolverLimits(options.time_limit, max(WARM_UP, options.time_limit),
+                          options.repetitions, 1e9 * options.memory, options.budget)  # fmt: skip
     modes = checked(options.solvers, options.modes.split(",") if options.modes else None)
     sequences: dict[str, list[Member]] = defaultdict(list)
     for one in set_read(problem_set_folder(), ["sequences"]):
@@ -84,9 +89,7 @@ def run_sequences(options: argparse.Namespace) -> int:
     with progress_bar(
         total=total, unit="problem", words="calls made", shown=not options.quiet
     ) as bar:
-        for row in sequence_rows(
-            sequences, modes, options.accuracy, options.repetitions, limits=limits
-        ):
+        for row in sequence_rows(sequences, modes, options.accuracy, limits):
             rows.append(row)
             bar.update()
     if options.out is not None:

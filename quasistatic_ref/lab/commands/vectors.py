@@ -42,7 +42,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             shared.add(action, "--json")
             _add_digits(action)
         if name == "check":
-            _add_choices(action)
+            words = "only cases whose ids begin so, e.g. rows/cone"
+            action.add_argument("--only", metavar="PREFIX", default="", help=words)
+            action.add_argument("--case", metavar="ID", help="one case alone, number by number")
         else:
             shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
         if name == "report":
@@ -50,13 +52,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             action.add_argument("--implementation", metavar="NAME", help=words)
         if name in ("check", "own"):
             _add_layers(action)
-
-
-def _add_choices(action: argparse.ArgumentParser) -> None:
-    """Which cases are checked, how strictly, and what is printed."""
-    words = "only cases whose ids begin so, e.g. rows/cone"
-    action.add_argument("--only", metavar="PREFIX", default="", help=words)
-    action.add_argument("--case", metavar="ID", help="one case alone, number by number")
 
 
 def _add_digits(action: argparse.ArgumentParser) -> None:

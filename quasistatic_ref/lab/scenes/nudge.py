@@ -3,16 +3,15 @@
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.scenes.systems import on_link, world_plane
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape, Sphere
+from quasistatic_ref.model.shapes import PointCloud, Shape, Sphere
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 
 RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
 """Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""
-
-UP = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 
 
 def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator, Array]:
@@ -28,8 +27,8 @@ def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator,
         [-].
     """
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
-    own = _on(system, "ball", shape)
-    pair = ContactPair("floor", _floor(), own, mu_v, MU_OMEGA, 6, 1)
+    own = on_link(system, "ball", shape)
+    pair = ContactPair("floor", world_plane(), own, mu_v, MU_OMEGA, 6, 1)
     return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0))), system.q_start
 
 
@@ -46,10 +45,10 @@ def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Ar
     hand = Body.of_shape("hand", Sphere(RADIUS), MASS, actuated=("base",), xyz=(*finger_at, RADIUS))
     ball = Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, RADIUS))
     system = System([hand, ball])
-    own = _on(system, "ball", Sphere(RADIUS))
+    own = on_link(system, "ball", Sphere(RADIUS))
     pairs = [
-        ContactPair("floor", _floor(), own, MU_V, MU_OMEGA, 6, 1),
-        ContactPair("push", _on(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("floor", world_plane(), own, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("push", on_link(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
     ]
     K_q = np.diag([2000.0] * 3 + [20.0] * 3)
     return Simulator(system, pairs, h=H, K_q=K_q), system.q_start
@@ -58,11 +57,3 @@ def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Ar
 def points(*places: tuple[float, float, float]) -> PointCloud:
     """A cloud of a few `places`, three numbers each [m]."""
     return PointCloud(np.array(places))
-
-
-def _on(system: System, body: str, shape: Shape) -> PlacedShape:
-    return PlacedShape(body, system.link(body), np.eye(3), np.zeros(3), shape)
-
-
-def _floor() -> PlacedShape:
-    return PlacedShape("floor", 0, np.eye(3), np.zeros(3), UP)

@@ -42,7 +42,8 @@ def continued(there: Mapping[str, Any], wanted: Mapping[str, Any]) -> dict[str, 
         elif name == "settings":
             merged[name] = _settings(old, value)
         elif name in ("versions", "machine"):
-            _check(name, {k: v for k, v in value.items() if k in old and k not in PASSING}, old)
+            if any(old[k] != v for k, v in value.items() if k in old and k not in PASSING):
+                raise _another(name)
             merged[name] = {**value, **old}
         elif old != value:
             raise _another(name)
@@ -51,11 +52,6 @@ def continued(there: Mapping[str, Any], wanted: Mapping[str, Any]) -> dict[str, 
         before = [*map(_label, there["solvers"]), *there.get("removed", [])]
         merged["removed"] = [label for label in dict.fromkeys(before) if label not in labels]
     return merged
-
-
-def _check(name: str, value: Mapping[str, Any], old: Mapping[str, Any]) -> None:
-    if any(old[key] != one for key, one in value.items()):
-        raise _another(name)
 
 
 def _label(solver: Mapping[str, Any]) -> str:

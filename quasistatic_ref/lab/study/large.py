@@ -91,11 +91,6 @@ def large_step(shape: tuple[int, int, int], k: int = 4, steps: int = STEPS) -> L
     )
 
 
-def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
-    """The power [-] of `sizes` as which `seconds` [s] grow: a line through the logarithms."""
-    return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
-
-
 def table(title: str, steps: Sequence[LargeStep]) -> str:
     """A Markdown table."""
     lines = [

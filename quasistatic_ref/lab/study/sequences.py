@@ -19,7 +19,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study import sessions
 from quasistatic_ref.lab.study.grade import CRASHED, FAILED, NOT_RUN, SOLVED
 from quasistatic_ref.lab.study.keeper import Ended, Keeper, Request, exchange
-from quasistatic_ref.lab.study.measure import borne_out
+from quasistatic_ref.lab.study.measure import Limits, borne_out
 from quasistatic_ref.lab.study.sessions import MODES, is_foreign
 from quasistatic_ref.lab.study.sets.member import Member
 from quasistatic_ref.lab.study.solvers import Setting
@@ -66,15 +66,15 @@ class SequenceRow:
 
 
 @dataclass(frozen=True)
-class Limits:
-    """What a solver of sequences may take.
+class SolverLimits(Limits):
+    """What a call may take, and a solver in all its calls.
 
     Parameters
     ----------
-    call : float
-        Time of a call [s].
-    warm_up : float
-        Of a call at a sequence's beginning, where shapes are new and a solver may compile [s].
+    call, warm_up : float
+        Of a call, and of one at a sequence's beginning [s].
+    repetitions : int
+        Of a whole sequence.
     memory : float
         Of its processes [bytes].
     budget : float
@@ -82,12 +82,11 @@ class Limits:
     """
 
     call: float = 2.0
-    warm_up: float = 10.0
     memory: float = 4e9
     budget: float = 600.0
 
 
-LIMITS: Final = Limits()
+LIMITS: Final = SolverLimits()
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ class _Caller:
     """One solver's process, and what is left of its budget [s]."""
 
     keeper: Keeper
-    limits: Limits
+    limits: SolverLimits
     left: float
     seen: set[object] = field(default_factory=set)
 
@@ -192,9 +191,8 @@ def sequence_rows(
     sequences: Mapping[str, Sequence[Member]],
     modes: Mapping[str, Sequence[str]],
     accuracy: float,
-    repetitions: int,
+    limits: SolverLimits = LIMITS,
     seed: int = 1,
-    limits: Limits = LIMITS,
     folder: str | Path = ".",
 ) -> Iterator[SequenceRow]:
     """Every solver run on every sequence, in each of its modes.
@@ -207,11 +205,10 @@ def sequence_rows(
         Of each solver, as :func:`checked` returns them.
     accuracy : float
         In natural units [-].
-    repetitions : int
-        Of each sequence, whose times are medians, and of whose answers the worst counts.
+    limits : SolverLimits
+        Of its repetitions times are medians, and of their answers the worst counts.
     seed : int
         Of the order in which solvers and modes come, another one for each sequence.
-    limits : Limits
     folder : str or Path
         Where callables are looked for.
     """
@@ -228,7 +225,8 @@ def sequence_rows(
             for i in rng.permutation(len(ways)):
                 solver, mode = ways[i]
                 setting = Setting(mode, accuracy, 0.0)
-                runs = [list(_run(forms, callers[solver], setting)) for _ in range(repetitions)]
+                turns = range(limits.repetitions)
+                runs = [list(_run(forms, callers[solver], setting)) for _ in turns]
                 for place, (form, exact, norm) in enumerate(
                     zip(forms, answers, norms, strict=True)
                 ):

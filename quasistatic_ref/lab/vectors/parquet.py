@@ -15,6 +15,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import written_whole
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
+from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.step.data import Array
 
 COLUMNS: Final = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
@@ -51,9 +52,7 @@ def exported_programs(folder: str | Path) -> list[Program]:
         given, output = case.input, expected[case.id]["output"]
         if "second_order" in given or "farkas" in output:
             continue
-        H, g, b = (np.array(given[key], dtype=np.float64) for key in ("H", "g", "b"))
-        A = np.array(given["A"], dtype=np.float64).reshape(len(b), len(g))
-        programs.append(Program(case.id, H, g, A, b, np.array(output["delta_q"])))
+        programs.append(Program(case.id, *matrices(given), np.array(output["delta_q"])))
     return programs
 
 

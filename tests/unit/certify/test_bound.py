@@ -6,7 +6,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify.bound import enclosed_answer, error_bound, opening_direction
 from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.certify.gap import energy, fractions, free_energy
+from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
@@ -141,30 +141,39 @@ def test_multipliers_below_zero_bound_nothing():
     assert guessed.error >= error(step, guessed.delta_q, x) * (1 - ROUNDING) > 1.0
 
 
-def made_up(rng, step, exact):
-    """An answer that is wrong in a way that a careless bound does not see, and its multipliers."""
+def made_up(rng, step, exact, least=-9, balanced=0.5, factors=(1.0, 0.5, 2.0, -1.0)):
+    """An answer that is wrong in a way that a careless bound does not see, and its multipliers.
+
+    It is wrong by 10^least and more; `balanced` is how often multipliers of any sign balance it.
+    """
     form, d = standard_form(step), opening_direction(step)
-    size = 10.0 ** rng.uniform(-9, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
+    size = 10.0 ** rng.uniform(least, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
     delta_q, lam = exact.delta_q.copy(), exact.lam.copy()
     if d is not None and rng.random() < 0.5:
         delta_q += rng.choice([-1.0, 1.0]) * size * d / np.abs(d).max()
     else:
         delta_q += size * rng.standard_normal(len(delta_q))
-    if rng.random() < 0.5 and len(lam):  # multipliers of any sign that balance it
+    if rng.random() < balanced and len(lam):
         lam = np.linalg.lstsq(form.A.T, form.H @ delta_q - form.g, rcond=None)[0]
-    return delta_q, lam * rng.choice([1.0, 0.5, 2.0, -1.0])
+    return delta_q, lam * rng.choice(factors)
 
 
-def within(step, exact, delta_q, bound):
-    """Whether an answer is as near to the optimum as a bound says, without rounding of either."""
+def within(step, exact, delta_q, bound, lam=None):
+    """Whether an answer is as near to the optimum as a bound says, without rounding of either.
+
+    With multipliers, whether the bound is true of these too: of their gap at the optimum.
+    """
+    if bound == np.inf:
+        return True
     form = exact_form(step)
     solution = rational_solution(form, exact.working_set)
     best = [fmpq(v) / solution.denominator for v in solution.x]
     off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
-    if bound == np.inf:
-        return True
+    gap = fmpq(0)
+    if lam is not None:
+        gap = duality_gap(form, best, fractions(np.maximum(lam, 0.0), form.lam_unit))
     (most,) = fractions(np.array([bound]), fmpq(1))
-    return energy(form, off) <= most * most * free_energy(form)
+    return energy(form, off) + gap <= most * most * free_energy(form)
 
 
 def test_no_answer_of_random_steps_has_a_false_bound():

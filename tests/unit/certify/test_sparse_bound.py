@@ -4,32 +4,30 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import fmpq, fmpz_mat
+from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify import sparse_bound
 from quasistatic_ref.certify.balls import positive_definite
 from quasistatic_ref.certify.bound import error_bound, opening_direction
 from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.kkt import rational_solution
 from quasistatic_ref.certify.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.certify.opening import opening
-from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.sparse_bound import least_way
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.sparse import SparseSolver
-from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import always_in_blocks, error, in_blocks, point_on_floor, random_step
 from tests.tolerances import ROUNDING
+from tests.unit.certify.test_bound import made_up, within
 from validation.random_steps import any_step
 
 FUZZED = 150
 """Random steps with answers made to look good: two seconds."""
 
 NO_TARGET = np.zeros(0)
+RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0, -1.0)}
 
 
 def bound_of(step, delta_q, lam):
@@ -41,33 +39,6 @@ def bound_of(step, delta_q, lam):
         delta_q / (units.size * units.coordinate), lam * (units.length / units.size)
     )
     return np.inf if found is None else found
-
-
-def holds(step, exact, delta_q, lam, bound):
-    """Whether a bound is true of displacement and multipliers, without rounding."""
-    if bound == np.inf:
-        return True
-    form = exact_form(step)
-    solution = rational_solution(form, exact.working_set)
-    best = [fmpq(v) / solution.denominator for v in solution.x]
-    off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
-    gap = duality_gap(form, best, fractions(np.maximum(lam, 0.0), form.lam_unit))
-    (most,) = fractions(np.array([bound]), fmpq(1))
-    return energy(form, off) + gap <= most * most * free_energy(form)
-
-
-def made_up(rng, step, exact):
-    """An answer that is right, or wrong in a way that a careless bound does not see."""
-    form, d = standard_form(step), opening_direction(step)
-    size = 10.0 ** rng.uniform(-17, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
-    delta_q, lam = exact.delta_q.copy(), exact.lam.copy()
-    if d is not None and rng.random() < 0.5:
-        delta_q += rng.choice([-1.0, 1.0]) * size * d / np.abs(d).max()
-    else:
-        delta_q += size * rng.standard_normal(len(delta_q))
-    if rng.random() < 0.3 and len(lam):  # multipliers of any sign that balance it
-        lam = np.linalg.lstsq(form.A.T, form.H @ delta_q - form.g, rcond=None)[0]
-    return delta_q, lam * rng.choice([1.0, 1.0, 0.5, 2.0, -1.0])
 
 
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
@@ -83,9 +54,9 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
         except StepNotSolved:
             continue
         for _ in range(3):
-            delta_q, lam = made_up(rng, step, exact)
+            delta_q, lam = made_up(rng, step, exact, **RIGHT_OR_WRONG)
             bound = bound_of(step, delta_q, lam)
-            assert holds(step, exact, delta_q, lam, bound)
+            assert within(step, exact, delta_q, bound, lam)
             told += bound < 1
     assert told > FUZZED
 
@@ -98,9 +69,9 @@ def test_free_motion_is_bounded_by_its_own_rounding():
         step = point_on_floor(m=rng.random(), phi=1.0, force=tuple(rng.standard_normal(3)))
         exact = exact_step(step)
         bound = bound_of(step, exact.delta_q, exact.lam)
-        assert holds(step, exact, exact.delta_q, exact.lam, bound)
+        assert within(step, exact, exact.delta_q, bound, exact.lam)
         assert bound < ROUNDING
-        wrong += not holds(step, exact, exact.delta_q, exact.lam, 0.0)
+        wrong += not within(step, exact, exact.delta_q, 0.0, exact.lam)
     assert wrong > 25
 
 
@@ -116,7 +87,7 @@ def test_sparse_answers_have_a_bound_as_good_as_that_of_dense_ones(monkeypatch, 
     assert step.contacts.blocks is not None
     bound, exact = answer.certificate.error_bound, exact_step(step)
     assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
-    assert holds(step, exact, answer.delta_q, answer.lam, bound)
+    assert within(step, exact, answer.delta_q, bound, answer.lam)
     dense = error_bound(step, answer.delta_q, answer.lam).error
     assert dense / 10 < bound < 10 * dense
     again = solve_step(step.replace(contacts=step.contacts.dense()), "clarabel", certify="off")
@@ -133,7 +104,7 @@ def test_a_planted_wrong_multiplier_raises_the_bound():
             lam[i] *= factor
             wrong = bound_of(step, exact.delta_q, lam)
             assert wrong > 1e3 * right
-            assert holds(step, exact, exact.delta_q, lam, wrong)
+            assert within(step, exact, exact.delta_q, wrong, lam)
 
 
 def test_an_answer_off_along_the_opening_direction_is_bounded_by_the_way():

@@ -80,23 +80,6 @@ def test_a_matrix_that_is_no_stiffness_is_refused_before_the_run(tmp_path, out, 
     assert not out.exists()
 
 
-USAGE = {
-    "no command": ([], "the following arguments are required: COMMAND"),
-    "an unknown command": (["fly"], "invalid choice: 'fly'"),
-    "an unknown option": (["run", "x.toml", "--fast"], "unrecognized arguments: --fast"),
-    "a step in words": (["extract", "x.npz", "--step", "first"], "invalid int value: 'first'"),
-    "no step": (["extract", "x.npz"], "required: --step"),
-}
-
-
-@pytest.mark.parametrize(("arguments", "says"), USAGE.values(), ids=USAGE)
-def test_wrong_usage_is_status_2(capsys, arguments, says):
-    with pytest.raises(SystemExit) as caught:
-        main(arguments)
-    assert caught.value.code == 2
-    assert says in capsys.readouterr().err
-
-
 def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
     """A folder called bench is a folder: the module of that command is not even imported."""
     monkeypatch.setitem(sys.modules, "quasistatic_ref.lab.commands.bench", None)

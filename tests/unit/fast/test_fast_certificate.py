@@ -4,7 +4,6 @@ import ctypes
 import subprocess
 from fractions import Fraction
 from operator import mul
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step
+from tests.unit.fast.changed_c import changed_sources
 from tests.unit.fast.test_fast import needs_compiler
 from validation.confirmed_bits import CONES, checked, differing, random_case
 
@@ -97,13 +97,7 @@ def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
 def made(folder, text, other):
     """The library with one text of contraction.c replaced."""
     library = compiled("library")
-    sources = Path(library.__file__).parent
-    for file in (*sources.glob("*.c"), *sources.glob("*.h")):
-        code = file.read_text()
-        if file.name == "contraction.c" and text:
-            assert code.count(text) == 1
-            code = code.replace(text, other)
-        (folder / file.name).write_text(code)
+    changed_sources(folder, "contraction.c", text, other)
     out = folder / "mutant.so"
     files = [str(folder / name) for name in library.SOURCES]
     command = [*library.compiler(), *library.FLAGS, "-o", str(out), *files, "-lm"]

@@ -3,12 +3,12 @@
 import ctypes
 import subprocess
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.compiled import compiled
+from tests.unit.fast.changed_c import changed_sources
 from tests.unit.fast.test_fast import needs_compiler
 
 pytestmark = needs_compiler
@@ -33,13 +33,7 @@ int shown(int64_t first, int64_t second, int64_t third, int place, double e, dou
 def library(folder, text="", other=""):
     """The function by itself, with one text of rounding.c replaced."""
     made = compiled("library")
-    sources = Path(made.__file__).parent
-    for file in (*sources.glob("*.c"), *sources.glob("*.h")):
-        code = file.read_text()
-        if file.name == "rounding.c" and text:
-            assert code.count(text) == 1
-            code = code.replace(text, other)
-        (folder / file.name).write_text(code)
+    changed_sources(folder, "rounding.c", text, other)
     (folder / "exposed.c").write_text(EXPOSED)
     names = ["exposed.c", *(name for name in made.SOURCES if name != "rounding.c")]
     files, out = [str(folder / name) for name in names], folder / "exposed.so"

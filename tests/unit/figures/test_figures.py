@@ -16,7 +16,9 @@ from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.model.shapes import (
     Box,
     Capsule,
+    Cone,
     Cylinder,
+    Ellipsoid,
     HalfSpace,
     PlacedShape,
     PointCloud,
@@ -186,6 +188,8 @@ OUTLINES = {
     "box": (Box(np.array([0.1, 0.2, 0.3])), (0.1, 0.2, 0.3)),
     "cylinder": (Cylinder(0.2, 0.3), (0.2, 0.2, 0.3)),
     "capsule": (Capsule(0.2, 0.3), (0.2, 0.2, 0.5)),
+    "cone": (Cone(0.2, 0.3), (0.2, 0.2, 0.3)),
+    "ellipsoid": (Ellipsoid(np.array([0.1, 0.2, 0.3])), (0.1, 0.2, 0.3)),
     "cloud": (PointCloud(np.array([[0.1, 0.2, 0.3], [-0.1, -0.2, -0.3]])), (0.1, 0.2, 0.3)),
 }
 

@@ -11,7 +11,7 @@ from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes import piles
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.large import exponent, large_step, table
+from quasistatic_ref.lab.study.large import large_step, table
 from quasistatic_ref.model import world
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
@@ -203,13 +203,6 @@ def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
     assert (one, two) == (1, 2)
     for a, b in zip(at_once, in_parts, strict=True):
         np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
-
-
-def test_the_exponent_is_that_of_a_power_law():
-    sizes = [10, 20, 40]
-    np.testing.assert_allclose(
-        exponent(sizes, [3e-4 * n**1.15 for n in sizes]), 1.15, rtol=ROUNDING
-    )
 
 
 def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):

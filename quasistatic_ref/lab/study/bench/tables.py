@@ -9,6 +9,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.study import environment
 from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
 from quasistatic_ref.lab.study.bench.clouds import clouds
@@ -31,7 +32,6 @@ from quasistatic_ref.lab.study.large import (
     ROW,
     SHORT,
     LargeStep,
-    exponent,
     large_step,
 )
 from quasistatic_ref.solve.backends import installed
@@ -105,4 +105,4 @@ def _fitted(steps: Sequence[LargeStep], over: str) -> float | None:
     """Exponent of time over bodies or contacts; None with fewer than two sizes."""
     if len(steps) < 2:
         return None
-    return exponent([getattr(step, over) for step in steps], [step.seconds for step in steps])
+    return slope([getattr(step, over) for step in steps], [step.seconds for step in steps])

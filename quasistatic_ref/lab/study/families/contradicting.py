@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng, random_frames, spread_matrix
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, point_jacobian
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, frames_about, point_jacobian
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.study.families.shaped import base
 from quasistatic_ref.lab.study.families.short import OF_J, H, framed, shortened
@@ -38,7 +38,7 @@ def in_a_cage(rng: Rng, room: float) -> StepData:
     n -= n.mean(axis=0)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     J = point_jacobian(-SIZE * n + 0.3 * SIZE * rng.standard_normal((AROUND, 3)), n)
-    J[:, :3] = _frames(rng, n) @ J[:, :3]
+    J[:, :3] = frames_about(n, rng.standard_normal(3)) @ J[:, :3]
     gaps = room * (0.5 + rng.uniform(size=AROUND))
     contacts = framed(shortened(J, OF_J), shortened(gaps, OF_J), rng.uniform(0.2, 0.9, AROUND))
     M = np.zeros((6, 6))
@@ -76,10 +76,3 @@ def _wall(rng: Rng, step: StepData) -> Array:
     J = np.zeros((4, step.n_v))
     J[:, step.n_a :] = shortened(own, OF_J)
     return J
-
-
-def _frames(rng: Rng, n: Array) -> Array:
-    """Frames [d1, d2, n], shape (n_c, 3, 3)."""
-    d1 = np.cross(rng.standard_normal(3), n)
-    d1 /= np.linalg.norm(d1, axis=1, keepdims=True)
-    return np.stack([d1, np.cross(n, d1), n], axis=1)

@@ -139,22 +139,18 @@ def member_of(one: Made) -> Member:
 
 def _sparse(one: Made) -> tuple[csr_matrix, Array, csr_matrix, Array, Units, Answer]:
     """The numbers of a sparse step, and its answer."""
+    from scipy.sparse.linalg import spsolve
+
     form = sparse_form(one.step, Pattern(one.step))
     H, A = csr_matrix(form.P + triu(form.P, 1).T), csr_matrix(form.A)
     S = coordinate_units(H.diagonal())
     rows = A.multiply(S)
     squares = np.sort(np.asarray(rows.multiply(rows).sum(axis=1)).ravel())
-    energy = float(np.sqrt(form.g @ _solved(H, form.g)))
+    energy = float(np.sqrt(form.g @ spsolve(csc_matrix(H), form.g)))
     units = units_from(S, squares, energy, form.b)
     plain = Member({}, H, form.g, A, form.b, units, UNKNOWN).natural
     answer = bounded_answer(plain.H, plain.g, plain.A, plain.b, units)
     return H, form.g, A, form.b, units, answer
-
-
-def _solved(H: csr_matrix, g: Array) -> Array:
-    from scipy.sparse.linalg import spsolve
-
-    return np.asarray(spsolve(csc_matrix(H), g))
 
 
 def _measured(

@@ -70,7 +70,8 @@ def written(found: Conformance, answers: Path, out: Path) -> list[Path]:
     writable_folder(out)
     layers = [layer for layer in found.report.layers if layer.present]
     declared = {layer.layer: answers_read(answers, layer.layer) for layer in layers}
-    hashes = {name: _hash(answers / f"{name}.json") for name in declared}
+    contents = {name: bytes_read(answers / f"{name}.json") for name in declared}
+    hashes = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
     images = {"badge": badge(found), "digits": histogram(layers)}
     content = page(found, declared, _versions(found, declared, hashes))
     record = json.dumps(record_of(found, hashes), indent=1) + "\n"
@@ -116,10 +117,6 @@ def _on_one_line(name: str) -> str:
     """A name as it stands in a table, whatever characters it has."""
     shown = "".join(c if c.isprintable() else " " for c in name)
     return " ".join(shown.split())[:LONGEST] or "-"
-
-
-def _hash(path: Path) -> str:
-    return hashlib.sha256(bytes_read(path)).hexdigest()
 
 
 def _versions(

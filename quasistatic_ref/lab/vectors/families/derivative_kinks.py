@@ -80,7 +80,8 @@ def _rows() -> Iterator[Case]:
     wall = {"kind": "halfspace", "normal": [-1.0, 0.0, 0.0], "offset": -R}
     beside = onto(onto(free(BALL, [0.0, 0.0, R]), "floor", FLOOR), "wall", wall)
     yield "beside", "a ball on the floor that just touches a wall", beside
-    yield "beside_4", "the same without torsion", _with(beside, rows=4)
+    four = {**beside, "pairs": [{**pair, "rows": 4} for pair in beside["pairs"]]}
+    yield "beside_4", "the same without torsion", four
     for name, mu, share in (
         ("limit_x", 0.5, [0.5, 0.0]),
         ("limit_y", 0.25, [0.0, 0.25]),
@@ -106,10 +107,6 @@ def _slider(mu: float, force: list[float]) -> Json:
     point = {"kind": "sphere", "radius": R}
     table = scene(chain, {"body": on("body", point)}, [0.0, 0.0, R], h=H, gravity=G, pairs=[])
     return pushed(onto(table, "floor", FLOOR, mu_v=mu), [*force, 0.0])
-
-
-def _with(table: Json, **more: Any) -> Json:
-    return {**table, "pairs": [{**pair, **more} for pair in table["pairs"]]}
 
 
 def _touching() -> Iterator[Case]:

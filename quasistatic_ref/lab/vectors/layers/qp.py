@@ -85,11 +85,15 @@ def own(case_input: Json) -> Json:
     }
 
 
+def matrices(case_input: Json) -> tuple[Array, Array, Array, Array]:
+    """H (n, n), g (n,), A (m, n) and b (m,) of a case, in its units."""
+    H, g, b = (np.array(case_input[key], dtype=np.float64) for key in ("H", "g", "b"))
+    return H, g, np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g)), b
+
+
 def form_of(case_input: Json) -> ExactForm:
     """The program of a case in integers."""
-    H, g, b = (np.array(case_input[key], dtype=np.float64) for key in ("H", "g", "b"))
-    A = np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g))
-    return exact_form_of(H, g, A, b)
+    return exact_form_of(*matrices(case_input))
 
 
 def step_of(case_input: Json) -> StepData:
@@ -97,8 +101,7 @@ def step_of(case_input: Json) -> StepData:
 
     That is the form in which :func:`quasistatic_ref.certify.certificate.verify` re-verifies it.
     """
-    g, b = np.array(case_input["g"]), np.array(case_input["b"], dtype=np.float64)
-    A = np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g))
+    _, g, A, b = matrices(case_input)
     rows = Extra(tuple(f"row {i}" for i in range(len(b))), A, b)
     return _step(case_input, _contacts(np.zeros((0, 4, len(g))), np.zeros(0)), extra=rows)
 

@@ -67,19 +67,20 @@ def _turned(unit: Vector, angle: Real) -> Vector:
     return [c * cosine - s * sine, s * cosine + c * sine]
 
 
-def with_q(tree: Mechanism, case: Json, way: Vector) -> Json:
-    """The case at q (+) way, but for terms of third order."""
-    return {**case, "q": curved(tree, case["q"], way)}
+def with_q(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
+    """The case at q (+) by times way, but for terms of third order."""
+    return {**case, "q": curved(tree, case["q"], scaled(way, by))}
 
 
-def with_target(tree: Mechanism, case: Json, way: Vector) -> Json:
+def with_target(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
     """The same of q_bar_a, with one number for each actuated coordinate."""
-    return {**case, "q_bar_a": curved(tree, case["q_bar_a"], way)}
+    return {**case, "q_bar_a": curved(tree, case["q_bar_a"], scaled(way, by))}
 
 
-def with_force(case: Json, way: Vector) -> Json:
-    """The case with a additional generalised force [N, N m]."""
-    return {**case, "tau": add(case["tau"], way) if "tau" in case else way}
+def with_force(way: Vector, case: Json, by: fmpq) -> Json:
+    """The case with an additional generalised force, by times way [N, N m]."""
+    more = scaled(way, by)
+    return {**case, "tau": add(case["tau"], more) if "tau" in case else more}
 
 
 def with_held_wrenches(case: Json) -> Json:
@@ -90,14 +91,14 @@ def with_held_wrenches(case: Json) -> Json:
     return {**case, "wrenches": [], "tau": tau}
 
 
-def with_friction(case: Json, name: str, pair: int, by: Real) -> Json:
+def with_friction(name: str, pair: int, case: Json, by: Real) -> Json:
     """The case with another coefficient of one of its pairs, ``mu_v`` or ``mu_omega``."""
     pairs = [dict(one) for one in case["pairs"]]
     pairs[pair][name] = number(pairs[pair][name]) + by
     return {**case, "pairs": pairs}
 
 
-def with_stiffness(case: Json, j: int, by: Real) -> Json:
+def with_stiffness(j: int, case: Json, by: Real) -> Json:
     """The case with another K_q[j][j]."""
     K = [numbers(row) for row in case["K_q"]]
     K[j][j] += by
@@ -109,7 +110,7 @@ def with_time(case: Json, by: Real) -> Json:
     return {**case, "h": number(case["h"]) + by}
 
 
-def with_mass(case: Json, body: int, by: Real) -> Json:
+def with_mass(body: int, case: Json, by: Real) -> Json:
     """The case with another mass [kg] of a body, its centre of mass and inertia kept."""
     bodies = copy.deepcopy(case["mechanism"]["bodies"])
     bodies[body]["mass"] = number(bodies[body]["mass"]) + by

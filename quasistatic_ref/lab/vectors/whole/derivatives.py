@@ -14,8 +14,7 @@ from typing import Final
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
-from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.whole import along
 from quasistatic_ref.lab.vectors.whole.dependent import dependence_breaks
@@ -65,14 +64,14 @@ def moves(one: Base) -> dict[str, list[Move]]:
     n, n_a, pairs = tree.n_v, tree.n_a, range(len(case["pairs"]))
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
-        "q": [partial(_along_q, tree, _way(n, j)) for j in range(n)],
-        "q_bar_a": [partial(_along_target, tree, _way(n_a, j)) for j in range(n_a)],
-        "tau": [partial(_along_force, _way(n, j)) for j in range(n)],
-        "mu_v": [partial(_along_friction, "mu_v", p) for p in pairs],
-        "mu_omega": [partial(_along_friction, "mu_omega", p) for p in pairs],
-        "K_q": [partial(_along_stiffness, j) for j in range(n_a)],
+        "q": [partial(along.with_q, tree, _way(n, j)) for j in range(n)],
+        "q_bar_a": [partial(along.with_target, tree, _way(n_a, j)) for j in range(n_a)],
+        "tau": [partial(along.with_force, _way(n, j)) for j in range(n)],
+        "mu_v": [partial(along.with_friction, "mu_v", p) for p in pairs],
+        "mu_omega": [partial(along.with_friction, "mu_omega", p) for p in pairs],
+        "K_q": [partial(along.with_stiffness, j) for j in range(n_a)],
         "h": [along.with_time],
-        "m": [partial(_along_mass, k) for k in masses],
+        "m": [partial(along.with_mass, k) for k in masses],
     }
     for name in ("mu_v", "mu_omega"):
         if not all(pair[name] > 0 for pair in case["pairs"]):
@@ -82,30 +81,6 @@ def moves(one: Base) -> dict[str, list[Move]]:
 
 def _way(size: int, j: int) -> Vector:
     return [fmpq(int(i == j)) for i in range(size)]
-
-
-def _along_q(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
-    return along.with_q(tree, case, scaled(way, by))
-
-
-def _along_target(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
-    return along.with_target(tree, case, scaled(way, by))
-
-
-def _along_force(way: Vector, case: Json, by: fmpq) -> Json:
-    return along.with_force(case, scaled(way, by))
-
-
-def _along_friction(name: str, pair: int, case: Json, by: fmpq) -> Json:
-    return along.with_friction(case, name, pair, by)
-
-
-def _along_stiffness(j: int, case: Json, by: fmpq) -> Json:
-    return along.with_stiffness(case, j, by)
-
-
-def _along_mass(body: int, case: Json, by: fmpq) -> Json:
-    return along.with_mass(case, body, by)
 
 
 def derivatives(one: Base) -> Derivatives:

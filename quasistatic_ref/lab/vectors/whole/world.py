@@ -55,11 +55,8 @@ class World:
             body = self.tree.number(entry["body"])
             if body is not None:
                 R, t = product(self.at.R[body], R), moved(self.at.R[body], self.at.t[body], t)
-            return self._at(entry["shape"], _matrix(R), _vector(t))
-
-    def _at(self, shape: Json, R: Json, t: Json) -> Placed:
-        here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
-        return replace(placed(shape, here), R=R, t=t)
+            here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+            return replace(placed(entry["shape"], here), R=_matrix(R), t=_vector(t))
 
 
 def world(case: Json) -> World:
