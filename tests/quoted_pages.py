@@ -112,7 +112,8 @@ QUOTED = {
         ("l = mu_omega (2 N / (m g) - 1 / mu_v) = {:.1f} mm", lambda: [20 * (10 / (0.2 * G) - 2)]),
         ("2 and 4 mm hold the bunny ({:.1f} degrees), 1 mm does not ({:.0f} degrees)",
          lambda: map(of.turned, (2, 1))),
-        ("it lies between 1.75 mm (the bunny turns by {:.1f} degrees) and 1.80 mm (by {:.1f})",
+        ("the threshold lies between 1.75 mm (the bunny turns by {:.1f} degrees) and 1.80 mm (by "
+         "{:.1f})",
          lambda: map(of.turned, (1.75, 1.8))),
         ("is not the {:.0f} mm to the middle of the fingertips: the two points that bear load are "
          "{:.0f} and {:.0f} mm behind the centre of mass", lambda: of.levers()[:3]),

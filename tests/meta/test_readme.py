@@ -30,7 +30,7 @@ def test_the_files_to_be_read_first_are_there_and_as_long_as_it_says():
     ]  # fmt: skip
     package = ROOT / "quasistatic_ref"
     lines = sum(len((package / name).read_text().splitlines()) for name in files)
-    assert f"Five files of about {ABOUT * round(lines / ABOUT)} lines" in text
+    assert f"five files of about {ABOUT * round(lines / ABOUT)} lines in total" in text
     named = re.findall(r"`(\w+/\w+\.py)`", text[text.index("## Read it") :])
     assert [name for name in named if not (package / name).is_file()] == []
 
