@@ -162,9 +162,13 @@ EVERY: dict[str, Backend] = BACKENDS | GUESTS
 
 def known_to(interface: str) -> list[str]:
     """Names that are understood behind ``cvxpy:``, ``qpsolvers:`` or ``native:``."""
-    own = {"cvxpy": lambda b: b.cvxpy, "qpsolvers": lambda b: True, "native": lambda b: b.adapter}
+    backends = {
+        "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
+        "qpsolvers": list(BACKENDS),
+        "native": [b.name for b in BACKENDS.values() if b.adapter],
+    }
     guests = [guest.name for guest in GUESTS.values() if interface in guest.interfaces]
-    return [b.name for b in BACKENDS.values() if own[interface](b)] + guests
+    return backends[interface] + guests
 
 
 def installed_here(interface: str) -> tuple[str, ...]:
