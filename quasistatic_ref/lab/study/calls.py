@@ -15,6 +15,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files import json_text
+from quasistatic_ref.lab.study.guests import GUESTS, Native, natively
 from quasistatic_ref.lab.study.packages import loaded
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.adapters.program import Program, Reply
@@ -61,14 +62,15 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     Raises
     ------
     InputError
-        If a package or a callable cannot be imported, or there is no such executable.
+        If a package, a callable or a guest cannot be imported, or there is no such executable.
     """
     if solver.interface == "cvxpy":
         return _by_cvxpy(str(solver.target))
     if solver.interface == "qpsolvers":
         return _directly(str(solver.target))
     if solver.interface == "native":
-        return _natively(str(solver.target))
+        name = str(solver.target)
+        return _by_itself(natively(name) if name in GUESTS else _adapted(name))
     if solver.interface == "package":
         return _calling(loaded(str(solver.target)))
     if solver.interface == "callable":
@@ -137,7 +139,7 @@ def _directly(name: str) -> Call:
     return call
 
 
-def _natively(name: str) -> Call:
+def _adapted(name: str) -> Native:
     adapter = getattr(
         importlib.import_module(f"quasistatic_ref.solve.adapters.{name}"), BACKENDS[name].adapter
     )
@@ -155,6 +157,10 @@ def _natively(name: str) -> Call:
         said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
         return said
 
+    return reply
+
+
+def _by_itself(reply: Native) -> Call:
     def call(
         form: StandardForm, options: Options, start: StandardForm | None, limit: float
     ) -> Reply:

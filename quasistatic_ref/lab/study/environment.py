@@ -5,9 +5,9 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from quasistatic_ref.lab.study.guests import EVERY
 from quasistatic_ref.lab.study.packages import entry_of, package_of
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.backends import BACKENDS
 
 CPU = Path("/sys/devices/system/cpu/cpu0")
 UNKNOWN = "unknown"
@@ -31,7 +31,7 @@ def machine() -> dict[str, object]:
 def versions(solvers: tuple[Solver, ...]) -> dict[str, str]:
     """Versions of this package, of what stands between it and the solvers, and of these."""
     packages = ["quasistatic-ref", "numpy", "scipy", "cvxpy", "qpsolvers"]
-    packages += [BACKENDS[str(s.target)].to_install for s in solvers if s.target in BACKENDS]
+    packages += [EVERY[str(s.target)].to_install for s in solvers if s.target in EVERY]
     packages += [package_of(entry_of(str(s.target))) for s in solvers if s.interface == "package"]
     return {name: _version(name) for name in dict.fromkeys(packages)}
 

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from quasistatic_ref.solve.backends import BACKENDS, Backend
+from quasistatic_ref.lab.study.guests import EVERY
+from quasistatic_ref.solve.backends import Backend
 
 INTERFACES = ("cvxpy", "qpsolvers", "native", "package", "callable", "executable")
 
@@ -79,7 +80,7 @@ class Solver:
     @property
     def entry(self) -> Backend:
         """What the table says of it, if it is known."""
-        return BACKENDS[str(self.target)]
+        return EVERY[str(self.target)]
 
     def takes(self, setting: Setting) -> bool:
         """Whether a setting means anything to it."""

@@ -6,18 +6,14 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.fields import Fields
+from quasistatic_ref.lab.study.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.packages import announced, entry_of
 from quasistatic_ref.lab.study.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
 from quasistatic_ref.quoting import suggestion
-from quasistatic_ref.solve.backends import BACKENDS, installed
 
 PACKAGE = "package"
-BY_INTERFACE = {
-    "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
-    "qpsolvers": list(BACKENDS),
-    "native": [b.name for b in BACKENDS.values() if b.adapter],
-}
+BY_INTERFACE = {interface: known_to(interface) for interface in ("cvxpy", "qpsolvers", "native")}
 
 
 def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, Solver]:
@@ -89,7 +85,7 @@ def solvers_named(name: str, own: Iterable[str] = ()) -> list[Solver]:
     if interface not in BY_INTERFACE:
         known = [*own, *(f"{r}:*" for r in (*BY_INTERFACE, PACKAGE))]
         raise InputError(f"holds no solver{suggestion(name, known)}", value=name)
-    everyone = installed(interface) if solver == "*" else (solver,)
+    everyone = installed_here(interface) if solver == "*" else (solver,)
     for one in everyone:
         _check_installed(interface, one)
     return [Solver(one, interface, one) for one in everyone]
@@ -99,8 +95,8 @@ def _check_installed(interface: str, solver: str) -> None:
     if solver not in BY_INTERFACE[interface]:
         hint = suggestion(solver, BY_INTERFACE[interface])
         raise InputError(f"holds no solver of {interface}{hint}", value=solver)
-    if solver not in installed(interface):
-        remedy = BACKENDS[solver].to_install_it
+    if solver not in installed_here(interface):
+        remedy = EVERY[solver].to_install_it
         raise InputError(f"is not installed; {remedy}", value=solver)
 
 

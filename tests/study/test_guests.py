@@ -1,0 +1,199 @@
+"""Solvers of the lab's own table: which are called, at which options, by which interface."""
+
+import sys
+from dataclasses import dataclass
+from enum import IntEnum
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study import guests
+from quasistatic_ref.lab.study.calls import call_of
+from quasistatic_ref.lab.study.guests import GUESTS, installed_here, natively
+from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.spec_solvers import solvers_named
+from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.solve.backends import BACKENDS, installed
+from quasistatic_ref.step.standard_form import StandardForm
+from tests.tolerances import ROUNDING
+
+# min x^2 - g x, x >= b: x* = max(g / 2, b), and its multiplier is 2 x* - g.
+G, B = 3.0, 2.0
+X = max(G / 2, B)
+LAM = 2 * X - G
+FORM = StandardForm(np.array([[2.0]]), np.array([G]), np.array([[1.0]]), np.array([B]))
+
+
+@pytest.fixture
+def only(monkeypatch):
+    """A function that says which guests are installed, whatever is."""
+    return lambda *names: monkeypatch.setattr(guests, "find_spec", lambda name: name in names)
+
+
+@pytest.fixture
+def float64():
+    """JAX is left in the precision that it was in."""
+    import jax
+
+    before = jax.config.jax_enable_x64
+    yield
+    jax.config.update("jax_enable_x64", before)
+
+
+def test_the_table_is_none_of_the_cores_and_says_how_each_is_called():
+    assert set(GUESTS) == {"qoco", "cvxopt", "ecos", "qpax", "mpax"}
+    assert not set(GUESTS) & set(BACKENDS)
+    for guest in GUESTS.values():
+        assert guest.interfaces
+        assert ("native" in guest.interfaces) == (guest.native is not None)
+        assert not guest.steps
+
+
+@pytest.mark.parametrize("name", GUESTS)
+def test_a_guest_has_no_options_by_default_and_tighter_ones_never_ask_for_less(name):
+    solver = Solver(name, GUESTS[name].interfaces[0], name)
+    at = {s.name: solver.settings_of(s, 1.0) for s in SETTINGS if solver.takes(s)}
+    assert list(at) == ["default", "low", "mid", "high", "tuned"]
+    assert at["default"] == {}
+    for loose, tight in pairwise(at[setting] for setting in ("low", "mid", "high", "tuned")):
+        changed = [key for key in loose if loose[key] != tight[key]]
+        assert changed
+        assert all(tight[key] == pytest.approx(1e-3 * loose[key], rel=ROUNDING) for key in changed)
+
+
+@pytest.mark.parametrize("interface", ["qpsolvers", "cvxpy", "native"])
+def test_a_star_is_the_backends_and_the_guests_that_are_installed(only, interface):
+    only()
+    assert installed_here(interface) == installed(interface)
+    for name, guest in GUESTS.items():
+        only(name)
+        targets = [solver.target for solver in solvers_named(f"{interface}:*")]
+        own = [name] if interface in guest.interfaces else []
+        assert targets == [*installed(interface), *own]
+
+
+def test_a_guest_that_is_not_installed_is_no_backend_of_an_extra(only):
+    only()
+    with pytest.raises(InputError, match=r"is not installed; pip install qoco \(got"):
+        solvers_named("native:qoco")
+
+
+@pytest.mark.parametrize("name", ["qpsolvers:qpax", "cvxpy:mpax", "qpsolvers:qoco"])
+def test_what_would_compile_in_every_call_is_not_called(only, name):
+    only(*GUESTS)
+    with pytest.raises(InputError, match="holds no solver of"):
+        solvers_named(name)
+
+
+class Qoco:
+    """A stand-in of its class: the problem above, solved by its formula."""
+
+    def setup(self, n, m, p, P, c, A, b, G, h, rows, nsoc, q, **settings):
+        """Keep the program; at an accuracy of its own it does not claim the answer."""
+        assert (n, m, p, A, b, rows, nsoc, q) == (1, 1, 0, None, None, 1, 0, None)
+        self.P, self.c, self.G, self.h = P.toarray(), c, G.toarray(), h
+        self.status = "QOCO_SOLVED" if settings else "QOCO_SOLVED_INACCURATE"
+
+    def solve(self):
+        """x* = max(-c / P, h / G): the row is G x <= h with G < 0."""
+        x = np.maximum(-self.c / self.P[0], self.h / self.G[0])
+        z = -(self.P[0] * x + self.c) / self.G[0]
+        return SimpleNamespace(x=x, z=z, status=self.status, iters=7, solve_time_sec=1e-5)
+
+
+def solve_qp(Q, q, A, b, G, h, solver_tol=1e-5, backend="e"):
+    """A stand-in of qpax': the same by its formula, converged where the tolerance is tight."""
+    assert backend in ("e", "i")
+    x = -q / Q[0] + 0 * h
+    x = x * (x > h / G[0]) + h / G[0] * (x <= h / G[0])
+    return x, h - G[0] * x, -(Q[0] * x + q) / G[0], b, solver_tol < 1e-5, 9
+
+
+class Status(IntEnum):
+    """Two of MPAX' words."""
+
+    OPTIMAL = 2
+    ITERATION_LIMIT = 6
+
+
+class Said(NamedTuple):
+    """A stand-in of what MPAX returns."""
+
+    primal_solution: Any
+    dual_solution: Any
+    termination_status: Any
+    iteration_count: Any
+
+
+@dataclass
+class RaPdhg:
+    """A stand-in of MPAX's method."""
+
+    eps_abs: float = 1e-4
+    eps_rel: float = 1e-4
+    iteration_limit: int = 2**31 - 1
+
+    def optimize(self, p):
+        """The same formula for G x >= h."""
+        free = -p["q"] / p["Q"][0]
+        bound = p["h"] / p["G"][0]
+        x = free * (free > bound) + bound * (free <= bound)
+        status = 2 + 4 * (self.iteration_limit > guests.ITERATIONS)
+        return Said(x, (p["Q"][0] * x + p["q"]) / p["G"][0], status, 11)
+
+
+def create_qp(Q, q, A, b, G, h, lower, upper, use_sparse_matrix):
+    """A stand-in of MPAX': one variable without bounds, one row, no equation."""
+    assert A.shape == (0, 1)
+    assert b.shape == (0,)
+    assert (*lower, *upper) == (-np.inf, np.inf)
+    assert not use_sparse_matrix
+    return {"Q": Q, "q": q, "G": G, "h": h}
+
+
+@pytest.fixture
+def planted(monkeypatch, float64):
+    """Stand-ins of three packages."""
+    modules = {
+        "qoco": SimpleNamespace(QOCO=Qoco),
+        "qpax": SimpleNamespace(solve_qp=solve_qp, SolverParams=lambda: SimpleNamespace(tol=1e-5)),
+        "mpax": SimpleNamespace(raPDHG=RaPdhg, create_qp=create_qp),
+        "mpax.utils": SimpleNamespace(TerminationStatus=Status),
+    }
+    for name, module in modules.items():
+        monkeypatch.setitem(sys.modules, name, module)
+
+
+@pytest.mark.parametrize("name", ["qoco", "qpax", "mpax"])
+def test_a_native_guest_gets_the_program_with_its_signs_and_its_options(planted, name):
+    """Each stand-in claims to have solved it at a tight accuracy, and at its default does not."""
+    call = call_of(Solver(name, "native", name))
+    for options, claimed in (({}, False), (GUESTS[name].plain(1e-9), True)):
+        reply = call(FORM, options, None, 1.0)
+        assert reply.solved == claimed, reply.status
+        assert list(reply.x) == [X]
+        assert list(reply.lam) == [LAM]
+        assert reply.iterations > 0
+        assert reply.call_seconds > 0
+
+
+@pytest.mark.parametrize("name", ["qoco", "qpax", "mpax"])
+def test_a_guest_that_cannot_be_imported_is_said_with_its_reason(monkeypatch, float64, name):
+    monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(InputError, match=rf"cannot be imported: ModuleNotFoundError.*{name}"):
+        natively(name)
+
+
+def test_a_guest_that_cannot_be_imported_costs_no_other_solver(tmp_path, monkeypatch, run):
+    (tmp_path / "mpax.py").write_text("raise ImportError('no wheel of it here')\n")
+    monkeypatch.syspath_prepend(str(tmp_path))  # of the worker, too: the study's folder
+    problems = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
+    rows = run(problems + '[[runs]]\nsolvers = ["native:mpax", "native:daqp"]\n')
+    assert {(row["solver"], row["outcome"]) for row in rows} == {("daqp", "solved")}
+    (reason,) = unreached_read(tmp_path / "store").items()
+    assert reason[0] == "native:mpax"
+    assert "no wheel of it here" in reason[1]
