@@ -1,9 +1,9 @@
 """A guess of a working set that is wrong by a row or two: where walks in floating point lead.
 
-A backend does not see rows that are violated by less than its tolerance. The proof of its guess
-does, and names one. The walk from there is that of
-:mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made wrong: what it
-leads to is a guess again, and proved like any other.
+A backend does not see rows that are violated by less than its tolerance, nor does float64 if that
+is less than the rounding of the slack. The proof of its guess does, and names one. The walk from
+there is that of :mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made
+wrong: what it leads to is a guess again, and proved like any other.
 """
 
 from collections.abc import Callable

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify import exact_step as method
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.exchange import Violated, proved_nearby, walked
 from quasistatic_ref.certify.rational import exact_form
@@ -37,12 +37,12 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
             if found is None:
                 continue
             assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
-            mended += isinstance(confirmed(step, guess, hessian), Violated)
+            mended += isinstance(BallStep(step, hessian).confirmed(guess), Violated)
     assert mended > 30
 
 
 def refused(*_):
-    raise AssertionError("the method that decides everything was asked")
+    raise AssertionError("the method that decides everything was asked, or prepared")
 
 
 @pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
@@ -51,6 +51,7 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     monkeypatch.setattr(method, "exact_optimum", refused)
     if by == "balls":
         monkeypatch.setattr("quasistatic_ref.solve.solve.compiled", lambda name: None)
+    monkeypatch.setattr("quasistatic_ref.solve.solve.warm_rows", refused)
     scenario = load_scenario("allegro_turn")
     simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
     for k in range(12):
