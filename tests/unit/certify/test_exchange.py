@@ -10,7 +10,9 @@ from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.exchange import Violated, proved_nearby, walked
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import StandardForm
+from tests.helpers import pinch
 from tests.unit.fast.test_fast import needs_compiler
 from validation.confirmed_bits import (
     NEARBY,
@@ -60,6 +62,12 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
         wrong += found.solution.statistics.digits < 16
         assert found.solution.certificate.kind == "exact"
     assert wrong > 0
+
+
+def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
+    """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
+    monkeypatch.setattr(method, "exact_optimum", refused)
+    assert solve_step(pinch(grip=5.0), "clarabel").certificate.kind == "exact"
 
 
 def line(*bounds):
