@@ -27,7 +27,7 @@ import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.exchange import Proof, proved_nearby
 from quasistatic_ref.certify.rational import exact_form
@@ -103,7 +103,7 @@ def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
 
 def confirmed_answer(step: StepData, guess: list[int], hessian: BallHessian) -> ExactOptimum | None:
     """What is confirmed of a guess."""
-    found = confirmed(step, guess, hessian)
+    found = BallStep(step, hessian).confirmed(guess)
     return found if isinstance(found, ExactOptimum) else None
 
 
@@ -112,7 +112,7 @@ def nearby_answer(
 ) -> ExactOptimum | None:
     """What is proved on a guess or near it, in balls or by compiled code."""
     rows = np.array(sorted(set(guess)), dtype=np.int64)
-    prove = partial(proof, step) if by_code else partial(confirmed, step, hessian=hessian)
+    prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
     return proved_nearby(prove, rows, standard_form(step), hessian.rough)
 
 

@@ -82,75 +82,88 @@ class BallHessian:
         return actuated.entries() + [p / self.h - self.h * tau for p, tau in parts]
 
 
-def confirmed(step: StepData, guess: Sequence[int] | Indices, hessian: BallHessian) -> Proof:
-    """The exact optimum, if a guess of its working set is right and balls show it.
+class BallStep:
+    """A step in balls: what the proofs of its guesses have in common.
 
     Parameters
     ----------
     step : StepData
         In a polyhedral cone.
-    guess : sequence of int
-        Rows, as from :func:`~quasistatic_ref.certify.warm.warm_rows`.
     hessian : BallHessian
         That of the step.
-
-    Returns
-    -------
-    ExactOptimum, Violated or None
-        None where something stays open. Of a guess that is wrong, rows whose multipliers are not
-        surely positive are dropped; that is all.
     """
-    working = sorted({int(i) for i in guess})
-    with ctx.workprec(PRECISION):
-        A, b = _rows(step, working)
-        reached = A * hessian.inverse
-        free = hessian.inverse * hessian.load(step)
-        try:
-            y = (reached * A.transpose()).solve(b - A * free)
-        except ZeroDivisionError:
-            return None
-        pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
-        if pressed != working:
-            return confirmed(step, pressed, hessian)
-        x = free + reached.transpose() * y
-        lam = y * (1 / hessian.h)
-        net = A.transpose() * lam
-        found = *lam.entries(), *net.entries(), *x.entries(), *_slacks(step, x)
-        numbers, shown = all_nearest(found)
-    ends = np.cumsum([len(working), step.n_v, step.n_v])
-    lam_w, impulse, delta_q, slack = np.split(numbers, ends)
-    open_lam, open_impulse, open_x, open_slack = np.split(~shown, ends)
-    slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
-    idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
-    still = np.flatnonzero(open_x).tolist()
-    delta_q[still] = 0.0
-    if open_lam.any():
-        return None
-    if (slack < 0).any():
-        row = int((slack < 0).argmax())
-        return Violated(row, np.array(working, dtype=np.int64), lam_w, delta_q)
-    if not zeros_hold(step, working, idle, still):
-        return None
-    if open_impulse.any():
-        at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
+
+    def __init__(self, step: StepData, hessian: BallHessian) -> None:
+        self.step, self.hessian, J = step, hessian, step.contacts.J
         with ctx.workprec(PRECISION):
-            impulse, shown = all_nearest(hessian.net(step, at))
-        if not shown.all():
+            self.J = arb_mat(4 * len(J), step.n_v, J.ravel().tolist())
+            self.free = hessian.inverse * hessian.load(step)
+
+    def confirmed(self, guess: Sequence[int] | Indices) -> Proof:
+        """The exact optimum, if a guess of its working set is right and balls show it.
+
+        Parameters
+        ----------
+        guess : sequence of int
+            Rows, as from :func:`~quasistatic_ref.certify.warm.warm_rows`.
+
+        Returns
+        -------
+        ExactOptimum, Violated or None
+            None where something stays open. Of a guess that is wrong, rows whose multipliers are
+            not surely positive are dropped; that is all.
+        """
+        step, hessian = self.step, self.hessian
+        working = sorted({int(i) for i in guess})
+        with ctx.workprec(PRECISION):
+            A, b = _rows(step, working)
+            reached = A * hessian.inverse
+            try:
+                y = (reached * A.transpose()).solve(b - A * self.free)
+            except ZeroDivisionError:
+                return None
+            pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
+            if pressed != working:
+                return self.confirmed(pressed)
+            x = self.free + reached.transpose() * y
+            lam, slacks = y * (1 / hessian.h), _slacks(step, self.J, x)
+            violated = [i for i, slack in enumerate(slacks) if slack < 0]
+            if violated:
+                point = [np.array([float(v) for v in part.entries()]) for part in (lam, x)]
+                return Violated(violated[0], np.array(working, dtype=np.int64), *point)
+            net = A.transpose() * lam
+            numbers, shown = all_nearest((*lam.entries(), *net.entries(), *x.entries(), *slacks))
+        ends = np.cumsum([len(working), step.n_v, step.n_v])
+        lam_w, impulse, delta_q, slack = np.split(numbers, ends)
+        open_lam, open_impulse, open_x, open_slack = np.split(~shown, ends)
+        slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
+        idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
+        still = np.flatnonzero(open_x).tolist()
+        delta_q[still] = 0.0
+        if open_lam.any():
             return None
-    every = np.zeros(len(slack))
-    every[working] = lam_w
-    return ExactOptimum(
-        delta_q=delta_q,
-        lam=every,
-        net=impulse,
-        slack=slack,
-        working_set=tuple(working),
-        multipliers_unique=not idle,
-        differentiable=True,  # every row without slack is one of W, or spanned by W
-        smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
-        smallest_active_multiplier=min(lam_w.tolist(), default=None),
-        walks=0,
-    )
+        if not zeros_hold(step, working, idle, still):
+            return None
+        if open_impulse.any():
+            at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
+            with ctx.workprec(PRECISION):
+                impulse, shown = all_nearest(hessian.net(step, at))
+            if not shown.all():
+                return None
+        every = np.zeros(len(slack))
+        every[working] = lam_w
+        return ExactOptimum(
+            delta_q=delta_q,
+            lam=every,
+            net=impulse,
+            slack=slack,
+            working_set=tuple(working),
+            multipliers_unique=not idle,
+            differentiable=True,  # every row without slack is one of W, or spanned by W
+            smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
+            smallest_active_multiplier=min(lam_w.tolist(), default=None),
+            walks=0,
+        )
 
 
 def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
@@ -176,11 +189,10 @@ def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
     return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
 
 
-def _slacks(step: StepData, x: arb_mat) -> list[arb]:
-    """A x - b of all rows: the cone's function of the gap, slip and spin of each contact."""
+def _slacks(step: StepData, J: arb_mat, x: arb_mat) -> list[arb]:
+    """A x - b of all rows: the cone's function of gap, slip and spin of each contact, from J."""
     contacts, rows = step.contacts, cone_function(step.cone)
-    moved = arb_mat(4 * contacts.n_c, step.n_v, contacts.J.ravel().tolist()) * x
-    v, found = moved.entries(), list[arb]()
+    v, found = (J * x).entries(), list[arb]()
     of_contacts = zip(contacts.phi.tolist(), contacts.n.tolist(), contacts.d1.tolist(),
                       contacts.d2.tolist(), contacts.mu.tolist(), step.counts.tolist(),
                       strict=True)  # fmt: skip

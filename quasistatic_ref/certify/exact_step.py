@@ -1,14 +1,11 @@
 """The exact answer of a step: the optimum, or a plain account of why there is none."""
 
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
-from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.rational import exact_form
@@ -19,9 +16,7 @@ from quasistatic_ref.step.standard_form import load, standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
 
-def exact_step(
-    step: StepData, warm: Sequence[int] = (), hessian: BallHessian | None = None
-) -> ExactOptimum:
+def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """The exact optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -30,9 +25,6 @@ def exact_step(
         SI units.
     warm : sequence of int
         Rows that a solver found active; see :func:`~quasistatic_ref.certify.warm.warm_rows`.
-    hessian : BallHessian, optional
-        That of the step: with it, it is seen first whether these rows, or rows near them, hold
-        the optimum. The bits are the same but for multipliers that are not unique.
 
     Returns
     -------
@@ -51,18 +43,11 @@ def exact_step(
         raise InputError(
             "has no rational optimum; see certify.enclosure", field="cone", value=step.cone
         )
-    optimum = None
-    if hessian is not None:
-        prove = partial(confirmed, step, hessian=hessian)
-        rows = np.array(warm, dtype=np.int64)
-        optimum = proved_nearby(prove, rows, standard_form(step), hessian.rough)
-    if optimum is None:
-        form = exact_form(step)
-        found = exact_optimum(form, warm)
-        if isinstance(found, Farkas):
-            raise StepInfeasible(step, farkas_vector(step, form, found))
-        optimum = found
-    norm = energy_norm(step.H) if hessian is None else hessian.norm
+    form = exact_form(step)
+    optimum = exact_optimum(form, warm)
+    if isinstance(optimum, Farkas):
+        raise StepInfeasible(step, farkas_vector(step, form, optimum))
+    norm = energy_norm(step.H)
     return well_posed(step, optimum, norm, norm.impulse(load(step)))
 
 

@@ -1,11 +1,12 @@
 """A guess of a working set that is wrong by a row or two: where walks in floating point lead.
 
-A backend does not see rows that are violated by less than its tolerance. The proof of its guess
-does, and names one. The walk from there is that of
-:mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made wrong: what it
-leads to is a guess again, and proved like any other.
+A backend does not see rows that are violated by less than its tolerance, nor does float64 if that
+is less than the rounding of the slack. The proof of its guess does, and names one. The walk from
+there is that of :mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made
+wrong: what it leads to is a guess again, and proved like any other.
 """
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
@@ -92,13 +93,13 @@ def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | Non
         except np.linalg.LinAlgError:
             return None
         rate = square - float(falls.dot(towards))
-        full = max(short, 0.0) / rate if rate > DEPENDENT * square else np.inf
-        limits = np.full(len(working), np.inf)
-        np.divide(lam, falls, out=limits, where=falls > 0)
-        if not full > limits.min(initial=np.inf):  # NaN too
-            return np.array(sorted([*working.tolist(), p])) if full < np.inf else None
-        first = int(limits.argmin())
-        rest = np.arange(len(working)) != first
-        lam, working = (lam - limits[first] * falls)[rest], working[rest]
+        full = max(short, 0.0) / rate if rate > DEPENDENT * square else math.inf
+        pairs = zip(lam.tolist(), falls.tolist(), strict=True)
+        limits = [lam_j / fall if fall > 0 else math.inf for lam_j, fall in pairs]
+        least = min(limits, default=math.inf)
+        if not full > least:  # NaN too
+            return np.array(sorted([*working.tolist(), p])) if full < math.inf else None
+        rest = np.arange(len(working)) != limits.index(least)
+        lam, working = (lam - least * falls)[rest], working[rest]
         reached, towards = reached[rest][:, rest], towards[rest]
-        short -= limits[first] * rate
+        short -= least * rate

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.confirm import BallHessian
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.ellipsoid import enclosure_certificate
 from quasistatic_ref.certify.enclosure import enclosure
@@ -187,12 +187,17 @@ def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
     hessian = solver.kept_hessian(step)
     norm = hessian.norm
     free = norm.impulse(scaled.form.g)
-    optimum = None if answer is None else _proved(scaled, solver, answer, hessian)
+    optimum, warm = None, list[int]()
+    if answer is not None:
+        optimum = _proved(scaled, solver, answer, hessian)
     if optimum is None:
-        form, warm = scaled.natural_form, list[int]()
         if answer is not None:
+            form = scaled.natural_form
             warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-        optimum = exact_step(step, warm, hessian)
+        prove, guess = BallStep(step, hessian).confirmed, np.array(warm, dtype=np.int64)
+        optimum = proved_nearby(prove, guess, scaled.form, hessian.rough)
+    if optimum is None:
+        optimum = exact_step(step, warm)
     else:
         well_posed(step, optimum, norm, free)
     return _certified(scaled, answer, statistics, optimum, exact_certificate, norm, free)
@@ -201,19 +206,18 @@ def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
 def _proved(
     scaled: DenseStep, solver: Solver, answer: Answer, hessian: BallHessian
 ) -> ExactOptimum | None:
-    """The optimum by compiled code, where there is any and the rows that bear load are a guess."""
-    fast = compiled("certificate")
-    if fast is None:
+    """The optimum where the rows that bear load are a guess: by compiled code, or in balls."""
+    step, form, fast = scaled.step, scaled.natural_form, compiled("certificate")
+    if np.count_nonzero(answer.lam) > step.n_v:  # rows that depend on each other
         return None
-    if np.count_nonzero(answer.lam) > scaled.step.n_v:  # rows that depend on each other
-        return None
-    solver.prover = fast.prover(scaled.step, scaled.units.coordinate, solver.prover)
-    if solver.prover is None:
-        return None
-    form = scaled.natural_form
+    if fast is not None:
+        solver.prover = fast.prover(step, scaled.units.coordinate, solver.prover)
     slack = form.A.dot(answer.delta_q) - form.b
     (guess,) = (answer.lam > np.maximum(slack, 0)).nonzero()  # as warm_rows has it
-    prove = partial(solver.prover.optimum, scaled.step, units=scaled.units)
+    if solver.prover is None:
+        prove = BallStep(step, hessian).confirmed
+    else:
+        prove = partial(solver.prover.optimum, step, units=scaled.units)
     return proved_nearby(prove, guess, scaled.form, hessian.rough)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpz_mat
 
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.exact_step import exact_step
@@ -21,7 +21,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, pinch, planted_step, random_step, sphere_on_floor
-from tests.tolerances import ROUNDING
+from tests.tolerances import ACTIVE_SET, ROUNDING
 from tests.unit.certify.test_exact import resting_point
 from validation import confirmed_bits
 from validation.confirmed_bits import CONES, checked, differing, random_case
@@ -34,7 +34,7 @@ def optimum_and_answer(step, guess=None):
     form = exact_form(step)
     truth = exact_optimum(form, () if guess is None else guess)
     given = truth.working_set if guess is None else guess
-    return exact_optimum(form, given), confirmed(step, given, BallHessian(step))
+    return exact_optimum(form, given), BallStep(step, BallHessian(step)).confirmed(given)
 
 
 def some_steps():
@@ -92,7 +92,7 @@ def test_a_row_that_touches_and_bears_nothing_is_left_to_the_exact_method():
     truth, answer = optimum_and_answer(step)
     assert answer is None
     assert not truth.differentiable
-    assert differing(exact_step(step, truth.working_set, BallHessian(step)), truth) == []
+    assert differing(exact_step(step, truth.working_set), truth) == []
 
 
 def test_a_row_guessed_to_press_that_bears_nothing_is_no_proof():
@@ -100,14 +100,14 @@ def test_a_row_guessed_to_press_that_bears_nothing_is_no_proof():
     step = resting_point(weight=0.0, mu_v=0.0, mu_omega=0.0)
     truth, _ = optimum_and_answer(step)
     assert not truth.differentiable
-    assert confirmed(step, [0], BallHessian(step)) is None
+    assert BallStep(step, BallHessian(step)).confirmed([0]) is None
 
 
 def test_the_first_violated_row_is_named():
     """A body is pressed into one floor, the second of three contacts; the others are far."""
     step = resting_point(weight=2.0, contacts=3)
     step = step.replace(contacts=changed(step.contacts, phi=np.array([1.0, 0.0, 1.0])))
-    found = confirmed(step, [], BallHessian(step))
+    found = BallStep(step, BallHessian(step)).confirmed([])
     form = standard_form(step)
     slack = form.A @ np.linalg.solve(form.H, form.g) - form.b
     assert isinstance(found, Violated)
@@ -115,7 +115,27 @@ def test_the_first_violated_row_is_named():
     # With a row that touches and is not violated before it: 0 = slack < those of the others.
     own = step.replace(extra=Extra(("idle", "shut"), [[1.0, 0, 0, 0], [0, 0, 1.0, 0]], [0.0, 0.0]))
     far = own.replace(contacts=changed(step.contacts, phi=np.ones(3)))
-    assert confirmed(far, [], BallHessian(far)).row == 19
+    assert BallStep(far, BallHessian(far)).confirmed([]).row == 19
+
+
+def test_a_refused_guess_has_its_point_in_float64_and_is_not_rounded(monkeypatch):
+    """W without a row; the KKT system of what is left gives x and lam: H x - A_W'lam = g."""
+    step = grasp_step(np.random.default_rng(5))
+    form, rest = standard_form(step), optimum_and_answer(step)[0].working_set[1:]
+
+    def refused(numbers):
+        raise AssertionError("numbers of a guess that is wrong were rounded")
+
+    monkeypatch.setattr("quasistatic_ref.certify.confirm.all_nearest", refused)
+    found = BallStep(step, BallHessian(step)).confirmed(rest)
+    assert isinstance(found, Violated)
+    assert set(found.working) <= set(rest)
+    A_W, n = form.A[found.working], step.n_v
+    K = np.block([[form.H, -A_W.T], [A_W, np.zeros((len(A_W), len(A_W)))]])
+    expected = np.linalg.solve(K, np.concatenate([form.g, form.b[found.working]]))
+    for said, truth in ((found.delta_q, expected[:n]), (found.lam, expected[n:])):
+        np.testing.assert_allclose(said, truth, rtol=0, atol=ACTIVE_SET * np.abs(truth).max())
+    assert form.A[found.row] @ found.delta_q < form.b[found.row]
 
 
 def test_the_net_impulse_is_what_the_balance_says():
@@ -138,10 +158,10 @@ def test_without_any_of_its_rows_a_unique_working_set_is_refused():
         hessian, working = BallHessian(step), truth.working_set
         for rest in itertools.combinations(working, len(working) - 1):
             tried += 1
-            assert isinstance(confirmed(step, rest, hessian), Violated)
+            assert isinstance(BallStep(step, hessian).confirmed(rest), Violated)
     step = planted_step(np.random.default_rng(0), rows=(4, 4))[0]
     truth, _ = optimum_and_answer(step)
-    assert isinstance(confirmed(step, [], BallHessian(step)), Violated)
+    assert isinstance(BallStep(step, BallHessian(step)).confirmed([]), Violated)
     assert truth.working_set
     tried += 1
     assert tried >= 1
@@ -150,19 +170,20 @@ def test_without_any_of_its_rows_a_unique_working_set_is_refused():
 def test_rows_that_depend_on_each_other_are_refused():
     """All six of a contact that sticks have rank four."""
     step = sphere_on_floor(wrench=(0.0, 0.0, -3.0, 0.0, 0.0, 0.0))
-    assert confirmed(step, range(6), BallHessian(step)) is None
+    assert BallStep(step, BallHessian(step)).confirmed(range(6)) is None
 
 
 @pytest.mark.parametrize("field", ["delta_q", "lam", "net", "slack"])
 def test_another_bit_is_noticed_by_the_script(monkeypatch, field):
-    def spoilt(step, guess, hessian):
-        answer = confirmed(step, guess, hessian)
-        if isinstance(answer, ExactOptimum):
-            numbers = getattr(answer, field)
-            numbers[:] = np.nextafter(numbers, np.inf)
-        return answer
+    class Spoilt(BallStep):
+        def confirmed(self, guess):
+            answer = super().confirmed(guess)
+            if isinstance(answer, ExactOptimum):
+                numbers = getattr(answer, field)
+                numbers[:] = np.nextafter(numbers, np.inf)
+            return answer
 
-    monkeypatch.setattr(confirmed_bits, "confirmed", spoilt)
+    monkeypatch.setattr(confirmed_bits, "BallStep", Spoilt)
     kind, _, faults = checked(0)
     assert len(faults) >= 1
     assert all(fault.startswith(f"{kind}, step 0") and field in fault for fault in faults)

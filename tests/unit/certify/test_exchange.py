@@ -5,12 +5,14 @@ import pytest
 
 from quasistatic_ref.certify import exact_step as method
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.exchange import Violated, proved_nearby, walked
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import StandardForm
+from tests.helpers import pinch
 from tests.unit.fast.test_fast import needs_compiler
 from validation.confirmed_bits import (
     NEARBY,
@@ -37,12 +39,12 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
             if found is None:
                 continue
             assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
-            mended += isinstance(confirmed(step, guess, hessian), Violated)
+            mended += isinstance(BallStep(step, hessian).confirmed(guess), Violated)
     assert mended > 30
 
 
 def refused(*_):
-    raise AssertionError("the method that decides everything was asked")
+    raise AssertionError("the method that decides everything was asked, or prepared")
 
 
 @pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
@@ -51,6 +53,7 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     monkeypatch.setattr(method, "exact_optimum", refused)
     if by == "balls":
         monkeypatch.setattr("quasistatic_ref.solve.solve.compiled", lambda name: None)
+    monkeypatch.setattr("quasistatic_ref.solve.solve.warm_rows", refused)
     scenario = load_scenario("allegro_turn")
     simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
     for k in range(12):
@@ -59,6 +62,12 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
         wrong += found.solution.statistics.digits < 16
         assert found.solution.certificate.kind == "exact"
     assert wrong > 0
+
+
+def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
+    """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
+    monkeypatch.setattr(method, "exact_optimum", refused)
+    assert solve_step(pinch(grip=5.0), "clarabel").certificate.kind == "exact"
 
 
 def line(*bounds):

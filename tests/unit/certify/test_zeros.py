@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.confirm import BallHessian, confirmed
+from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.zeros import zeros_hold
@@ -25,7 +25,7 @@ def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
         form = exact_form(step)
         guess = exact_optimum(form).working_set
         truth = exact_optimum(form, guess)
-        answers = [confirmed(step, guess, BallHessian(step))]
+        answers = [BallStep(step, BallHessian(step)).confirmed(guess)]
         if (fast := compiled("certificate")) is not None:
             units, rows = natural_units(step), np.array(guess, dtype=np.int64)
             answers.append(fast.prover(step, units.coordinate, None).optimum(step, rows, units))
