@@ -120,8 +120,9 @@ def _others(asked: Asked, first: Columns) -> Iterator[str]:
     yield "**Units come before options.** Share of problems with 6 digits, the same options:"
     yield _units_table(asked)
     yield (
-        "**About half of the digits.** By strong convexity an accuracy of eps promises an error of "
-        "sqrt(2 eps). Correct digits, median, directly and cold in natural units:"
+        "**About half of the digits.** A duality gap of eps bounds the error of a feasible pair by "
+        "sqrt(2 eps), by strong convexity; tolerances of residuals imply no such bound. Correct "
+        "digits, median, directly and cold in natural units:"
     )
     yield _accuracy_table(asked)
     if words := _cvxpy(asked):
