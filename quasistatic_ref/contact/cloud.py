@@ -5,8 +5,9 @@ Each ``distance_to_*`` takes points in the shape's own frame, shape (N, 3), and 
 then p - phi n. Where the gradient is not unique (the centre of a sphere, a tie of two faces) the
 least index wins, so that results are deterministic.
 
-Closed forms throughout. (Coal is right for sphere, box, capsule and half-space, and these agree
-with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, ours is not.)
+Closed forms, but for the ellipsoid (Newton's method, to rounding). (Coal is right for sphere, box,
+capsule and half-space, and these agree with it to 1e-12; inside a cylinder its depth is wrong by up
+to millimetres, ours is not.)
 """
 
 import numpy as np
@@ -20,7 +21,7 @@ from quasistatic_ref.step.data import Array, Indices
 
 Distance = tuple[Array, Array]
 Rounded = shapes.Sphere | shapes.Capsule | shapes.Box
-"""A point, segment or cuboid with a ball about each of its points."""
+"""Sphere-swept shapes: the Minkowski sum of a point, segment or box with a ball."""
 _AXES = np.eye(3)
 
 

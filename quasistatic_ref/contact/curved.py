@@ -1,7 +1,7 @@
-"""Signed distances of points to an ellipsoid and to a cone, vectorised closed forms.
+"""Signed distances of points to an ellipsoid (Newton's method) and to a cone (closed form).
 
-As in :mod:`~quasistatic_ref.contact.cloud`: points in the shape's own frame in, phi [m] and unit
-outward normals out.
+Vectorised, as in :mod:`~quasistatic_ref.contact.cloud`: points in the shape's own frame in, phi [m]
+and unit outward normals out.
 """
 
 import numpy as np
