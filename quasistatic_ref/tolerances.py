@@ -100,7 +100,8 @@ SHORT: Final = 1e-15
 
 ILL_POSED: Final = 1e6
 """Longest certified step, in the H norm and relative to what the step asks for by itself: the
-larger of the unconstrained step and the longest push-out of a single row.
+largest of the unconstrained steps that the targets, tau_a and tau_u cause each alone, and the
+longest push-out of a single row.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 

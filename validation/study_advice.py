@@ -125,9 +125,10 @@ def _others(comparison: Comparison, first: Columns) -> Iterator[str]:
     yield "**Units come before options.** Share of problems with 6 digits, with the same options:"
     yield _units_table(comparison)
     yield (
-        "**An accuracy promises about half of its digits.** By strong convexity an accuracy of eps "
-        "promises an error of at most sqrt(2 eps). Median of the correct digits, of solvers called "
-        "directly and cold, in natural units:"
+        "**An accuracy of 10^-2k promises about k digits.** By strong convexity, a duality gap of "
+        "eps bounds the error of a feasible pair by sqrt(2 eps); tolerances of residuals bound no "
+        "error. Median of the correct digits, of solvers called directly and cold, in natural "
+        "units:"
     )
     yield _accuracy_table(comparison)
     if words := _cvxpy(comparison):

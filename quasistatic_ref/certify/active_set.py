@@ -143,11 +143,11 @@ def _walk(point: Point, p: int) -> Point | Farkas:
         c = combination(point.form, point.working, p)
         if c is None:
             after = Point(point.form, point.ball_form, (*point.working, p))
-            leaving = _first_below_zero(point, after)
+            leaving = _first_to_vanish(point, after)
             if leaving is None:
                 return after
         else:
-            leaving = _first_on_combination(point, c)
+            leaving = _first_to_vanish_on_combination(point, c)
             if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
                 support = {i: -c_j for i, c_j in zip(point.working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
@@ -155,8 +155,11 @@ def _walk(point: Point, p: int) -> Point | Farkas:
         point = Point(point.form, point.ball_form, rest)
 
 
-def _first_below_zero(point: Point, after: Point) -> int | None:
-    """Return which multiplier vanishes first between two points; the first of W in a tie."""
+def _first_to_vanish(point: Point, after: Point) -> int | None:
+    """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
+
+    That is the least l_j / (l_j - u_j) over u_j < 0; of a tie the first of W.
+    """
     first = None
     for j in range(len(point.working)):
         if after.lam_sign(j) < 0 and (first is None or _vanishes_before(point, after, j, first)):
@@ -176,8 +179,11 @@ def _vanishes_before(point: Point, after: Point, j: int, k: int) -> bool:
     return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
 
-def _first_on_combination(point: Point, c: Sequence[fmpq]) -> int | None:
-    """Return which l_j - t c_j vanishes first as t grows; the first of W in a tie."""
+def _first_to_vanish_on_combination(point: Point, c: Sequence[fmpq]) -> int | None:
+    """Ratio test: index in W of the l_j - t c_j that vanishes first as t grows, or None.
+
+    That is the least l_j / c_j over c_j > 0; of a tie the first of W.
+    """
     first = None
     for j, c_j in enumerate(c):
         if c_j > 0 and (first is None or _ratio_less(point, c, j, first)):

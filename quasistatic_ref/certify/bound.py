@@ -5,13 +5,13 @@ For a feasible x and any y >= 0, with x_y = H^-1 (g + A'y) the minimiser of the 
 .. math:: \tfrac12\|x - x^*\|_H^2 \le f(x) - d(y)
           = \tfrac12\|x - x_y\|_H^2 + y^T (A x - b).
 
-A solver's x is hardly ever feasible to the last bit: it is moved along a direction that opens all
-contacts, as far as its worst violation needs, and the way is added to the bound. Where no such
-direction is found (a body wedged in) nothing is bounded, and the answer is infinity.
+A solver's x is hardly ever feasible to the last bit: it is moved along a direction d with A d > 0,
+as far as its worst violation needs, and the distance moved is added to the bound. If x is not
+feasible and no such direction is found (a body wedged in), no bound is given: infinity.
 
-The gap is computed in ball arithmetic and rounded upwards. It is the square of an error: an
-answer in float64, right to 1e-16 itself, leaves a gap of about 1e-16 and thus shows some eight
-digits. The exact method shows all of them.
+The gap f(x) - d(y) is computed in ball arithmetic and rounded upwards. It is the square of an
+error: an answer in float64, right to 1e-16 itself, leaves a gap of about 1e-16 and thus shows some
+eight digits. The exact method shows all of them.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 ROUNDS = 100
-"""Corrections of the opening direction; most steps need fewer than ten."""
+"""Corrections of the direction; most steps need fewer than ten."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,8 @@ class ErrorBound:
     Parameters
     ----------
     gap : float
-        1/2 ||delta_q - delta_q*||_H^2 <= gap, infinite if unknown
-        [N m s].
+        1/2 ||delta_q - delta_q*||_H^2 <= gap, infinite if unknown [N m s]; the distance to a
+        feasible point is in it, so that it is no duality gap where delta_q is infeasible.
     error : float
         ||delta_q - delta_q*||_H / ||H^-1 g||_H <= error [-]; infinite if unknown.
     """
@@ -108,8 +108,8 @@ class EnclosedAnswer:
 def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | None:
     """The minimiser on a guessed active set, enclosed; costs no rational solve.
 
-    A right guess gives an error of 1e-16, a wrong one an honest larger one: sign by sign nothing
-    needs to be decided.
+    No sign is decided: a right active set gives an error of 1e-16, a wrong one a larger bound that
+    holds as well.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def _feasible(step: StepData, form: ExactForm, balls: BallForm, x: arb_mat) -> a
 
 
 def opening_direction(step: StepData) -> Array | None:
-    """A displacement that opens every row, A d > 0, by least squares; None if none is found.
+    """A strictly feasible direction d, A d > 0 in every row; None if none is found.
 
     Parameters
     ----------
@@ -190,7 +190,8 @@ def opening_direction(step: StepData) -> Array | None:
     A = A / norms[:, None]
     inverse = np.linalg.pinv(A)
     d = np.zeros(A.shape[1])
-    for _ in range(ROUNDS):  # Han (1980): least squares of inequalities A d >= 1
+    # Alternating projections of z = A d to {z >= 1} and to the range of A (Cheney, Goldstein 1959).
+    for _ in range(ROUNDS):
         short = np.maximum(1 - A @ d, 0)
         if short.max(initial=0.0) < 0.5:
             return d * unit

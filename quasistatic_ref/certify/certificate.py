@@ -1,9 +1,10 @@
 """What is claimed about an exact answer, and its verification without any solver.
 
 A certificate names a working set of independent rows. Solving one linear system without rounding
-gives the minimiser on it; if its multipliers and slacks are >= 0 it is the optimum, which is
-unique. Verification does that in rational numbers alone: it shares the formation of H, g, A, b
-with the method that found the answer, not its balls or its walks.
+gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is the optimum, which
+is unique. Verification solves that system in rational numbers. It shares with the method that found
+the answer the formation of H, g, A and b, the test that H is positive definite, and the decisions
+on degeneracy; it shares no search for a working set.
 """
 
 from collections.abc import Mapping, Sequence
@@ -58,29 +59,35 @@ def in_words(step: StepData, certificate: Certificate) -> str:
     """What a certificate claims, in a sentence or two."""
     if certificate.kind == "residual":
         known = certificate.error_bound is not None
-        bound = f"its error is at most {certificate.error_bound:.1e}" if known else "no error bound"
+        bound = _error_in_words(certificate) if known else "no error bound"
         if not certificate.residuals:
             return f"not exact: {bound}"
         worst = max(certificate.residuals.values())
         return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
     if certificate.kind == "enclosure":
-        return f"enclosed: its error is at most {certificate.error_bound:.1e}, proved in balls"
+        return f"enclosed: {_error_in_words(certificate)}, proved in ball arithmetic"
     if certificate.kind != "exact":
         return "nothing is certified"
     if step.cone == ELLIPSOID:
         return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
     m = int(step.offsets[-1]) + len(step.extra.names)
     words = [
-        f"exact: the optimum of the step, correctly rounded; {len(certificate.active)} of {m} rows "
-        "hold it",
+        "exact: the optimum of the step, correctly rounded",
+        f"working set: {len(certificate.active)} of {m} rows",
         "multipliers unique" if certificate.multipliers_unique else "multipliers not unique",
-        f"{'' if certificate.differentiable else 'not '}differentiable in the forces",
+        f"delta_q {'' if certificate.differentiable else 'not '}differentiable with respect to "
+        "forces and targets",
     ]
     if certificate.smallest_inactive_slack is not None:
         words.append(f"smallest inactive slack {certificate.smallest_inactive_slack:.1e} m")
     if certificate.smallest_active_multiplier is not None:
         words.append(f"smallest active multiplier {certificate.smallest_active_multiplier:.1e} N s")
     return "; ".join(words)
+
+
+def _error_in_words(certificate: Certificate) -> str:
+    bound = certificate.error_bound
+    return f"the relative error of delta_q in the norm of H is at most {bound:.1e}"
 
 
 def verify(
@@ -158,13 +165,13 @@ def _wrong_claim(
     lam_w: Array,
     slack: Array,
 ) -> str:
-    spanned, free = idle_rows(form, working, solution.slack)
-    smooth = differentiable(form, working, free)
+    spanned, unspanned = idle_rows(form, working, solution.slack)
+    smooth = differentiable(form, working, unspanned)
     open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
     right = {
         "error_bound": 0.0,
         "gap": None,
-        "multipliers_unique": multipliers_unique(form, working, spanned, free),
+        "multipliers_unique": multipliers_unique(form, working, spanned, unspanned),
         "differentiable": smooth,
         "smallest_inactive_slack": min(open_, default=None) if smooth else 0.0,
         "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),

@@ -1,8 +1,8 @@
 r"""The optimum on a working set that was guessed right, confirmed in balls without forming A.
 
-A backend that answers well presses on rows that hold the optimum. With :math:`y = h\lambda`, and
-with h H and h g, which sums and products of the step's numbers give, the minimiser on
-:math:`A_W x = b_W` is
+Where a backend answers well, the rows whose multipliers exceed their slacks are mostly a working
+set of the optimum. With :math:`y = h\lambda`, and with h H and h g, which sums and products of the
+step's numbers give, the minimiser on :math:`A_W x = b_W` is
 
 .. math:: A_W (hH)^{-1} A_W^T y = b_W - A_W (hH)^{-1} hg, \qquad
           x = (hH)^{-1} (hg + A_W^T y).
@@ -73,7 +73,7 @@ class BallHessian:
         return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
 
     def net(self, step: StepData, delta_q: list[arb]) -> list[arb]:
-        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: without a radius where nothing moves."""
+        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: of radius 0 where H couples zeros only."""
         n_a, n_u = step.n_a, step.n_u
         off = arb_mat(n_a, 1, delta_q[:n_a]) - _column(step.delta_q_bar_a)
         actuated = (self.K_q * off - _column(step.tau_a)) * self.h

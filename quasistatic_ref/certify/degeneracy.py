@@ -3,8 +3,8 @@ r"""Whether the multipliers are unique and the displacement differentiable, deci
 Let Z be the rows without slack at the optimum x, W in Z a working set with positive multipliers,
 and E = Z \ W. A row is *strictly active* if its multiplier is positive in some optimal lam.
 
-- The multipliers are unique iff no combination d of the rows of Z with d_E >= 0, d_E != 0 is zero;
-  by Gordan's theorem, iff some y has A_W y = 0 and A_E y > 0.
+- The multipliers are unique iff A_Z' d = 0 and d_E >= 0 imply d_E = 0; by Gordan's theorem, iff
+  some y has A_W y = 0 and A_E y > 0.
 - x is differentiable as a function of g (of tau_a, tau_u and delta_q_bar_a), A and b being fixed,
   iff every row of Z is strictly active: x is then locally the minimiser on A_Z x = b_Z; otherwise
   its directional derivative is the projection on a cone that is no subspace. By Stiemke's theorem
@@ -24,7 +24,7 @@ from quasistatic_ref.certify.rational import ExactForm
 
 
 def multipliers_unique(
-    form: ExactForm, working: Sequence[int], spanned: Sequence[int], free: Sequence[int]
+    form: ExactForm, working: Sequence[int], spanned: Sequence[int], unspanned: Sequence[int]
 ) -> bool:
     """Whether lam is unique.
 
@@ -33,25 +33,25 @@ def multipliers_unique(
     form : ExactForm
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
-    spanned, free : sequence of int
+    spanned, unspanned : sequence of int
         E: the other rows without slack; those that W spans, and those that it does not.
 
     Returns
     -------
     bool
     """
-    if spanned or len(free) <= 1:
+    if spanned or len(unspanned) <= 1:
         return not spanned
-    return _feasible(form, working, [form.row(i) for i in free], [1] * len(free))
+    return _feasible(form, working, [form.row(i) for i in unspanned], [1] * len(unspanned))
 
 
-def differentiable(form: ExactForm, working: Sequence[int], free: Sequence[int]) -> bool:
+def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
     """Whether delta_q is differentiable with respect to g; parameters as for uniqueness."""
-    if len(free) <= 1:
-        return not free
-    moves = [form.row(i) for i in free]
+    if len(unspanned) <= 1:
+        return not unspanned
+    moves = [form.row(i) for i in unspanned]
     total = [sum(column, fmpz(0)) for column in zip(*moves, strict=True)]
-    return not _feasible(form, working, [*moves, total], [0] * len(free) + [1])
+    return not _feasible(form, working, [*moves, total], [0] * len(unspanned) + [1])
 
 
 def _feasible(
@@ -76,7 +76,7 @@ def _feasible(
     return isinstance(dual_active_set(cone, range(len(held))), Optimum)
 
 
-def strictly_active(form: ExactForm, working: Sequence[int], free: Sequence[int]) -> list[int]:
+def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> list[int]:
     """Those of the rows that W does not span whose multiplier is positive in some optimal lam.
 
     By Motzkin's theorem a row e is not strictly active iff some y has A_W y = 0, A_E y >= 0 and
@@ -87,16 +87,16 @@ def strictly_active(form: ExactForm, working: Sequence[int], free: Sequence[int]
     form : ExactForm
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
-    free : sequence of int
+    unspanned : sequence of int
         The other rows without slack that W does not span.
 
     Returns
     -------
     list of int
     """
-    if len(free) <= 1:
+    if len(unspanned) <= 1:
         return []
-    moves = [form.row(i) for i in free]
-    alone = [[int(i == e) for i in free] for e in free]
-    return [e for e, least in zip(free, alone, strict=True)
+    moves = [form.row(i) for i in unspanned]
+    alone = [[int(i == e) for i in unspanned] for e in unspanned]
+    return [e for e, least in zip(unspanned, alone, strict=True)
             if not _feasible(form, working, moves, least)]  # fmt: skip

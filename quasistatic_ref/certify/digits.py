@@ -3,7 +3,7 @@ r"""The one definition of error, and correct digits of any answer.
 .. math:: \mathrm{error} = \frac{\|x - x^*\|_H}{\|H^{-1} g\|_H}, \qquad
           \mathrm{digits} = -\log_{10} \mathrm{error} \text{, clipped to } 0 \ldots 16,
 
-with ||v||_H^2 = v'Hv; if g = 0, digits are 16 where x = x* and 0 elsewhere. Net wrenches and
+with ||v||_H^2 = v'Hv; if g = 0, digits are 16 where x = x* and 0 elsewhere. Net impulses and
 slacks are measured as the displacements that they stand for, so that the three can be compared:
 
 - net impulse p = A'lam by the displacement H^-1 p that it causes:
@@ -32,14 +32,14 @@ class Digits:
     ----------
     delta_q : float
         Of the displacement.
-    wrench : float or None
-        Of the net impulse A'lam; None if the answer has no multipliers.
+    net_impulse : float or None
+        Of the net impulse A'lam [-]; None if the answer has no multipliers.
     slack : float
         Of the worst slack.
     """
 
     delta_q: float
-    wrench: float | None
+    net_impulse: float | None
     slack: float
 
 
@@ -87,15 +87,15 @@ def correct_digits(
     with np.errstate(over="ignore", invalid="ignore"):
         off = delta_q - exact_delta_q
         free = norm.impulse(form.g)
-        wrench = None
+        net_impulse = None
         if lam is not None and exact_net is not None:
             net_off = form.A.T @ lam - exact_net
-            wrench = relative_digits(norm.impulse(net_off), free)
+            net_impulse = relative_digits(norm.impulse(net_off), free)
         reach = norm.impulses(form.A)
         slack_off = np.abs(form.A @ off)[reach > 0] / reach[reach > 0]
         return Digits(
             delta_q=relative_digits(norm.displacement(off), free),
-            wrench=wrench,
+            net_impulse=net_impulse,
             slack=relative_digits(float(slack_off.max(initial=0.0)), free),
         )
 

@@ -124,8 +124,8 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     inside = np.flatnonzero(signs)
     idle = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
     spanned = point.spanned(idle)
-    free = [i for i in idle if i not in spanned]
-    smooth = differentiable(form, working, free)
+    unspanned = [i for i in idle if i not in spanned]
+    smooth = differentiable(form, working, unspanned)
 
     coordinates = range(form.n)
     lam, slack = np.zeros(form.m), np.zeros(form.m)
@@ -139,7 +139,7 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
         net=_nearest(point, lambda s: s.net, form.net_unit, coordinates),
         slack=slack,
         working_set=tuple(sorted(working)),
-        multipliers_unique=multipliers_unique(form, working, spanned, free),
+        multipliers_unique=multipliers_unique(form, working, spanned, unspanned),
         differentiable=smooth,
         smallest_inactive_slack=least if smooth else 0.0,
         smallest_active_multiplier=float(lam_w.min()) if working else None,

@@ -45,7 +45,8 @@ class Violated(NamedTuple):
 
 
 Proof: TypeAlias = "ExactOptimum | Violated | None"
-"""The optimum, if a guess is proved to hold it; None where something stays open."""
+"""What testing a working set gives: the optimum, proved; :class:`Violated` if its multipliers are
+positive but a row is surely violated; or None if something stays undecided."""
 
 
 def proved_nearby(

@@ -35,7 +35,7 @@ ITERATIONS: Final = 12
 """From nine digits five are enough; a wrong guess of what sticks may not settle at all."""
 
 ROUNDS: Final = 200
-"""Of the search for a displacement that opens all contacts."""
+"""Of the search for a strictly feasible direction of all contacts."""
 
 OPEN, STICKS, SLIDES = range(3)
 
@@ -153,7 +153,7 @@ def _opening(A: list[arb_mat], n: int) -> Array | None:
     inverse, d = np.linalg.pinv(rows), np.zeros(n)
     inner = np.zeros(len(rows))
     inner[[0, *ends[:-1]] if len(ends) else []] = 1.0
-    for _ in range(ROUNDS):  # Han (1980), of cones: least squares of rows d - inner in the cone
+    for _ in range(ROUNDS):  # alternating projections of rows d to inner + cone and to the range
         short = [_projected(v) for v in np.split(inner - rows @ d, ends[:-1])]
         if all(np.linalg.norm(v) < 0.5 for v in short):  # inner is 0.7 inside
             return d

@@ -1,4 +1,4 @@
-"""A displacement that opens all near contacts of a large step."""
+"""A strictly feasible direction for the rows of a large step that are nearly tight."""
 
 import numpy as np
 from scipy.sparse import csc_matrix, diags, identity
@@ -10,15 +10,15 @@ ROUNDS = 500
 """Corrections of the direction. A heap of 100 boxes needs some ten, a row of 160 a hundred."""
 
 NEAR = 1.0
-"""Slack [-] in natural units up to which a row is opened: others stay open when all is moved by
-as little as a solver's rounding."""
+"""Slack [-] in natural units up to which A_i d > 0 is demanded of a row: the others stay feasible
+when x is moved by as little as a solver's rounding."""
 
 RIDGE = 1e-3
 """Added to the diagonal of A'A, whose rows have length one: bodies that touch nothing."""
 
 
 def opening(A: csc_matrix, slack: Array) -> Array | None:
-    """A displacement d with A_i d > 0 in all rows that are nearly closed, or None.
+    """A direction d with A_i d > 0 in all rows that are nearly tight, or None.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
     Returns
     -------
     ndarray, shape (n_v,), or None
-        Found by least squares of inequalities; nothing is claimed about it.
+        Found by accelerated alternating projections; nothing is claimed about it.
     """
     length = np.sqrt(np.bincount(A.indices, A.data * A.data, minlength=len(slack)))
     near = slack <= NEAR
@@ -42,7 +42,8 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
     normal = (B.T @ B + RIDGE * identity(B.shape[1])).tocsc()
     factor = splu(normal, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
     d = before = np.zeros(B.shape[1])
-    for k in range(ROUNDS):  # least squares of inequalities B d >= 1 (Han 1980), accelerated
+    # Alternating projections of z = B d to {z >= 1} and to the range of B (Cheney, Goldstein 1959).
+    for k in range(ROUNDS):
         short = np.maximum(near - B @ d, 0.0)
         if short.max(initial=0.0) < 0.5:
             return d

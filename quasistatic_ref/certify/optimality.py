@@ -19,7 +19,7 @@ class Residuals:
     Parameters
     ----------
     stationarity : float
-        Eq. :eq:`eq-9`, as mended: H delta_q - g - sum_j A_j' lam_j = 0 [N s].
+        Eq. :eq:`eq-9`, as mended: H delta_q - g - sum_j A_j' lam_j = 0 [N s, N m s].
     primal : float
         Eq. :eq:`eq-10`: A delta_q >= b [m].
     dual : float
@@ -35,7 +35,7 @@ class Residuals:
 
     @property
     def worst(self) -> float:
-        """The largest of the four [of its own unit]; NaN if any of them is."""
+        """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
         return largest(np.array([*vars(self).values()]))
 
 
@@ -45,9 +45,10 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
     Parameters
     ----------
     balance : ndarray, shape (n_v,)
-        What the forces do not balance [N s].
+        Impulses that are not balanced [N s, N m s].
     short, pull : ndarray, shape (m,)
-        How far a gap is negative [m], and how hard a row pulls [N s]; below 0 where it is well.
+        How far each row is violated [m], and how far its multiplier is below 0 [N s]; negative
+        where the condition holds.
     work : ndarray, shape (m,)
         Slack times multiplier [N m s].
     """
@@ -85,8 +86,8 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
 def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
     """The same at an answer of a step in the ellipsoid.
 
-    There s = A delta_q - b is each contact's motion (n, d1, d2, spin), and lam its impulse.
-    (10) reads s_n >= ||mu o s_t||, (11) lam_n >= ||lam_t / mu||, and (12) lam's = 0, by contact.
+    There s = A delta_q - b is each contact's motion (n, d1, d2, spin), and lam its impulse. For
+    each contact (10) reads s_n >= ||mu o s_t||, (11) lam_n >= ||lam_t / mu||, (12) lam^T s = 0.
 
     Parameters
     ----------

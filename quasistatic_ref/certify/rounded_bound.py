@@ -1,7 +1,7 @@
 r"""The bound of the error of an answer in float64 alone, its own rounding bounded beforehand.
 
-As :mod:`~quasistatic_ref.certify.bound`, of which it decides the common case: with a direction d
-that opens all contacts, x' = x + t d is feasible, and
+As :mod:`~quasistatic_ref.certify.bound`, of which it decides the common case: with a direction d,
+A d > 0, x' = x + t d is feasible, and
 
 .. math:: \|x - x^*\|_H \le t\,\|d\|_H
           + \big((\|r\|_{H^{-1}} + t\,\|d\|_H)^2 + 2\,y^T(A x' - b)\big)^{1/2},
@@ -27,8 +27,9 @@ from quasistatic_ref.step.standard_form import StandardForm
 U = 2.0**-53
 """Largest relative error of one operation."""
 
-OF_SLACK, OF_BALANCE, OF_WORK, OF_ENERGY = 8, 4, 8, 8
-"""Roundings of A x - b, of H x - g, of A'y and of ||H^-1 g||^2 beyond those of their products."""
+EXTRA_SLACK, EXTRA_BALANCE, EXTRA_TRANSPOSE, EXTRA_ENERGY = 8, 4, 8, 8
+"""Roundings of A x - b, of H x - g, of A'y and of ||H^-1 g||^2 beyond those of their n (or k)
+products."""
 
 MORE = 1 + 2.0**-30
 """For the rounding of bounds themselves: sums of up to 2^20 numbers that are not negative."""
@@ -78,14 +79,14 @@ class FloatBound:
     H : ndarray, shape (n_v, n_v)
         In natural units [-].
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S of the natural units [m, rad].
+        Diagonal of S of the natural units [m or rad, per (N m s)^0.5].
 
     Attributes
     ----------
     sizes : ndarray, shape (n_v, n_v)
         Absolute values of H.
-    middle, inverse : ndarray, shape (n_v, n_v)
-        H^-1 to 2 u times the second, which is above its absolute values.
+    inverse, magnitude : ndarray, shape (n_v, n_v)
+        H^-1 in float64, and M >= |H^-1| with |inverse - H^-1| <= 2 u M.
     """
 
     def __init__(self, hessian: BallHessian, H: Array, coordinate: Array) -> None:
@@ -95,8 +96,8 @@ class FloatBound:
             entries = (hessian.inverse * hessian.h).entries()
             balls = [v / arb(S[i // n]) / S[i % n] for i, v in enumerate(entries)]
             above = [float(v.abs_upper() + v.rad() * 2.0**54) for v in balls]
-        self.middle = np.array([float(v.mid()) for v in balls]).reshape(n, n)
-        self.inverse = MORE * np.array(above).reshape(n, n)
+        self.inverse = np.array([float(v.mid()) for v in balls]).reshape(n, n)
+        self.magnitude = MORE * np.array(above).reshape(n, n)
         self.in_range = all(RANGE[0] < unit < RANGE[1] for unit in (float(hessian.h), *S))
         self._opening: tuple[Array, float] | None = None
         self._mu = self._weight = np.zeros(0)
@@ -117,7 +118,7 @@ class FloatBound:
         form : StandardForm
             In natural units [-].
         units : (float, float)
-            ell [m] and rho [-] of these.
+            ell [m per (N m s)^0.5] and rho [(N m s)^0.5] of these.
         x, lam : ndarray, shapes (n_v,) and (m,)
             In natural units [-]; multipliers below zero are taken as zero.
         """
@@ -130,7 +131,7 @@ class FloatBound:
             return None
         way, work = moved
         rest = np.abs(at.balance) + at.off_balance
-        unbalanced = math.sqrt(float(rest.dot(self.inverse).dot(rest)))
+        unbalanced = math.sqrt(float(rest.dot(self.magnitude).dot(rest)))
         length = way + math.sqrt((unbalanced + way) ** 2 + 2 * work)
         error = MORE * length / math.sqrt(free)
         return error if math.isfinite(error) else None
@@ -145,7 +146,7 @@ class FloatBound:
         step, form, x
             As in :meth:`error`.
         units : (float, float)
-            As there: [m] and [-].
+            As there: [m per (N m s)^0.5] and [(N m s)^0.5].
         y : ndarray, shape (m,)
             Multipliers, none of them below zero [-].
         """
@@ -156,13 +157,13 @@ class FloatBound:
         load = np.abs(form.g) + 2 * self.sizes[:, : step.n_a].dot(target) + UNDERFLOW
         size, lost = np.abs(x), U * UNDERFLOW
         balance = form.H.dot(x) - form.g - form.A.T.dot(y)
-        sums = (n + OF_BALANCE) * (self.sizes.dot(size) + load) + np.abs(balance)
+        sums = (n + EXTRA_BALANCE) * (self.sizes.dot(size) + load) + np.abs(balance)
         slack, off_slack = form.A.dot(x) - form.b, 0.0
         if y.size:
             lost *= 1 + float(size.sum() + y.sum())
-            off_slack = U * (n + OF_SLACK) * float(reach.dot(size).max()) + lost
+            off_slack = U * (n + EXTRA_SLACK) * float(reach.dot(size).max()) + lost
             of_contacts = np.add.reduceat(y, step.offsets[:-1])
-            sums += (np.count_nonzero(y) + OF_WORK) * of_contacts.dot(reach)
+            sums += (np.count_nonzero(y) + EXTRA_TRANSPOSE) * of_contacts.dot(reach)
         return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
 
     def weight(self, mu: Array) -> Array:
@@ -175,11 +176,11 @@ class FloatBound:
 
     def energy(self, g: Array, load: Array) -> float:
         """A lower bound of ||H^-1 g||_H^2 in natural units [-], for g and its `load`, (n_v,)."""
-        off = U * (4 * len(g) + OF_ENERGY) * float(load.dot(self.inverse).dot(load))
-        return float(g.dot(self.middle).dot(g)) - MORE * off
+        off = U * (4 * len(g) + EXTRA_ENERGY) * float(load.dot(self.magnitude).dot(load))
+        return float(g.dot(self.inverse).dot(g)) - MORE * off
 
     def moved(self, step: StepData, form: StandardForm, at: Rounded) -> tuple[float, float] | None:
-        """The way t ||d||_H and y'(A x' - b) at most [-]; None if no direction opens all rows."""
+        """Bounds of t ||d||_H and y'(A x' - b) [-]; None if no d with A d > 0 is found."""
         if not at.y.size:
             return 0.0, 0.0
         for again in (False, True):
@@ -188,7 +189,7 @@ class FloatBound:
                 return None
             d, length = found
             opened = form.A.dot(d)
-            off = U * (len(d) + OF_SLACK) * float(at.reach.dot(np.abs(d)).max()) + UNDERFLOW
+            off = U * (len(d) + EXTRA_SLACK) * float(at.reach.dot(np.abs(d)).max()) + UNDERFLOW
             least = float(opened.min()) - off
             if least > off:
                 t = (at.off_slack - min(float(at.slack.min()), 0.0)) / least

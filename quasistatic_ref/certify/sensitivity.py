@@ -126,10 +126,10 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
 
 
 def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
-    spanned, free = idle_rows(form, working, rational_solution(form, working).slack)
-    also = strictly_active(form, working, free)
+    spanned, unspanned = idle_rows(form, working, rational_solution(form, working).slack)
+    also = strictly_active(form, working, unspanned)
     strict = (*working, *spanned, *also)
-    idle = tuple(i for i in free if i not in also)
+    idle = tuple(i for i in unspanned if i not in also)
     return Active(independent_rows(form, strict), strict, idle)
 
 

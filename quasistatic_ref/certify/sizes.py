@@ -133,9 +133,9 @@ def sizes_of(step: StepData, coordinate: Array, length: float, size: float) -> S
     step : StepData
         SI units.
     coordinate : ndarray, shape (n_v,)
-        Natural units S of the coordinates [m, rad].
+        Natural units S of the coordinates [m or rad, per (N m s)^0.5].
     length, size : float
-        Natural units ell [m] and rho [-].
+        Natural units ell [m per (N m s)^0.5] and rho [(N m s)^0.5].
     """
     c, blocks = step.contacts, in_blocks(step)
     of_load = coordinate / size

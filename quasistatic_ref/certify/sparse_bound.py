@@ -62,13 +62,13 @@ class Metric:
         return splu(self.H)
 
     def sizes(self, x: Array) -> Array:
-        """Sums of the sizes of all terms of H x, shape (n_v,), from x (n_v,)."""
+        """Sums of the absolute values of all terms of H x, shape (n_v,), from x (n_v,)."""
         return np.asarray(abs(self.H) @ np.abs(x))
 
 
 @dataclass(frozen=True, eq=False)
 class LargeForm:
-    """The quadratic program of a large step in float64, and the sizes of what it was formed of.
+    """The quadratic program of a large step in float64, and the magnitudes of its terms.
 
     Parameters
     ----------
@@ -78,6 +78,7 @@ class LargeForm:
     A : scipy.sparse.csc_matrix, shape (m, n_v)
     b : ndarray, shape (m,)
     sizes : TermSizes
+        Sums of the absolute values of all terms of A x, A'y and g, for bounds of their rounding.
     """
 
     metric: Metric

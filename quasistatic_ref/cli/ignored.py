@@ -28,8 +28,8 @@ WORDS = {
 def ignored_lines(system: System) -> list[str]:
     """What the model ignores: one line each.
 
-    Elements of one kind are counted, not listed; links that have visual geometry only are named,
-    since nothing can touch them.
+    Elements of one kind are counted, not listed. Links with visual but no collision geometry are
+    named, because nothing can touch them.
     """
     lines = list(ALWAYS)
     for body in (body.name for body in system.bodies):
@@ -39,7 +39,9 @@ def ignored_lines(system: System) -> list[str]:
         lines += [f"{body}: {WORDS.get(tag, f'<{tag}>')} ({n})" for tag, n in counts.items()]
         unseen = _visual_only(system, body, own)
         if unseen:
-            lines.append(f"{body}: links without collision shape: {', '.join(unseen)}")
+            lines.append(
+                f"{body}: links with visual but no collision geometry: {', '.join(unseen)}"
+            )
     return lines
 
 

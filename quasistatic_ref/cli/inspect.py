@@ -18,11 +18,14 @@ from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.step.cones import cone
 
+READ_AS = "a fixed base, all joints actuated"
+"""How a URDF alone is read: robots are so, and inertias that no body can have are then accepted."""
+
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     file = parser.add_argument(
-        "file", help="a URDF, a scenario (TOML), or the name of a scenario that comes along"
+        "file", help="a URDF, a scenario (TOML), or the name of an installed scenario"
     )
     shared.completed(file, scenario_names, ".toml", ".urdf")
     parser.add_argument(
@@ -39,10 +42,9 @@ def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        # Actuated: a robot's joints are, and inertias of no body are then not an error.
         folders = tuple(options.package_dir)
         body = Body(name=body_name(path), urdf=path, actuated="all", package_dirs=folders)
-        record = system_record(System([body]))
+        record = {"read_as": READ_AS, **system_record(System([body]))}
     else:
         record = scenario_record(load_scenario(options.file, options.settings))
     if options.json:
@@ -65,6 +67,7 @@ def system_record(system: System) -> dict[str, Any]:
             {
                 "name": link,
                 "mass": float(system.masses[i]),
+                "centre": system.centres[i].tolist(),
                 "inertia": system.inertias[i].tolist(),
                 "shapes": [
                     {"name": s.name, "kind": type(s.shape).__name__, "size": s.shape.words()}
@@ -118,6 +121,8 @@ def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
 
 
 def _print(record: dict[str, Any]) -> None:
+    if "read_as" in record:
+        print(f"read with {record['read_as']}; a free body is checked more strictly, in a scenario")
     print(f"q = [q_a; q_u]: {record['n_a']} actuated, {record['n_u']} un-actuated coordinates")
     rows: list[tuple[str, ...]] = [("coordinate", "unit", "actuated", "K_q")]
     for c in record["coordinates"]:
@@ -127,11 +132,14 @@ def _print(record: dict[str, Any]) -> None:
     for m in record["mimics"]:
         print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()
-    rows, notes = [("link", "mass [kg]", "ixx iyy izz ixy ixz iyz [kg m^2]")], []
+    print("inertias: about the centre of mass, along the link's axes")
+    moments_of = "ixx iyy izz ixy ixz iyz [kg m^2]"
+    rows, notes = [("link", "mass [kg]", "centre of mass [m]", moments_of)], []
     for link in record["links"]:
         inertia = np.array(link["inertia"])[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
         moments = " ".join(f"{moment:.3g}" for moment in inertia) if link["mass"] else ""
-        rows.append((link["name"], f"{link['mass']:g}", moments))
+        centre = " ".join(f"{x:.3g}" for x in link["centre"]) if link["mass"] else ""
+        rows.append((link["name"], f"{link['mass']:g}", centre, moments))
         notes.append("; ".join(shape["size"] for shape in link["shapes"]) or "no collision shape")
     shared.print_rows(rows, notes)
     if "pairs" in record:

@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     scenario = parser.add_argument(
         "scenario",
-        help="a TOML file, or the name of a scenario that comes along (bunny_grasp, ...)",
+        help="a TOML file, or the name of an installed scenario (bunny_grasp, ...)",
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
@@ -39,9 +39,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="run it with each of these values, or FIELD=VALUE,VALUE,...; several make a grid",
     )
     parser.add_argument(
-        "--jobs", type=int, metavar="N", help="of --sweep: runs at once (default: all cores)"
+        "--jobs", type=int, metavar="N", help="with --sweep: runs at once (default: all cores)"
     )
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="of --sweep: a Dask scheduler")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="with --sweep: a Dask scheduler")
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"
     )
@@ -137,6 +137,6 @@ def _artifacts(header: Mapping[str, Any]) -> str:
 def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
     for body, motion in list(bodies.items())[:PRINTED]:
         turned, rose = motion["largest_rotation_deg"], motion["largest_rise_mm"]
-        yield f"{body}: turned by at most {turned:.3g} deg and rose by at most {rose:.3g} mm"
+        yield f"{body}: largest rotation {turned:.3g} deg, largest rise {rose:.3g} mm"
     if len(bodies) > PRINTED:
         yield f"{len(bodies) - PRINTED} more free bodies: see --json"

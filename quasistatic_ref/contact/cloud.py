@@ -5,8 +5,9 @@ normal (N, 3): the gradient of phi. The closest point on the shape is then p - p
 gradient is not unique (the centre of a sphere, a tie of two faces) the least index wins, so that
 results are deterministic.
 
-Closed forms throughout. (Coal is right for sphere, box, capsule and half-space, and these agree
-with it to 1e-12; inside a cylinder its depth is wrong by up to millimetres, ours is not.)
+Closed forms, but for the ellipsoid (Newton's method, to rounding). (Coal is right for sphere, box,
+capsule and half-space, and these agree with it to 1e-12; inside a cylinder its depth is wrong by up
+to millimetres, ours is not.)
 """
 
 import numpy as np

@@ -1,9 +1,10 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
-Of a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
-on beta, beta's corners on alpha, and the closest pair, in that order, and the k of least signed
-distance are kept, those that repeat an earlier one after all others, and so the closest pair where
-k corners are as near. None is nearer than the closest pair, so k = 1 asks for that one alone.
+For a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
+on beta, beta's corners on alpha, and the closest pair, in that order. The k candidates with the
+smallest signed distances are kept; two kinds rank after all others: candidates that repeat an
+earlier one, and the closest pair if k corners are as near. No candidate is nearer than the closest
+pair, so k = 1 keeps that one alone.
 """
 
 from collections.abc import Sequence
@@ -62,8 +63,8 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
     Raises
     ------
     ContactError
-        If a pair has no trustworthy normal, or a pose is not finite: of NaN, coal makes the
-        distance 0.
+        If a pair has no trustworthy normal, or a pose is not finite: given NaN, coal says
+        that the distance is 0.
     """
     R, t = kinematics.R, kinematics.t
     check_finite(R, t)
@@ -119,8 +120,8 @@ def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
 def _towards(body: Placed, nearest: Array, n: Array) -> Array:
     """Which way the other body is, in this body's frame, shape (3,); the length has no meaning.
 
-    On a rim the closest point is in the direction of the normal, and has more of its digits: near
-    contact the normal is what is left of a difference.
+    Where the closest point is on a rim, the point itself gives this direction more accurately than
+    the normal does: near contact the normal is computed from a difference that cancels.
     """
     local, way = body.R.T @ (nearest - body.t), body.R.T @ n
     radius = body.shape.rim_radius
@@ -133,9 +134,9 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
 def late(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
 
-    The closest pair mostly is a corner, and on parallel faces anything between corners that are
-    as near but for rounding; without this it would take the place of another, and four contacts
-    under a box would be three.
+    The closest pair is mostly one of the corners. On parallel faces it can be any point between
+    corners that are equally near but for rounding; ranked by its distance it would displace one of
+    these corners, and a box on a table would have three corner contacts instead of four.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED

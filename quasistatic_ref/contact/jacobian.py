@@ -30,8 +30,8 @@ class ContactGeometry:
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout, self.motion = layout, motion
         self.named: tuple[list[int], tuple[str, ...]] = [], ()
-        # Of alpha's bodies and of beta's, 1 for the columns that move them and 0 for the others.
         self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        # 1 where a column of J moves alpha's (first) or beta's link, else 0.
         self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
@@ -106,7 +106,7 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
-    """Tangents d1, d2 such that {d1, d2, n} is dextral: a fixed function of n.
+    """Tangents d1, d2 such that {d1, d2, n} is right-handed: a fixed function of n.
 
     d1 is the projection of the world axis that is farthest from n (the least index on a tie),
     normalised; d2 = n x d1. For n along z: d1 along x, d2 along y.
@@ -141,12 +141,12 @@ def contact_jacobian(
     Raises
     ------
     ContactError
-        If the kinematics are those of links that do not move.
+        If no link of the kinematics moves.
     """
     nothing = np.zeros(len(n))
     names = ("",) * len(n)
     layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)
     if kinematics.motion is None:
-        raise ContactError("of links that do not move has no Jacobian", field="kinematics")
+        raise ContactError("has no Jacobian, because no link moves", field="kinematics")
     geometry = ContactGeometry(layout, kinematics.motion)
     return geometry.jacobian(kinematics.columns, alpha, beta, n)

@@ -41,7 +41,7 @@ class Prover:
     step : StepData
         In a polyhedral cone, without rows of a user's own.
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S of its natural units [m, rad].
+        Diagonal of S of its natural units [m or rad, per (N m s)^0.5].
     """
 
     def __init__(self, step: StepData, coordinate: Array) -> None:
@@ -146,7 +146,7 @@ def prover(step: StepData, coordinate: Array, kept: Prover | None) -> Prover | N
     ----------
     step : StepData
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S of its natural units [m, rad].
+        Diagonal of S of its natural units [m or rad, per (N m s)^0.5].
     kept : Prover or None
     """
     if step.extra.names:

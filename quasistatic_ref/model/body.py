@@ -40,7 +40,7 @@ class Body(Plain):
     positions : mapping of str to float
         Where joints start [m or rad]; 0 for those not named.
     package_dirs : tuple of Path
-        Where ``package://`` addresses are looked for.
+        Where ``package://`` URIs are looked for.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Mesh files: which file an address means, and the convex hull of what it holds."""
+"""Mesh files: which file a URI means, and the convex hull of what it holds."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,52 +17,52 @@ MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
 
 
-def mesh_path(address: str, folder: Path, package_dirs: Sequence[str | Path]) -> Path:
-    """The file that a mesh's address means.
+def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Path:
+    """The file that a mesh's URI means.
 
     Parameters
     ----------
-    address : str
+    uri : str
         ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders, or a
         path relative to `folder`.
     folder : Path
-        Of the file that the address stands in.
+        Of the file that the URI stands in.
     package_dirs : sequence of str or Path
 
     Raises
     ------
     ModelError
-        If there is no such file, its kind is unknown, or it lies (links resolved) neither in
-        `folder` nor in one of the package folders: what is loaded is never a surprise. Or if it
-        is a COLLADA file that would take a mesh library's memory.
+        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
+        the package folders after symbolic links are resolved: what is loaded is never a surprise.
+        Or if it is a COLLADA file that would take a mesh library's memory.
     """
-    if Path(address).suffix.lower() not in MESHES:
-        hint = suggestion(Path(address).suffix.lower(), MESHES)
-        raise ModelError(f"is not a known kind of mesh{hint}", value=address)
+    if Path(uri).suffix.lower() not in MESHES:
+        hint = suggestion(Path(uri).suffix.lower(), MESHES)
+        raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
     packages = [Path(given) for given in package_dirs]
-    if address.startswith(PACKAGE):
+    if uri.startswith(PACKAGE):
         if not packages:
             problem = "is looked for in the folders of package_dirs, and the body has none"
-            raise ModelError(problem, value=address)
-        inside = address.removeprefix(PACKAGE).lstrip("/")
+            raise ModelError(problem, value=uri)
+        inside = uri.removeprefix(PACKAGE).lstrip("/")
         places = [package / inside for package in packages]
-    elif "://" in address:
-        raise ModelError("must be package://NAME/PATH or a relative path", value=address)
+    elif "://" in uri:
+        raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
     else:
-        places = [folder / address]
+        places = [folder / uri]
     try:
         found = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
         found = None
     if found is None:
         where = ", ".join(str(package) for package in packages) or str(folder)
-        raise ModelError(f"no such file (looked for in {where})", value=address)
+        raise ModelError(f"no such file (looked for in {where})", value=uri)
     if not any(found.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
             f"leads to {found}, outside the folder of this file and of package_dirs; "
             "move the mesh, or name its folder in package_dirs"
         )
-        raise ModelError(problem, value=address)
+        raise ModelError(problem, value=uri)
     if found.suffix.lower() == ".dae":
         check_dae(found)
     return found

@@ -132,7 +132,7 @@ class System:
         check_mass(self.M_u(self.q_start), free, self._roots)
 
     @property
-    def rigid(self) -> bool:
+    def constant_mass_matrix(self) -> bool:
         """Whether M_u is the same array at every q."""
         return self._M_u is not None
 
@@ -177,12 +177,16 @@ class System:
         return np.array(q_next)
 
     def pinocchio_sum(self, q: Array, delta_q: Array) -> Array:
-        """Configuration q (+) delta_q, shape (n_q,), whose bases lack digits of their places."""
+        """Pinocchio's q (+) delta_q, (n_q,); :meth:`integrate` places bases more accurately."""
         order = self._order
         return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
 
     def pinocchio_difference(self, q: Array, q_next: Array) -> Array:
-        """Change q_next (-) q, shape (n_v,), of which only rotations of floating bases count."""
+        """Pinocchio's q_next (-) q, shape (n_v,).
+
+        Its entries are used for revolute and prismatic joints and for the rotation of floating
+        bases; :mod:`~quasistatic_ref.model.screw` computes all others.
+        """
         at, there = self._order.model_q(q), self._order.model_q(q_next)
         return self._order.paper_v(pin.difference(self._model, at, there))
 
@@ -245,9 +249,9 @@ class System:
         return tau
 
     def kinematics(self, q: Array) -> Kinematics:
-        """Pose and Jacobian of every link at q; the last ones are kept.
+        """Pose and Jacobian of every link at q.
 
-        Those of the end of a step are those of the start of the next.
+        The last result is kept, because the end of a step is the start of the next one.
         """
         at = np.asarray(q, dtype=np.float64).tobytes()
         if self._latest is None or self._latest[0] != at:

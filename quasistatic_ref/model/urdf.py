@@ -35,7 +35,8 @@ class Urdf:
     file : UrdfFile
         What it says.
     text : str
-        The same as loaded, its meshes' addresses resolved.
+        What was loaded: the file's text without what the model ignores in links, each mesh URI
+        replaced by the path of its file.
     base : str
         How its root link moves (joint ``base``): ``"fixed"``, ``"floating"`` or ``"planar"``.
     model : pinocchio.Model
@@ -45,7 +46,8 @@ class Urdf:
     shapes : tuple of PlacedShape
         Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
     notes : tuple of str
-        Where the model differs from its file: meshes as hulls, inertias that do not matter.
+        Where the model differs from its file: meshes as hulls, inertias that no body can have and
+        that M_u does not need.
     """
 
     file: UrdfFile
@@ -70,13 +72,13 @@ def loaded_urdf(
     ----------
     path : str or Path
     base : str
-        ``"fixed"``, or ``"floating"`` or ``"planar"``: a joint named ``base`` of six or three
-        dimensions under the root link.
+        ``"fixed"``; or ``"floating"`` or ``"planar"``: a joint named ``base``, with six or three
+        degrees of freedom, between the world and the root link.
     actuated : sequence of str, or "all"
-        Joints that have a stiffness. An inertia that is moved by nothing else plays no part,
-        and may be that of no body.
+        Joints that have a stiffness. The inertia of a link that only these move need not be
+        physically consistent.
     package_dirs : sequence of str or Path
-        Where ``package://`` addresses are looked for.
+        Where ``package://`` URIs are looked for.
 
     Raises
     ------
@@ -87,7 +89,7 @@ def loaded_urdf(
     with about_file(file.path):
         moving = _moving_joints(file, base)
         free = [] if actuated == "all" else [name for name in moving if name not in actuated]
-        inertias = checked_inertias(file, free)
+        inertias = checked_inertias(file, free, base)
         text = resolved_text(file, package_dirs)
         model, geometry = _loaded(text, base)
         _check_names(file, model, moving)

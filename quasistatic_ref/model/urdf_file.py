@@ -38,9 +38,9 @@ Defect = tuple[str, str, object]
 
 @dataclass(frozen=True, eq=False)
 class FileMesh:
-    """A mesh as written: its address, and the `scale` of each coordinate, shape (3,) [-]."""
+    """A mesh as written: its URI, and the `scale` of each coordinate, shape (3,) [-]."""
 
-    address: str
+    uri: str
     scale: Array
 
 
@@ -60,8 +60,7 @@ class FileLink:
     collisions : tuple of (Shape or FileMesh, R (3, 3), t (3,))
         Each shape and its frame in the link's [m].
     defect : Defect or None
-        What makes its inertia that of no body; it only matters where something un-actuated
-        moves the link.
+        Why no rigid body has this inertia; an error where an un-actuated joint moves the link.
     """
 
     name: str

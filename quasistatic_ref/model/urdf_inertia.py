@@ -1,8 +1,9 @@
-"""Where the inertias of a URDF matter, they must be those of bodies; elsewhere they are noted.
+"""Inertias of a URDF: an error where M_u needs them and they are no rigid body's, else a note.
 
-M_u is the only place where a mass matrix enters the model. So a link's inertia matters where an
-un-actuated joint moves it, and there the whole that fixed joints weld together counts. The many
-frames that robots give a mass of zero are then harmless.
+M_u is the only mass matrix of the model. A link is part of it where an un-actuated joint moves the
+link; there the inertia of all links that fixed joints weld together must be physically consistent:
+mass > 0, positive definite, principal moments with the triangle inequality. Elsewhere moments of
+inertia have no effect. A mass still has: gravity on actuated joints that are not compensated.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -11,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf_file import FileLink, UrdfFile, inertia_defect
+from quasistatic_ref.model.urdf_file import Defect, FileLink, UrdfFile, inertia_defect
 from quasistatic_ref.model.urdf_tree import Pose, link_poses, rigid_groups
 from quasistatic_ref.step.arrays import Array
 
@@ -32,21 +33,23 @@ def group_inertias(file: UrdfFile) -> dict[str, Array]:
     return total
 
 
-def checked_inertias(file: UrdfFile, free: Collection[str]) -> tuple[str, ...]:
-    """Notes on inertias that no body can have, where they do not matter.
+def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[str, ...]:
+    """Notes on inertias that no rigid body can have and that M_u does not need.
 
     Parameters
     ----------
     file : UrdfFile
     free : collection of str
         The un-actuated joints, the base's name among them where it moves and is un-actuated.
+    base : str
+        Kind of the base, for messages.
 
     Raises
     ------
     ModelError
-        If an un-actuated joint moves a group of links whose inertia is that of no body.
+        If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
-    group, mover, notes = rigid_groups(file.root, file.joints), _movers(file, free), []
+    group, mover, notes = rigid_groups(file.root, file.joints), _movers(file, free, base), []
     poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
@@ -62,17 +65,26 @@ def checked_inertias(file: UrdfFile, free: Collection[str]) -> tuple[str, ...]:
                 link, (field, problem, value) = named
                 raise ModelError(problem, field=f"link[{link}].inertial.{field}", value=value)
         notes += [
-            f"link[{link}].inertial.{defect[0]}: {defect[1]}; harmless here"
+            f"link[{link}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover[first])}"
             for link, defect in defects
             if defect
         ]
     return tuple(notes)
 
 
-def _movers(file: UrdfFile, free: Collection[str]) -> dict[str, str | None]:
+def _accepted(defect: Defect, mover: str | None) -> str:
+    """Why a defect of a link's inertia is no error, and what it may change nevertheless."""
+    if mover is not None:
+        return "accepted, because the inertia of all links welded to it is that of a body"
+    accepted = "accepted, because no un-actuated joint moves this link"
+    lost = "its actuated joints carry no weight of it, also without gravity compensation"
+    return f"{accepted}; {lost}" if defect[0] == "mass" else accepted
+
+
+def _movers(file: UrdfFile, free: Collection[str], base: str) -> dict[str, str | None]:
     """For every link, an un-actuated joint that moves it, in words, or None."""
     root = next((name for name in free if not any(j.name == name for j in file.joints)), None)
-    mover: dict[str, str | None] = {file.root: "the floating base" if root else None}
+    mover: dict[str, str | None] = {file.root: f"the {base} base" if root else None}
     for joint in file.joints:
         by = joint.mimic.of if joint.mimic else joint.name
         own = f"joint {joint.name!r}" if joint.kind != "fixed" and by in free else None

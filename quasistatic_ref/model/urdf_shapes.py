@@ -20,7 +20,7 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
     """What pinocchio is given: the file's text without what the model ignores in its links.
 
     Visuals are left out, and so is <collision_checking>, by which pinocchio takes a shape for
-    another than the one written. The address of a collision mesh is replaced by the file that
+    another than the one written. The URI of a collision mesh is replaced by the file that
     it means: pinocchio would read a relative path from the working folder, and follow any.
 
     Raises

@@ -160,7 +160,10 @@ def _prefixed(model: Any, name: str) -> Any:
 
 
 def _anchor(body: Body) -> Any:
-    """Where pinocchio's model of a body hangs: a base's own coordinates place the rest."""
+    """Placement of a body's model in the world, as far as q does not hold it.
+
+    The identity for a floating base, the height for a planar base, the whole pose for a fixed one.
+    """
     if body.base == "floating":
         return pin.SE3.Identity()
     if body.base == "planar":

@@ -38,7 +38,7 @@ def data_rates(
 
     load_q = h * acts * masses.gravity_rates(gravity)
     load_q[:n_a, :n_a] += h * step.K_q @ by_q
-    if not simulator.system.rigid and n_a < n_v:
+    if not simulator.system.constant_mass_matrix and n_a < n_v:
         load_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
     targets = np.zeros((n_v, n_a))
     targets[:n_a] = h * step.K_q @ by_target

@@ -63,13 +63,15 @@ class Scenario(Plain):
     system : System
     pairs : tuple of ContactPair
     K_q : ndarray, shape (n_a, n_a)
+        Joint stiffness [N/m, N m/rad].
     gravity_acts : ndarray of bool, shape (n_a,)
+        Whether gravity acts on each actuated coordinate.
     targets : Targets
         q_bar_a(t).
     wrenches : tuple of Wrenches
-        External, world frame, at centres of mass.
+        External wrenches [N, N m] in the world frame, each at the centre of mass of its body.
     backend, accuracy, certify, record, cone
-        Settings.
+        The fields of these names in the scenario's file.
     engine : str, optional
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     limits : Limits
@@ -207,7 +209,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
-    entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if system.rigid else 0
+    blocks = system.constant_mass_matrix
+    entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
     backend, engine = _backend_and_engine(solver, certify, named, entries_of_J)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):

@@ -59,12 +59,14 @@ class Simulator:
     gravity_acts : ndarray of bool, shape (n_a,), optional
         Whether gravity acts on each actuated coordinate; by default the robot compensates all.
     solver : str, optional
-        Name of a backend, by default :func:`~quasistatic_ref.solve.engines.default_backend`'s, and
-        Clarabel's where that fails; it, accuracy and certify are as in
+        Name of a backend; by default that of
+        :func:`~quasistatic_ref.solve.engines.default_backend`. A step on which that default,
+        named or not, fails is solved by Clarabel. The solver, accuracy and certify are as in
         :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
-        reaches the backend and the cone, and ``"cvxpy"`` for extensions that are more than rows.
+        reaches the backend and the cone, and ``"cvxpy"`` for extensions that are not linear
+        constraints alone.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
@@ -78,7 +80,8 @@ class Simulator:
     backend : str
         Name of the backend.
     fast : callable or None
-        What takes its steps in compiled code, to the same bits; None where nothing does.
+        The compiled implementation of :meth:`step`, with the same bits; None if there is none for
+        this simulator.
     solver : Solver or None
         What solved the last step; it takes the next one if that fits.
 
@@ -117,9 +120,9 @@ class Simulator:
         self.gravity_acts = np.ones(system.n_v)
         self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
         self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.named, self.named_engine = solver, engine
+        self.requested_backend, self.requested_engine = solver, engine
         self.accuracy, self.certify = accuracy, certify
-        blocks = extension is None and system.rigid
+        blocks = extension is None and system.constant_mass_matrix
         entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
         default = default_backend(engine, cone, certify, entries)
         self.backend = default if solver is None else solver
@@ -136,7 +139,7 @@ class Simulator:
     def __reduce__(self) -> tuple[Any, ...]:
         same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
-        settings |= {"solver": self.named, "engine": self.named_engine}
+        settings |= {"solver": self.requested_backend, "engine": self.requested_engine}
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
@@ -172,7 +175,7 @@ class Simulator:
         step, own = self.extended(self.step_data(q, q_bar_a, force, points, kinematics), q)
         lap("rows")
         solution = self.solution(step, own)  # Eq. (13)
-        self.limits.check_penetration(step)  # an infeasible step says more about itself
+        self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
@@ -215,7 +218,10 @@ class Simulator:
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
-        """The step with the user's rows at q, shape (n_q,), and what is more than rows."""
+        """The step with the user's linear constraints at q, shape (n_q,), and the other extension.
+
+        The second is the extension if it holds nonlinear constraints or costs, else None.
+        """
         if self.extension is None:
             return step, None
         from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
@@ -231,9 +237,9 @@ class Simulator:
         return self.solver
 
     def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
-        """A step solved, perhaps with an extension that is more than rows."""
+        """A step solved, perhaps with nonlinear constraints or costs of an extension."""
         own = self.fitting(step)
-        by_name = extension is not None and (self.named_engine or CVXPY) == CVXPY
-        solver = (self.named or DEFAULT) if by_name else own
+        by_name = extension is not None and (self.requested_engine or CVXPY) == CVXPY
+        solver = (self.requested_backend or DEFAULT) if by_name else own
         first = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
         return self.spare.after(step, partial(first, extension=extension))

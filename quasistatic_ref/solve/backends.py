@@ -27,15 +27,16 @@ class Backend:
     Parameters
     ----------
     name : str
-        Name of the setting; upper case it is CVXPY's, as it stands qpsolvers'.
+        Name of the backend: in lower case qpsolvers' name, in upper case CVXPY's.
     method : str
         What it does, in two words.
     attempts : callable
         Accuracy in natural units [-] -> sets of the backend's own options, tried in order until
         one of them solves the step.
     plain : callable or None
-        Accuracy [-] -> its options in a study: residuals and duality gap at the same accuracy and
-        nothing else touched, as its manual suggests at first reading. None if it has none.
+        Accuracy [-] -> its options in a study: the tolerance of the residuals, and that of the
+        duality gap where it has one, are the accuracy. Relative tolerances are 0 (Clarabel's: the
+        accuracy); OSQP, QPALM and SCS get 20,000 iterations. None if it has no tolerance.
     floor : float
         The least accuracy that it takes, in natural units [-].
     time_limit : str
@@ -105,9 +106,9 @@ By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear
 def _clarabel(accuracy: float) -> Attempts:
     feasibility = dict.fromkeys(("tol_feas", "tol_infeas_abs", "tol_infeas_rel"), accuracy)
     gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), GAP * accuracy)
-    # Its static regularisation of 1e-8 is too much for steps with many dependent rows (any
-    # sticking patch): 4 of the 600 steps of bunny_grasp stop without it. In other scenes
-    # single steps do at 1e-10 or at 1e-12, never the same ones.
+    # With its default static regularisation of 1e-8 it stops early on 4 of the 600 steps of
+    # bunny_grasp, whose sticking patches have many dependent rows. With 1e-10 or 1e-12 it solves
+    # them, but fails on single steps of other scenes, never on the same ones: three attempts.
     return tuple(
         feasibility
         | gap
@@ -154,8 +155,9 @@ def _once(options: Callable[[float], Options]) -> Callable[[float], Attempts]:
 
 _plain_clarabel = _tolerances("tol_feas", "tol_gap_abs", "tol_gap_rel")
 _plain_osqp = _tolerances("eps_abs", eps_rel=0.0, max_iter=20_000)
-# It has no limit of time, and each of these iterations may take 1,500 of 20 us, of which CVXPY
-# cannot ask for fewer. All steps of bunny_grasp that it solves take it 23 at most.
+# ProxQP has no time limit. Each of its outer iterations may take 1,500 inner ones of 20 us each, a
+# limit that CVXPY does not pass on. The steps of bunny_grasp that it solves take at most 23 outer
+# iterations.
 _proxqp = _tolerances("eps_abs", eps_rel=0.0, max_iter=100)
 _plain_scs = _tolerances("eps_abs", eps_rel=0.0, max_iters=20_000)
 _scs = _tolerances("eps_abs", "eps_rel", max_iters=200_000)

@@ -34,7 +34,7 @@ from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
 def extension_rows(step: StepData, extension: Extension) -> Extra | None:
-    """The rows A delta_q >= b that an extension is, or None if it is more than rows.
+    """The rows A delta_q >= b of an extension that holds linear constraints only, else None.
 
     An equation becomes two rows. The numbers are the float64 numbers that CVXPY makes of it.
 
@@ -85,7 +85,7 @@ def with_rows(step: StepData, own: Extra) -> StepData:
 def extended_solution(
     step: StepData, extension: Extension, name: str, accuracy: float, certify: str
 ) -> StepSolution:
-    """The optimum of a step with an extension that is more than rows.
+    """The optimum of a step with an extension that holds nonlinear constraints or costs.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def extended_solution(
     StepNotSolved
         If it does not solve the problem, or its residuals are not small.
     """
-    cone_backend(name, "an extension that is more than rows")
+    cone_backend(name, "an extension with nonlinear constraints or costs")
     units = natural_units(step)
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)

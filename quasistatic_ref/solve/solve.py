@@ -66,7 +66,7 @@ def solve_step(
         Of the backend's answer, in natural units [-].
     certify : str
         ``"full"``: the exact optimum, correctly rounded, the same bits whatever the backend said
-        (in the ellipsoid, which has no rational optimum, enclosed to 1e-13 or better);
+        (in the ellipsoid, whose optimum is in general not rational, enclosed to 1e-13 or better);
         ``"residual"``: the backend's answer, refused if its residuals are not small, with a
         rigorous bound of its error; ``"off"``: the backend's answer, on its own word.
     extension : Extension, optional
@@ -84,7 +84,8 @@ def solve_step(
     StepInfeasible
         With ``"full"``, if no displacement satisfies the rows; with the proof.
     StepIllPosed
-        With ``"full"``, if the exact optimum is absurd.
+        With ``"full"``, if the exact optimum is more than 1e6 times longer than what the step asks
+        for; see :func:`~quasistatic_ref.certify.exact_step.relative_length`.
     StepNotSolved
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
@@ -106,8 +107,8 @@ def solve_step(
         elif isinstance(solver, str):
             return extended.extended_solution(step, extension, solver, accuracy, certify)
         else:
-            problem = "holds a problem of rows only; an extension that is more needs the name of a "
-            problem += "backend, and in a simulator engine = 'cvxpy'"
+            problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
+            problem += "the name of a backend, and in a simulator engine = 'cvxpy'"
             raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.engine}")
     if isinstance(solver, Solver):
         solver.check(step)
@@ -141,7 +142,7 @@ def solved(
         If the solver does not support `certify`.
     """
     if certify == "full" and not solver.certifies:
-        problem = "of sparse matrices gives residuals at most; use certify = 'residual'"
+        problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
     if certify != "full" and solver.name == NONE:
         raise BackendError("gives no answer of its own; use certify = 'full'", value=NONE)
@@ -206,7 +207,7 @@ def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
 def _proved(
     scaled: DenseStep, solver: Solver, answer: Answer, hessian: BallHessian
 ) -> ExactOptimum | None:
-    """The optimum where the rows that bear load are a guess: by compiled code, or in balls."""
+    """The optimum proved on a working set guessed from the answer: in C, or in balls; or None."""
     step, form, fast = scaled.step, scaled.natural_form, compiled("certificate")
     if np.count_nonzero(answer.lam) > step.n_v:  # rows that depend on each other
         return None

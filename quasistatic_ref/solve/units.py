@@ -7,8 +7,9 @@ Absolute tolerances of solvers mean nothing for a body of 0.1 kg that moves by 1
 Eqs. :eq:`eq-13` and :eq:`eq-4` keep their form: S is diagonal, one unit per coordinate, such that
 the diagonal of H becomes about one; ell is one length, such that the rows become about one; and
 rho is the size of the step. The matrices do not depend on rho, because the problem is positively
-homogeneous in (g, phi). All units are powers of two, so the conversion loses nothing (short of
-underflow).
+homogeneous in (g, phi). With x dimensionless, rho S is in m or rad, rho ell in m and rho / ell in
+N s; rho itself is in the unit of ||v||_H, (N m s)^0.5. All units are powers of two, so the
+conversion loses nothing (short of underflow).
 """
 
 import math
@@ -24,7 +25,7 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
 STANDSTILL = 2.0**-100
-"""Size of a step that nothing drives [-]."""
+"""Size of a step that nothing drives [(N m s)^0.5]."""
 
 
 class Units(NamedTuple):
@@ -33,11 +34,11 @@ class Units(NamedTuple):
     Parameters
     ----------
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m, rad].
+        Diagonal of S [m or rad, per (N m s)^0.5].
     length : float
-        ell [m].
+        ell [m per (N m s)^0.5].
     size : float
-        rho [-].
+        rho [(N m s)^0.5].
     """
 
     coordinate: Array
@@ -53,11 +54,11 @@ class Metric:
     ----------
     H : ndarray, shape (n_v, n_v)
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m, rad].
+        Diagonal of S [m or rad, per (N m s)^0.5].
     inverse : ndarray, shape (n_v, n_v)
         Of H [m^2/(N m s)].
     squared : ndarray, shape (n_v,)
-        Squares of `coordinate` [m^2, rad^2].
+        Squares of `coordinate` [m^2 or rad^2, per N m s].
     natural : ndarray, shape (n_v, n_v)
         H in natural units [-].
     usable : bool
@@ -82,7 +83,7 @@ def metric(H: Array) -> Metric:
 
 
 def coordinate_units(diagonal: Array) -> Array:
-    """Diagonal of S [m, rad], powers of two, shape (n_v,), from the `diagonal` of H."""
+    """Diagonal of S, shape (n_v,) [m or rad, per (N m s)^0.5], from the `diagonal` of H."""
     return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
 
 
@@ -104,8 +105,9 @@ def natural_units(step: StepData) -> Units:
 
 
 def squared_lengths(form: StandardForm, of_H: Metric) -> Array:
-    """Squared lengths of the rows of A S [m^2], shape (m,), ascending; NaN comes last."""
-    squares: Array = np.square(form.A).dot(of_H.squared)  # exact: powers of two
+    """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
+    # Squares and sums are rounded, which is enough to choose a power of two.
+    squares: Array = np.square(form.A).dot(of_H.squared)
     squares.sort()
     return squares
 
@@ -129,9 +131,9 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
     Parameters
     ----------
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m, rad].
+        Diagonal of S [m or rad, per (N m s)^0.5].
     squares : ndarray, shape (m,)
-        Squared lengths of the rows of A S [m^2], ascending.
+        Squared lengths of the rows of A S [m^2/(N m s)], ascending.
     energy : float
         Length of the unconstrained step in the norm of H, ||H^-1 g||_H [(N m s)^0.5].
     b : ndarray, shape (m,)
@@ -139,8 +141,7 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
     length = _power_of_two(_typical(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
     size = max(energy, push_out)
-    # Where nothing pushes and nothing is far, the answer is zero: the smaller the unit, the nearer.
-    if size == 0:
+    if size == 0:  # no load, no penetration: the optimum is zero, and the largest gap the size
         size = -float(b.min(initial=0.0)) / length or STANDSTILL
     if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan

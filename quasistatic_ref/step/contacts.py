@@ -72,9 +72,9 @@ class Points(Plain):
         axes = np.array([self.d1, self.d2, self.n])
         # Not by matmul, which warns where numbers overflow; what overflows is no unit vector.
         defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
-        dextral = np.linalg.det(axes.transpose(1, 0, 2)) > 0
-        if n_c and not (defect.max() <= ORTHONORMAL and dextral.all()):
-            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~dextral).argmax())
+        right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
+        if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
+            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~right_handed).argmax())
             problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
             value = axes[:, j].tolist()
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
@@ -91,7 +91,8 @@ class Contacts(Points):
     phi : ndarray, shape (n_c,)
         Signed distance [m], negative in penetration.
     n, d1, d2 : ndarray, shape (n_c, 3)
-        Unit normal from alpha's body to beta's, and the tangents: {d1, d2, n} is dextral; world.
+        Unit normal from alpha's body to beta's, and the tangents, in the world frame: {d1, d2, n}
+        is right-handed.
     J : ndarray, shape (n_c, 4, n_v)
         Contact Jacobian, Eq. :eq:`eq-3`: rows 0-2 the velocity of beta relative to alpha in the
         world frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.

@@ -102,9 +102,9 @@ class StepData(Plain):
     K_q : ndarray, shape (n_a, n_a)
         Joint stiffness [N/m, N m/rad], symmetric positive definite.
     M_u : ndarray, shape (n_u, n_u)
-        Un-actuated block of the mass matrix [kg, kg m^2], symmetric positive definite.
+        Un-actuated block of the mass matrix [kg, kg m, kg m^2], symmetric positive definite.
     tau_a : ndarray, shape (n_a,)
-        Generalised force on the actuated coordinates in addition to the stiffness [N, N m].
+        Generalised force on the actuated coordinates other than the springs' [N, N m].
     tau_u : ndarray, shape (n_u,)
         Generalised force on the un-actuated coordinates [N, N m].
     delta_q_bar_a : ndarray, shape (n_a,)

@@ -1,20 +1,20 @@
 r"""Friction cones, each of them one function of a contact's gap, slip_1, slip_2 and spin.
 
-These are phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q: what is
-left of the gap, and how far the contact slides along d1 and d2 and turns about n, each times its
+These are phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q: the gap
+after the step; and the sliding along d1 and d2 and the rotation about n, each multiplied by its
 coefficient of friction. A cone returns what must not be negative, one entry for each of its rows.
-It only adds, subtracts and multiplies by float64 numbers, so that
+It only adds, subtracts and multiplies by float64 numbers. Therefore it returns
 
-- of numbers it returns the slacks of Eq. :eq:`eq-10`;
-- of CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
-- of the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats or
-  in exact numbers;
-- of n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
+- given numbers, the slacks of Eq. :eq:`eq-10`;
+- given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
+- given the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats
+  or in exact numbers;
+- given n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
   :eq:`eq-5`-:eq:`eq-7`.
 
-Multipliers of the rows add up to a force inside of the cone; each function states its limit
-surface. A term whose coefficient is zero means that its force is zero. A contact whose mu_omega is
-not used has the leading rows only, and a spin of zero.
+Multipliers >= 0 of the rows combine to a contact force inside of the cone; each function states the
+inequality that these forces satisfy. Where mu_v (or mu_omega) is 0, \|f\|/mu <= f_n means f = 0. A
+contact whose mu_omega is not used has the leading rows only, and a spin of zero.
 """
 
 from collections.abc import Callable
@@ -117,13 +117,14 @@ def cone_function(name: str) -> ConeFunction:
 
 @cache
 def cone_matrix(name: str) -> Array:
-    """What the rows of a polyhedral cone combine: the cone of the four unit vectors.
+    """Coefficients of the rows of a polyhedral cone: its function of the four unit vectors.
 
     Returns
     -------
     ndarray, shape (R, 4)
-        Coefficients of gap, slip_1, slip_2 and spin [-]. The limit surface, the forces at f_n = 1
-        in units of (mu_v, mu_v, mu_omega), is the convex hull of the last three columns.
+        Of gap, slip_1, slip_2 and spin [-]. The admissible (f_1, f_2, tau) at f_n = 1, in units of
+        (mu_v, mu_v, mu_omega), are the convex hull of the R rows without their first entries; the
+        limit surface is its boundary.
     """
     matrix = np.stack(cone_function(name)(*np.eye(4)))
     matrix.setflags(write=False)
@@ -158,7 +159,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     ----------
     contacts : Contacts
     name : str
-        The cone. The ellipsoid has no rows: its are the motion along n, d1, d2 and about n.
+        The cone. For the ellipsoid, which has no inequality rows: J_n, J_1, J_2 and J_w.
 
     Returns
     -------
@@ -180,7 +181,7 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """What the gap phi adds to each row [m]: all of it, but nothing along d1, d2 and spin.
+    """The constant term of each row [m]: phi; in the ellipsoid of its normal row only, else 0.
 
     Returns
     -------

@@ -23,8 +23,16 @@ class StepProblem:
     friction : callable, optional
         A cone of :mod:`~quasistatic_ref.step.friction`, in place of the paper's.
     constraints, costs : callable, optional
-        Functions of this StepProblem that return a list of further ones. (Where costs replace the
-        impedance, its K_q and tau_k are set to zero after :meth:`fill`.)
+        Functions that take this StepProblem and return a list of additional constraints, or of
+        additional costs. Where a cost replaces the springs, the caller sets the parameters K_q and
+        tau_k to zero after each :meth:`fill`.
+
+    Attributes
+    ----------
+    motion : tuple of cvxpy.Expression, each of shape (n_c,)
+        gap, slip_1, slip_2 and spin [m]: the last three times their friction coefficients.
+    contact_rows : list of cvxpy.Constraint
+        Non-penetration and friction, one constraint for each row of the cone.
     """
 
     def __init__(
@@ -61,11 +69,12 @@ class StepProblem:
         work = h * (tau_k + tau_a) @ delta_q_a + h * tau_u @ delta_q_u
 
         self.delta_q_a, self.delta_q_u, self.delta_q = delta_q_a, delta_q_u, delta_q
-        self.motion, self.friction = (gap, slip_1, slip_2, spin), [row for row in rows if row.size]
+        self.motion = gap, slip_1, slip_2, spin
+        self.contact_rows = [row for row in rows if row.size]
         self.like, self.extra = like, [A_x @ delta_q >= b_x] if like.extra.names else []
         self.parameters = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w, A_x, b_x)
         objective = cp.Minimize(sum(costs(self), stiffness + inertia - work))
-        self.problem = cp.Problem(objective, [*self.friction, *self.extra, *constraints(self)])
+        self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
 
     def fits(self, step: StepData) -> bool:
         """Tell whether a step can be filled in without building another problem."""
@@ -76,7 +85,8 @@ class StepProblem:
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step; StepDataError if it is of another kind."""
         if not self.fits(step):
-            raise StepDataError("the step has another h, cone, mu_v, mu_omega or number of rows")
+            problem = "h, the cone, n_a, n_u, the number of extra rows, mu_v, mu_omega or the rows"
+            raise StepDataError(f"the step differs in {problem} of a contact")
         tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
         J = frame_jacobian(step.contacts, step.contacts.J)
         forces, own = (tau_k, step.tau_a, step.tau_u), (step.extra.A, step.extra.b)
@@ -92,6 +102,6 @@ class StepProblem:
     def dual(self) -> Array:
         """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
         lam, mask = np.zeros(self.like.mask.shape), self.like.mask
-        for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.friction, strict=True):
+        for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
             lam[mask[:, i], i] = row.dual_value
         return np.concatenate([lam[mask], *(row.dual_value for row in self.extra)])

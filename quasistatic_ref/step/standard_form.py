@@ -22,7 +22,7 @@ class StandardForm(NamedTuple):
     g : ndarray, shape (n_v,)
     A : ndarray, shape (m, n_v)
         Contact-major; the user's extra rows come last. A contact in the ellipsoid has four rows,
-        along n, d1, d2 and spin; A delta_q - b is then its motion, which the cone keeps.
+        J_n, J_1, J_2 and J_w: A delta_q - b is (gap, sliding along d1 and d2, rotation about n).
     b : ndarray, shape (m,)
     """
 
@@ -51,7 +51,7 @@ def standard_form(step: StepData) -> StandardForm:
 
 
 def load(step: StepData) -> Array:
-    """The load g of Eq. :eq:`eq-13`, shape (n_v,) [N m s]."""
+    """The linear term g of Eq. :eq:`eq-13`, shape (n_v,) [N s of a length, N m s of an angle]."""
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
     return g

@@ -56,12 +56,12 @@ def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
             for k, entry in enumerate(row(contacts, j, directions(contacts, j)[i])):
                 total += entry * delta_q[k]
             expected.append(total)
-        constraint = problem.friction[i]
+        constraint = problem.contact_rows[i]
         # CVXPY keeps a >= 0 as 0 - a <= 0.
         np.testing.assert_allclose(-constraint.expr.value, expected, rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_no_contact_without_torsion_gets_a_torsional_constraint(rng):
     problem = StepProblem(random_step(rng, rows=(4, 4)))
-    assert len(problem.friction) == 4
-    assert [c.shape for c in problem.friction] == [(2,)] * 4
+    assert len(problem.contact_rows) == 4
+    assert [c.shape for c in problem.contact_rows] == [(2,)] * 4

@@ -37,7 +37,7 @@ def shares_of_the_problem(step, delta_q):
     problem.delta_q_a.value, problem.delta_q_u.value = delta_q[: step.n_a], delta_q[step.n_a :]
     gap = problem.motion[0].value
     # CVXPY keeps a >= 0 as 0 - a <= 0.
-    return [-constraint.expr.value - gap for constraint in problem.friction]
+    return [-constraint.expr.value - gap for constraint in problem.contact_rows]
 
 
 def shares_by_loops(step, delta_q, directions):

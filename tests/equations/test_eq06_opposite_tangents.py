@@ -41,5 +41,5 @@ def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
 
 
 def test_a_contact_without_torsion_ends_with_them(rng):
-    assert len(StepProblem(random_step(rng, rows=(4, 4))).friction) == 4
+    assert len(StepProblem(random_step(rng, rows=(4, 4))).contact_rows) == 4
     assert pyramid(1.0, 0.25, 0.5, 0.0)[:4] == (1.25, 1.5, 0.75, 0.5)

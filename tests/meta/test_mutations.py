@@ -58,7 +58,7 @@ SAMPLE = (
     f"{BALLS} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
     f"{POINT} Point.zero_coordinates: i == v -> i != v",
     f"{POINT} _sign: (x > 0) - (x < 0) -> (x > 0) + (x < 0)",
-    f"{WALK} _first_below_zero: after.lam_sign(j) < 0 -> after.lam_sign(j) > 0",
+    f"{WALK} _first_to_vanish: after.lam_sign(j) < 0 -> after.lam_sign(j) > 0",
     f"{WALK} _vanishes_before: difference < 0 -> difference > 0",
     f"{WALK} _ratio_less: l_exact[j] * c[k] < l_exact[k] * c[j] -> "
     "l_exact[j] * c[k] <= l_exact[k] * c[j]",

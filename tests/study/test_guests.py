@@ -54,7 +54,7 @@ def test_the_table_is_none_of_the_cores_and_says_how_each_is_called():
 
 
 @pytest.mark.parametrize("name", GUESTS)
-def test_a_guest_has_no_options_by_default_and_tighter_ones_never_ask_for_less(name):
+def test_options_of_a_guest_never_loosen_with_the_accuracy(name):
     solver = Solver(name, GUESTS[name].interfaces[0], name)
     at = {s.name: solver.settings_of(s, 1.0) for s in SETTINGS if solver.takes(s)}
     assert list(at) == ["default", "low", "mid", "high", "tuned"]

@@ -89,6 +89,24 @@ def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
         assert keeper._process.wait(timeout=GRACE + 15) == -signal.SIGALRM
 
 
+DIES_BEFORE_A_CALL = """
+import os
+from multiprocessing.connection import Connection
+
+Connection.recv = lambda self: os._exit(7)  # the next message ends the process: no call is made
+
+def never(P, q, G, h):
+    pass
+"""
+
+
+def test_a_process_that_ends_before_its_first_call_is_a_crash(tmp_path, problem):
+    (tmp_path / "planted_ending.py").write_text(DIES_BEFORE_A_CALL)
+    row = row_of(Solver("never", "callable", "planted_ending:never"), problem, tmp_path)
+    assert (row["outcome"], row["calls"]) == ("crashed", 0)
+    assert "status 7" in row["claimed"]
+
+
 def test_a_crash_does_not_cost_the_next_measurement(folder, problem):
     with Keeper(fake("exits"), folder) as keeper:
         outcomes = [

@@ -9,6 +9,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.figures.study_images import drawn
 from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.columns import columns_of
 from quasistatic_ref.lab.study.pack import shorter
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.store import rows_read
@@ -37,6 +38,11 @@ def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, caps
         for k, column in enumerate(columns):
             if ">=" in column or "wrong" in title:
                 assert [line[k] for line in body] == [line[k] for line in whole], title
+
+
+def test_clocks_that_were_not_compared_do_not_disagree(rows):
+    of_three = [rows[0] | {"clock_agrees": agrees} for agrees in (True, None, False)]
+    assert columns_of(of_three, 1.0)["clock_agrees"].tolist() == [True, True, False]
 
 
 def test_a_packed_store_that_was_cut_off_is_refused(store, tmp_path, capsys):

@@ -59,7 +59,8 @@ def columns_of(rows: Sequence[Row], limit: float) -> Columns:
         columns[f"own_{name}"] = _numbers([row["seconds"][name] for row in rows])
     columns["warm_up"] = _numbers([row["seconds"]["warm_up"] for row in rows])
     columns["memory"] = _numbers([row["memory"] for row in rows])
-    columns["clock_agrees"] = np.array([row["clock_agrees"] for row in rows], dtype=bool)
+    agrees = [row["clock_agrees"] is not False for row in rows]  # null: not compared
+    columns["clock_agrees"] = np.array(agrees, dtype=bool)
     columns["iterations"] = _numbers([row["iterations"] for row in rows])
     return columns
 

@@ -1,7 +1,7 @@
 """A reply against the truth: correct digits, residuals, and whether its claim holds.
 
-Everything is measured in natural units, whichever units the solver was called in: the conversion is
-lossless, and digits, which are relative, do not notice.
+Errors and digits are computed in natural units, whichever units the solver was called in: the
+conversion is lossless, and digits are relative. Residuals are those in the units of the call.
 """
 
 from dataclasses import dataclass
@@ -119,7 +119,7 @@ def ungraded(
         "residuals": {"primal": None, "dual": None, "gap": None},
         "seconds": dict.fromkeys(CLOCKS) | {"call": seconds},
         "calls": 0,
-        "clock_agrees": True,
+        "clock_agrees": None,
         "memory": None,
         "iterations": None,
     }

@@ -1,7 +1,8 @@
 """One measurement: a call that warms up, one that is graded, and as many as its time needs.
 
 Calls of microseconds are timed in one exchange, by the clock of the solver's process, which the
-solver could replace: the clock of the keeper, around the whole exchange, must bear it out.
+solver could replace: the clock of the keeper, around the whole exchange, must confirm it. Calls
+with a warm start cannot be confirmed, as the solves that they start from are in the same exchange.
 """
 
 import math
@@ -84,9 +85,9 @@ def measured(
     assert keeper.pid is not None  # it was started
     processes.reset_peak(keeper.pid)
     begin, memory = perf_counter(), None
+    shape = (*form.A.shape, units, setting.name, warm)
     try:
         exchange(keeper, form, setting)
-        shape = (*form.A.shape, units, setting.name, warm)
         if shape not in keeper.seen:
             keeper.answer(form, Request(setting, limits.warm_up, g=other, start=start))
             keeper.seen.add(shape)
@@ -107,7 +108,7 @@ def measured(
 def _graded(
     keeper: Keeper, paper: Exam, request: Request, units: str, limits: Limits
 ) -> dict[str, Any]:
-    """The graded row of one call, with the median of the calls after it."""
+    """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
     form, promised = paper.forms[units], request.setting.promised
     response, outside = keeper.answer(form, request)
     if response.ended:
@@ -140,10 +141,11 @@ def _goodness(row: dict[str, Any]) -> tuple[bool, bool, float]:
 
 def _timed(
     keeper: Keeper, form: Any, request: Request, outside: float, limits: Limits
-) -> tuple[Response, tuple[float, ...], bool]:
+) -> tuple[Response, tuple[float, ...], bool | None]:
     """Calls in one exchange: the last reply, their times [s], whether the keeper's clock agrees.
 
-    Where it does not, each call took its share of the shortest exchange.
+    Where it does not, each call took its share of the shortest exchange. With a warm start the two
+    clocks are not compared, and the third is None.
     """
     about = max(outside - keeper.exchange, 1e-6)
     count = min(max(math.ceil(LONG / about), limits.repetitions), MOST * limits.repetitions)
@@ -153,6 +155,8 @@ def _timed(
         response, whole = keeper.answer(form, many)
         beyond = whole - keeper.exchange
         shortest = min(shortest, beyond)
-        if request.start is not None or borne_out(response.times, beyond):
+        if request.start is not None:
+            return response, response.times, None
+        if borne_out(response.times, beyond):
             return response, response.times, True
     return response, (shortest / count,) * count, False

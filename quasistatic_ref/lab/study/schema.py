@@ -64,7 +64,7 @@ SOLVER_ROW: dict[str, Any] = {
     "digits": {"delta_q": MAYBE, "net_wrench": MAYBE, "multipliers": MAYBE},
     "residuals": _table_of(MAYBE),
     "seconds": {**dict.fromkeys(CLOCKS, _or_null(TIME)), "spent": TIME},
-    "calls": COUNT, "clock_agrees": FLAG, "memory": MAYBE, "iterations": MAYBE,
+    "calls": COUNT, "clock_agrees": _or_null(FLAG), "memory": MAYBE, "iterations": MAYBE,
 }  # fmt: skip
 MERGED_ROW: Shape = {**SOLVER_ROW, "machine": TEXT}
 """Of a store into which the results of several machines were merged."""

@@ -49,7 +49,7 @@ def test_multiplier_that_vanishes_first_leaves_the_longest_held_in_a_tie(
 ):
     form = program([[1, 0, 0], [0, 1, 0], [1, 1, 1]], [*right, 9])
     before, after = point_on(form, order, balls), point_on(form, (*order, 2), balls)
-    leaving = active_set._first_below_zero(before, after)
+    leaving = active_set._first_to_vanish(before, after)
     assert order[leaving] == (order[0] if first is None else first)
 
 
@@ -70,7 +70,7 @@ def test_the_row_of_smallest_ratio_leaves_in_a_tie_the_longest_held(order, c, fi
     form = program([[1, 0], [0, 1], c], [1, 3, 99])
     combination = active_set.combination(form, order, 2)
     assert [float(str(c_j)) for c_j in combination] == [c[i] for i in order]
-    leaving = active_set._first_on_combination(point_on(form, order, balls), combination)
+    leaving = active_set._first_to_vanish_on_combination(point_on(form, order, balls), combination)
     assert order[leaving] == (order[0] if first is None else first)
 
 
@@ -79,7 +79,10 @@ def test_multipliers_that_do_not_fall_never_vanish(order, balls):
     """Of lam = (1, 3), lam_0 stays as t grows, and lam_1 + t grows with it."""
     form = program([[1, 0], [0, 1], [0, -1]], [1, 3, 99])
     combination = active_set.combination(form, order, 2)
-    assert active_set._first_on_combination(point_on(form, order, balls), combination) is None
+    assert (
+        active_set._first_to_vanish_on_combination(point_on(form, order, balls), combination)
+        is None
+    )
 
 
 def test_combination_without_positive_part_proves_infeasibility():

@@ -166,10 +166,10 @@ SLACK, BALANCE, ENERGY = 0, 1, 2
 @pytest.mark.parametrize(
     ("constant", "smaller", "which", "make"),
     [
-        ("OF_SLACK", 2, SLACK, slack_of_one),
-        ("OF_BALANCE", 0, BALANCE, balance_of_one),
-        ("OF_WORK", 2, BALANCE, work_of_one),
-        ("OF_ENERGY", -1, ENERGY, energy_of_one),
+        ("EXTRA_SLACK", 2, SLACK, slack_of_one),
+        ("EXTRA_BALANCE", 0, BALANCE, balance_of_one),
+        ("EXTRA_TRANSPOSE", 2, BALANCE, work_of_one),
+        ("EXTRA_ENERGY", -1, ENERGY, energy_of_one),
         ("U", 2.0**-55, SLACK, slack_of_one),
         ("UNDERFLOW", 0.0, SLACK, underflow_of_one),
     ],

@@ -182,8 +182,10 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
         {"name": "rail/plate#0", "kind": "Box", "size": "box 0.02 x 0.2 x 0.2 m"}
     ]
     assert "rail: joint limits: position, effort and velocity (2)" in record["ignored"]
+    assert record["read_as"] == "a fixed base, all joints actuated"
     assert main(["inspect", path]) == 0
     text = capsys.readouterr().out
+    assert "read with a fixed base, all joints actuated" in text
     assert "rail/slide" in text
     assert "the model ignores:" in text
 
@@ -202,6 +204,7 @@ def test_inspect_shows_a_scenario(scene, capsys):
     record = json.loads(capsys.readouterr().out)
     stiffness = {c["name"]: c["K_q"] for c in record["coordinates"] if c["actuated"]}
     assert stiffness == {"rail/slide": 500, "rail/turn": 2.5}
+    assert "read_as" not in record  # a scenario says how its bodies are held
     assert [pair["mu_omega"] for pair in record["pairs"]] == [0.5, 0.0]
     assert record["size"] == [8, 10]
     assert main(["inspect", scene]) == 0

@@ -1,14 +1,18 @@
 """What commands print: help without heavy imports, lines that fit, nothing when quiet."""
 
 import io
+import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import COMMANDS, main
 from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.resources import scenario_names
+from tests.tolerances import ROUNDING
+from tests.unit.model.urdf_texts import inertial, joint, link, robot, written
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -42,6 +46,31 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
 def test_what_is_inspected_fits_a_terminal(name, capsys):
     assert main(["inspect", name]) == 0
     assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
+
+
+def test_inspect_names_links_that_nothing_can_touch(tmp_path, capsys):
+    visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
+    text = robot(link("a", visual), link("b"), joint("j", "a", "b"))
+    assert main(["inspect", str(written(tmp_path, text, "one.urdf"))]) == 0
+    assert "- one: links with visual but no collision geometry: a\n" in capsys.readouterr().out
+
+
+TURNED = inertial(moments=("0.1", "0.2", "0.25")).replace(
+    "<mass", '<origin xyz="0.5 0.25 0.125" rpy="0 0 1.5707963267948966"/><mass'
+)
+
+
+def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, capsys):
+    """A quarter turn about z: ixx along the frame of the inertia is iyy along the link's."""
+    path = str(written(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf"))
+    assert main(["inspect", path, "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["links"]
+    assert found["centre"] == [0.5, 0.25, 0.125]
+    assert np.diag(found["inertia"]) == pytest.approx([0.2, 0.1, 0.25], abs=ROUNDING)
+    assert main(["inspect", path]) == 0
+    out = capsys.readouterr().out
+    assert "inertias: about the centre of mass, along the link's axes" in out
+    assert "0.5 0.25 0.125" in out
 
 
 @pytest.mark.parametrize(

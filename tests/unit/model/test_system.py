@@ -227,13 +227,13 @@ def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
 ) -> None:
     centred = robot(link("a", inertial=inertial()))  # no product of inertia, no lever
     system = System([Body("a", written(tmp_path, centred, "a.urdf"), "floating")])
-    assert system.rigid
+    assert system.constant_mass_matrix
     M_u = system.M_u(system.q_start)
     expected = np.diag([2, 2, 2, 0.02, 0.03, 0.04])
     np.testing.assert_allclose(M_u, expected, rtol=ROUNDING, atol=ROUNDING)
     assert not np.signbit(M_u).any()
     assert system.M_u(system.integrate(system.q_start, np.ones(6))) is M_u
-    assert not scene.rigid
+    assert not scene.constant_mass_matrix
     assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
 
 

@@ -99,17 +99,44 @@ def test_what_a_fixed_joint_would_mimic_is_ignored(tmp_path: Path) -> None:
     assert "joint[k].mimic" in loaded_urdf(written(tmp_path, text)).file.ignored
 
 
+NO_WEIGHT = (
+    "link[a].inertial.mass: must be greater than 0; accepted, because no un-actuated joint moves "
+    "this link; its actuated joints carry no weight of it, also without gravity compensation"
+)
+
+
 def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
     text = robot(
         link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
     )
     path = written(tmp_path, text)
     notes = loaded_urdf(path, base="floating", actuated="all").notes
-    assert notes == ("link[a].inertial.mass: must be greater than 0; harmless here",)
+    assert notes == (NO_WEIGHT,)
     with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
         loaded_urdf(path, base="floating", actuated=("base",))
     with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
         loaded_urdf(path, base="floating", actuated=("j",))
+
+
+def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:
+    needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
+    welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
+    (note,) = loaded_urdf(written(tmp_path, welded)).notes
+    assert note.startswith("link[b].inertial.inertia: is that of no body")
+    assert note.endswith("; accepted, because no un-actuated joint moves this link")
+    massless = robot(
+        link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
+    )
+    (note,) = loaded_urdf(written(tmp_path, massless), base="floating").notes
+    whole = "the inertia of all links welded to it is that of a body"
+    assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
+
+
+@pytest.mark.parametrize("base", ["floating", "planar"])
+def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path: Path, base: str) -> None:
+    path = written(tmp_path, robot(link("a", inertial="")))
+    with pytest.raises(ModelError, match=f"is missing, but the {base} base moves this link"):
+        loaded_urdf(path, base=base)
 
 
 def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:

@@ -89,9 +89,9 @@ def weak_rows(one: Base) -> list[int]:
     point, signs = one.step.optimum.point, one.step.optimum.slack_signs
     idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in point.working]
     spanned = point.spanned(idle)
-    free = [i for i in idle if i not in spanned]
-    strict = strictly_active(one.step.form, point.working, free)
-    return [i for i in free if i not in strict]
+    unspanned = [i for i in idle if i not in spanned]
+    strict = strictly_active(one.step.form, point.working, unspanned)
+    return [i for i in unspanned if i not in strict]
 
 
 def _selections(one: Base, matters: Iterable[int]) -> list[Json]:
