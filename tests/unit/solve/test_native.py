@@ -222,7 +222,10 @@ def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(backend, rng):
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
     step = random_step(rng)
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
-    with pytest.raises(BackendError, match="more needs the name of a backend"):
+    with pytest.raises(
+        BackendError,
+        match="takes linear constraints only; for a cost or a nonlinear constraint pass",
+    ):
         solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
 
 
