@@ -14,6 +14,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study import guests
 from quasistatic_ref.lab.study.calls import call_of
 from quasistatic_ref.lab.study.guests import GUESTS, installed_here, natively
+from quasistatic_ref.lab.study.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.spec_solvers import solvers_named
 from quasistatic_ref.lab.study.unreached import unreached_read
@@ -45,7 +46,7 @@ def float64():
 
 
 def test_the_table_is_none_of_the_cores_and_says_how_each_is_called():
-    assert set(GUESTS) == {"qoco", "cvxopt", "ecos", "qpax", "mpax"}
+    assert set(GUESTS) == {"exact", "qoco", "cvxopt", "ecos", "qpax", "mpax"}
     assert not set(GUESTS) & set(BACKENDS)
     for guest in GUESTS.values():
         assert guest.interfaces
@@ -53,7 +54,24 @@ def test_the_table_is_none_of_the_cores_and_says_how_each_is_called():
         assert not guest.steps
 
 
-@pytest.mark.parametrize("name", GUESTS)
+def test_the_exact_method_has_no_options_and_one_setting():
+    solver = Solver("exact", "native", "exact")
+    assert [s.name for s in SETTINGS if solver.takes(s)] == ["default"]
+    assert solver.settings_of(SETTINGS[0], 1.0) == {}
+
+
+def test_the_exact_method_answers_or_says_that_there_is_no_solution():
+    """The slacks of x >= b and -x >= 1 - b add up to -1, so that one of them is negative."""
+    call = call_of(Solver("exact", "native", "exact"))
+    found = call(FORM, {}, None, 1.0)
+    assert (found.solved, list(found.x), list(found.lam)) == (True, [X], [LAM])
+    rows = np.array([[1.0], [-1.0]])
+    none = call(FORM._replace(A=rows, b=np.array([B, 1.0 - B])), {}, None, 1.0)
+    assert not none.solved
+    assert says_infeasible(none.status)
+
+
+@pytest.mark.parametrize("name", sorted(set(GUESTS) - {"exact"}))
 def test_options_of_a_guest_never_loosen_with_the_accuracy(name):
     solver = Solver(name, GUESTS[name].interfaces[0], name)
     at = {s.name: solver.settings_of(s, 1.0) for s in SETTINGS if solver.takes(s)}
@@ -70,7 +88,7 @@ def test_a_star_is_the_backends_and_the_guests_that_are_installed(only, interfac
     only()
     assert installed_here(interface) == installed(interface)
     for name, guest in GUESTS.items():
-        only(name)
+        only(guest.to_install)
         targets = [solver.target for solver in solvers_named(f"{interface}:*")]
         own = [name] if interface in guest.interfaces else []
         assert targets == [*installed(interface), *own]

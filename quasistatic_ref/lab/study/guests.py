@@ -1,8 +1,9 @@
 """Solvers that studies call where they are installed, and with which no step is solved.
 
-Each is called through the interfaces that its line of the table names. Two pairs are left out,
-because they compile in every call: ``qpsolvers:qpax`` and ``cvxpy:mpax``. Through their own
-interfaces both are compiled once for a shape, at the first call of it, which warms up.
+One is the exact method itself, from cold. Each is called through the interfaces that its line of
+the table names. Two pairs are left out, because they compile in every call: ``qpsolvers:qpax`` and
+``cvxpy:mpax``. Through their own interfaces both are compiled once for a shape, at the first call
+of it, which warms up.
 """
 
 from collections.abc import Callable
@@ -45,6 +46,20 @@ class Guest(Backend):
     def to_install_it(self) -> str:
         """What to type for it: no extra brings it."""
         return f"pip install {self.to_install}"
+
+
+def _exact() -> Native:
+    from quasistatic_ref.lab.study.sets.answers import exact_answer
+
+    def native(form: StandardForm, _: Options) -> Reply:
+        begin = perf_counter()
+        found = exact_answer(form)
+        seconds = perf_counter() - begin
+        if found.farkas:
+            return Reply(None, None, False, "infeasible", call_seconds=seconds)
+        return Reply(found.x, found.lam, True, "optimal", found.walks, call_seconds=seconds)
+
+    return native
 
 
 def _qoco() -> Native:
@@ -135,6 +150,9 @@ Line = partial(Guest, steps=False, cvxpy=False)
 GUESTS: dict[str, Guest] = {
     one.name: one
     for one in (
+        # Without rounding, and so without options.
+        Line("exact", "active set, exact", lambda _: ({},), None, interfaces=("native",),
+             native=_exact, package="quasistatic_ref"),
         # abstol, reltol: of residuals and gap. https://qoco-org.github.io/qoco/api/settings.html
         Line("qoco", "interior point", **_as_plain(_options("abstol", "reltol")),
              interfaces=("cvxpy", "native"), native=_qoco),
@@ -179,7 +197,9 @@ def installed_here(interface: str) -> tuple[str, ...]:
     interface : str
     """
     guests = (guest for guest in GUESTS.values() if interface in guest.interfaces)
-    return installed(interface) + tuple(guest.name for guest in guests if find_spec(guest.name))
+    return installed(interface) + tuple(
+        guest.name for guest in guests if find_spec(guest.to_install)
+    )
 
 
 def natively(name: str) -> Native:
