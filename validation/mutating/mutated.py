@@ -45,6 +45,7 @@ FORGED = (
     "properties/test_forgeries.py",
 )
 ENCLOSED = (
+    "unit/certify/test_checked_pair.py",
     "unit/certify/test_interior.py",
     "unit/certify/test_newton.py",
     "unit/certify/test_enclosure.py",
