@@ -77,6 +77,7 @@ URDF = (
 )
 DATA = ("unit/step/test_data.py", "unit/step/test_plain_data.py", "unit/step/test_step_files.py")
 SOLVERS = (
+    "unit/solve/test_adapters.py",
     "unit/solve/test_native.py",
     "unit/solve/test_backends.py",
     "unit/solve/test_solver.py",
