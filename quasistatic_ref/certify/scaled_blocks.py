@@ -79,8 +79,7 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
     length = [largest([a for row in block for a in row]) for block in rows]
     gaps = [abs(b[block[0], 0]) / ell for block, ell in zip(blocks, length, strict=True)]
     free = square_root((balls.x_free.transpose() * (arb_mat(form.H) * balls.x_free))[0, 0])
-    size = (free if free > 0 else max([arb(0), *(g.mid() for g in gaps)]) or arb(1)).mid()
-    size = size if size > 0 else arb(1)
+    size = free.mid() if free > 0 else largest(gaps)
     problem = Blocks(
         H=arb_mat(
             n, n, [root[u] * form.H[u, v] * root[v] for u in range(n) for v in range(n)]

@@ -45,6 +45,7 @@ FORGED = (
     "properties/test_forgeries.py",
 )
 ENCLOSED = (
+    "unit/certify/test_checked_pair.py",
     "unit/certify/test_interior.py",
     "unit/certify/test_newton.py",
     "unit/certify/test_enclosure.py",
@@ -61,7 +62,11 @@ SOLIDS = (
     "unit/contact/test_curved_pairs.py",
 )
 LARGE = ("unit/certify/test_sparse_bound.py", "unit/certify/test_bound_formulas.py")
-SPARSE = ("unit/step/test_sparse.py", "unit/solve/test_solver.py")
+SPARSE = (
+    "unit/step/test_kept_and_shown.py",
+    "unit/step/test_sparse.py",
+    "unit/solve/test_solver.py",
+)
 CLOUDS = ("unit/model/test_clouds.py", "unit/model/test_meshes.py")
 SCENES = (
     "unit/simulate/test_scenario.py",
@@ -74,14 +79,26 @@ URDF = (
     "unit/model/test_meshes.py",
     "errors/test_bad_urdfs.py",
 )
-DATA = ("unit/step/test_data.py", "unit/step/test_plain_data.py", "unit/step/test_step_files.py")
+DATA = (
+    "unit/step/test_arrays.py",
+    "unit/step/test_kept_and_shown.py",
+    "unit/step/test_data.py",
+    "unit/step/test_plain_data.py",
+    "unit/step/test_step_files.py",
+)
 SOLVERS = (
+    "unit/solve/test_adapters.py",
+    "unit/solve/test_second_order.py",
+    "unit/solve/test_extended.py",
+    "unit/solve/test_kept_between_steps.py",
     "unit/solve/test_native.py",
     "unit/solve/test_backends.py",
     "unit/solve/test_solver.py",
     "unit/solve/test_units.py",
 )
 SOLVED = (
+    "unit/solve/test_kept_between_steps.py",
+    "unit/solve/test_plain_programs.py",
     "unit/solve/test_solver.py",
     "unit/solve/test_backends.py",
     "unit/step/test_problem.py",
@@ -96,6 +113,7 @@ CURVED = (
 )
 
 DIFFERENTIATED = (
+    "unit/certify/test_touching.py",
     "unit/simulate/test_derivatives.py",
     "unit/simulate/test_derivative_verdicts.py",
     "unit/simulate/test_one_sided.py",
@@ -264,10 +282,19 @@ TESTS: dict[str, tuple[str, ...]] = {
         "errors/test_bad_steps.py",
     ),
     "step/posed.py": DATA,
-    "step/rounded_wrench.py": ("unit/simulate/test_wrenches.py", "unit/certify/test_enclosure.py"),
+    "step/rounded_wrench.py": (
+        "unit/step/test_kept_and_shown.py",
+        "unit/simulate/test_wrenches.py",
+        "unit/certify/test_enclosure.py",
+    ),
     "step/show.py": ("unit/step/test_words.py", *DATA),
-    "step/solution.py": ("unit/certify/test_certificate.py", "unit/certify/test_newton.py"),
+    "step/solution.py": (
+        "unit/step/test_kept_and_shown.py",
+        "unit/certify/test_certificate.py",
+        "unit/certify/test_newton.py",
+    ),
     "step/solution_files.py": (
+        "unit/step/test_kept_and_shown.py",
         "unit/step/test_solution_files.py",
         "unit/step/test_solutions_of_version_1.py",
         *FORGED,

@@ -82,6 +82,8 @@ def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
     assert float(_centrality(*uneven)) == pytest.approx(1 / 2, rel=ROUNDING)
     for outside in ([1.0, 2.0, 0.0], [-3.0, 1.0, 0.0], [1.0, 1.0, 0.0]):
         assert float(_centrality([balls(outside)], [balls(y)])) == 0.0
+    complementary = [balls([1.0, 1.0, 0.0])], [balls([1.0, -1.0, 0.0])]  # both on the boundary
+    assert float(_centrality(*complementary)) == 0.0
 
 
 def test_a_start_is_moved_well_inside():
@@ -99,6 +101,8 @@ def test_a_start_is_moved_well_inside():
         ([2.0, 1.0, 0.0], [0.0, -1.0, 0.0], 3.0),
         ([1.0, 0.0, 0.0], [1.0, 0.5, 0.0], FAR),
         ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0], FAR),
+        ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], FAR),  # in parallel with the boundary
+        ([1.0, 0.0, 0.0], [0.0, 0.0, 0.0], FAR),
         ([4.0], [-2.0], 2.0),
         ([4.0], [2.0], FAR),
     ],
@@ -192,8 +196,22 @@ def test_what_slides_is_linearised_with_its_curvature():
     assert (floats(K.entries()), C.nrows(), c.nrows()) == (np.eye(3).ravel().tolist(), 0, 0)
 
 
+def test_constraints_stand_in_the_order_of_their_contacts():
+    """A row that sticks at s = 7, then what slides at s = (6, 3, 4), with c = 6 - 5."""
+    floor = floor_problem()
+    row = arb_mat([[arb(1), arb(0), arb(0)]])
+    problem = Blocks(floor.H, floor.g, [row, *floor.A], [column([-1.0]), *floor.b])
+    y = [balls([2.0]), balls([10.0, 0.0, 0.0])]
+    _, C, c, f = _linearised(problem, column([6.0, 3.0, 4.0]), y, [STICKS, SLIDES])
+    np.testing.assert_allclose(floats(C.entries()), [1, 0, 0, 1, -0.6, -0.8], rtol=ROUNDING)
+    np.testing.assert_allclose(floats(c.entries()), [7, 1], rtol=ROUNDING)
+    assert floats(f.entries()) == [2.0, 10.0]
+
+
 def test_multipliers_of_what_slides_are_against_the_slip():
-    problem, x = floor_problem(), column([6.0, 3.0, 4.0])
+    """Of s = x - b = (6, 3, 4) the slip is along (0.6, 0.8)."""
+    problem, x = floor_problem(), column([7.0, 1.0, 2.0])
+    problem = Blocks(problem.H, problem.g, problem.A, [column([1.0, -2.0, -2.0])])
     old = [balls([9.0, 9.0, 9.0])]
     found = _with_multipliers(problem, x, old, [SLIDES], balls([10.0]))
     np.testing.assert_allclose(floats(found[0]), [10, -6, -8], rtol=ROUNDING)
@@ -235,6 +253,13 @@ def test_no_direction_opens_walls_that_face_each_other():
     assert _opening([east], 1) is not None
     assert _opening([east, west], 1) is None
     assert _opening([], 2).tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("rows", [[1, 3], [1, 1, 3]])
+def test_walls_on_one_side_are_all_opened(rows):
+    """One coordinate d and rows a d: that each is inside by 1/2 at least wants d >= 1/2."""
+    (d,) = _opening([arb_mat([[arb(a)]]) for a in rows], 1)
+    assert d >= 0.5
 
 
 def test_the_largest_size_is_one_of_nothing():

@@ -5,13 +5,21 @@ import dataclasses
 import numpy as np
 import pytest
 
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.scaled import DenseStep, check_units
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     STANDSTILL,
     Units,
+    _power_of_two,
+    _typical,
     from_natural,
+    metric,
+    natural_form,
     natural_units,
+    out_of_reach,
     to_natural,
+    units_from,
     within_reach,
 )
 from quasistatic_ref.step.data import Extra
@@ -23,6 +31,7 @@ from tests.helpers import (
     hessian,
     pinch,
     planted_step,
+    point_on_floor,
     random_step,
     sphere_on_floor,
     unconstrained,
@@ -171,3 +180,55 @@ def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
     reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
     np.testing.assert_allclose(within_reach(far).contacts.phi, [reach], rtol=ROUNDING, atol=0.0)
+    assert out_of_reach(far).all()
+    assert not out_of_reach(within_reach(far)).any()
+
+
+@every_step
+def test_the_natural_form_is_that_of_the_natural_step_bit_for_bit(step):
+    units, form = natural_units(step), standard_form(step)
+    expected = standard_form(to_natural(step, units))
+    for found, value in zip(natural_form(form, units), expected, strict=True):
+        np.testing.assert_array_equal(found, value)
+    assert natural_form(form, units, H := np.eye(step.n_v)).H is H
+
+
+@pytest.mark.parametrize(
+    ("lengths", "median"),
+    [([], 1), ([0, 0], 1), ([3], 3), ([0, 0, 2, 4, 9], 4), ([0, 2, 4], 3), ([2, 4, 9], 4)],
+)
+def test_the_typical_length_is_the_median_of_rows_that_are_not_zero(lengths, median):
+    assert _typical(np.square(np.array(lengths, float))) == median
+
+
+def test_what_has_no_unit_has_none_and_says_so():
+    for x in (0.0, np.inf, np.nan, -1.0):
+        assert np.isnan(_power_of_two(x))
+    assert _power_of_two(1.7e308) == np.inf  # the nearest power is 2^1024
+    assert _power_of_two(3.0) == 4.0
+    with np.errstate(all="ignore"):
+        assert not metric(np.diag([1.0, np.inf])).usable
+    S, b = np.ones(1), np.zeros(2)
+    assert units_from(S, np.array([1.0, 1.0]), 3.0, b).size == 4.0
+    assert np.isnan(units_from(S, np.array([1.0, 1.0, np.inf]), 3.0, b).size)
+
+
+def test_units_that_are_not_finite_and_positive_are_refused():
+    step, units = STEPS["sphere"], natural_units(STEPS["sphere"])
+    check_units(units, step)
+    for name in ("length", "size"):
+        for bad in (0.0, np.inf, np.nan):
+            with pytest.raises(StepDataError, match="range of float64"):
+                check_units(units._replace(**{name: bad}), step)
+
+
+def test_rows_are_as_unlike_as_the_longest_and_the_shortest_that_is_not_zero():
+    """H is a multiple of the identity. Without friction the rows of a contact are n, of length 1.
+
+    Own rows have lengths 5, 0.5 and 0.
+    """
+    own = Extra(("a", "b", "c"), [[0.0, 3, 4], [0.3, 0.4, 0], [0, 0, 0]], [0.0] * 3)
+    step = point_on_floor(mu_v=0.0)
+    assert DenseStep(step).unlike == 1.0
+    assert DenseStep(step.replace(extra=own)).unlike == pytest.approx(5 / 0.5, rel=ROUNDING)
+    assert DenseStep(STEPS["no contacts"]).unlike == 1.0

@@ -54,6 +54,15 @@ def test_another_name_is_refused(name, rng):
         random_step(rng).replace(cone=name)
 
 
+def test_zeros_of_directions_have_no_sign():
+    found = np.array([direction(k, 4) for k in range(4)])
+    assert not np.signbit(found[found == 0]).any()
+
+
+def test_a_cone_has_1024_sides_at_most():
+    assert len(cone("facets-1024").row_names) == 1024 + 2  # and two spins
+
+
 @pytest.mark.parametrize("K", [4, 6, 8, 10, 12, 16, 30, 64, 360, 1024])
 def test_directions_are_the_cosines_and_sines(K):
     turn = 2 * np.pi * np.arange(K) / K

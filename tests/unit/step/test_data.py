@@ -185,3 +185,22 @@ def test_equality_sees_every_bit():
     assert STEP.replace(contacts=changed(CONTACTS, name=("c0", "other"))) != STEP
     assert STEP.replace(contacts=changed(CONTACTS, rows=[4, 4])) != STEP
     assert STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])) != STEP
+
+
+def test_rows_that_cannot_be_written_are_kept_and_others_become_integers():
+    for dtype, kept in ((np.int64, True), (np.int32, False), (np.float64, False)):
+        rows = np.array([6, 4], dtype=dtype)
+        rows.setflags(write=False)
+        found = changed(CONTACTS, rows=rows).rows
+        assert (found is rows) == kept
+        assert found.dtype == np.int64
+        assert found.tolist() == [6, 4]
+
+
+def test_a_wrong_frame_is_named_with_its_axes():
+    """The second contact's normal has length 2: d1, d2 and n of that contact are reported."""
+    n = CONTACTS.n * [[1.0], [2.0]]
+    with pytest.raises(StepDataError, match=r"contacts\[c1\]: d1, d2, n must be") as caught:
+        changed(CONTACTS, n=n)
+    expected = [CONTACTS.d1[1].tolist(), CONTACTS.d2[1].tolist(), n[1].tolist()]
+    assert caught.value.value == expected

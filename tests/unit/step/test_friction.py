@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.step.friction import contact_wrenches, friction_rows, pyramid
+from quasistatic_ref.step.friction import contact_wrenches, friction_rows, pyramid, row_gaps
 from tests.helpers import changed, random_step
-from tests.tolerances import ROUNDING
+from tests.tolerances import EXACT, ROUNDING
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -77,3 +77,11 @@ def test_without_friction_all_six_rows_are_the_normal_row(rng):
 def test_no_contacts_make_no_rows_and_no_wrenches():
     assert friction_rows(no_contacts(5)).shape == (0, 6, 5)
     assert contact_wrenches(no_contacts(5), np.zeros(0), h=0.01).shape == (0, 4)
+
+
+def test_the_gap_adds_to_the_motion_along_the_normal_of_an_ellipsoid(rng):
+    """gap, slip_1, slip_2 and spin without motion: (phi, 0, 0, 0)."""
+    contacts = random_step(rng, rows=(4, 6)).contacts
+    expected = [[phi, 0.0, 0.0, 0.0] for phi in contacts.phi]
+    actual = row_gaps(contacts, "ellipsoid")
+    np.testing.assert_allclose(actual, expected, rtol=EXACT, atol=EXACT)

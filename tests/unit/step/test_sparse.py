@@ -21,6 +21,7 @@ from quasistatic_ref.solve.sparse import MOST_ITERATIONS, SparseSolver, reachabl
 from quasistatic_ref.step.blocks import Blocks
 from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import FAR
 from tests.helpers import always_in_blocks
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
@@ -215,3 +216,20 @@ def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
     # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
     assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
     assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])
+
+
+@pytest.mark.usefixtures("always_sparse")
+def test_rows_beyond_their_reach_are_handed_over_at_it():
+    """FAR times a row's length, or FAR where that is more."""
+    step = step_after(pile(BOXES), 1).step
+    solver = SparseSolver(step, "piqp")
+    scaled = solver.scaled(step)
+    scaled.A.data *= np.where(scaled.A.indices % 2, 8.0, 0.125)
+    lengths = np.linalg.norm(scaled.A.toarray(), axis=1)
+    reach = FAR * np.maximum(1.0, lengths)
+    assert lengths.min() < 1 < lengths.max()
+    for share, beyond in ((0.99, False), (1.01, True)):
+        scaled.b = -share * reach
+        assert (solver.write(scaled) == beyond).all()
+        expected = -min(share, 1.0) * reach
+        np.testing.assert_allclose(solver.program.b, expected, rtol=ROUNDING, atol=0.0)

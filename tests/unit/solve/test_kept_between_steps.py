@@ -1,0 +1,108 @@
+"""What a solver keeps between steps, what it refuses, and what is said of its answer."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import StepDataError, StepNotSolved
+from quasistatic_ref.solve import solve
+from quasistatic_ref.solve.backends import UNSAFE
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
+from quasistatic_ref.solve.solver import KIND
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.solution import step_solution
+from tests.helpers import pinch, point_on_floor, random_step
+from tests.tolerances import EXACT, ROUNDING
+
+
+def pushed_point(m=0.3, **changes):
+    """A point that a load of 4 N slides along the floor."""
+    return point_on_floor(m, 0.5, force=(4.0, 0.0, -3.0), **changes)
+
+
+def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
+    """Rows of the lengths 1 and 1e4: the backend is not called."""
+    assert {"highs", "quadprog"} == UNSAFE
+    step = pushed_point()
+    unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
+    for name, refused in (("qpsolvers:quadprog", True), ("daqp", False)):
+        engine = "cvxpy" if refused else "native"
+        assert solver_for(unlike, name, engine).unsafe == refused
+        solver_for(step, name, engine).answer(DenseStep(step), 1e-9)
+    with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
+        solver_for(unlike, "qpsolvers:quadprog").answer(DenseStep(unlike), 1e-9)
+
+
+def test_mu_omega_of_a_kind_is_zero_where_it_is_not_used(rng):
+    step = random_step(rng, rows=(6, 4))
+    expected = [step.contacts.mu_omega[0], 0.0]
+    np.testing.assert_allclose(KIND["mu_omega"](step), expected, rtol=EXACT, atol=EXACT)
+
+
+def test_h_in_balls_is_kept_while_it_is_the_same():
+    one, heavier = pushed_point(), pushed_point(m=0.5)
+    solver = solver_for(one, "daqp", "native")
+    kept = solver.kept_hessian(one)
+    assert solver.kept_hessian(one) is kept
+    assert solver.kept_hessian(heavier) is not kept
+    assert solver.kept_hessian(heavier).fits(heavier)
+
+
+def test_the_bound_of_an_error_is_that_of_the_step_and_not_of_the_one_before():
+    solver = solver_for(pushed_point(), "daqp", "native")
+    for m in (0.3, 0.5, 2.0):
+        step = pushed_point(m)
+        answer = solve_step(step, solver, certify="residual")
+        alone = solve_step(step, solver_for(step, "daqp", "native"), certify="residual")
+        assert answer.certificate.error_bound == alone.certificate.error_bound
+
+
+@pytest.mark.parametrize("step", [pushed_point(), pinch(grip=5.0)])
+def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step):
+    """The optimum satisfies Eqs. (9)-(12) but for rounding; DAQP's answer has its digits."""
+    for one in (step, step.replace(cone="ellipsoid")):
+        name = "daqp" if one is step else "clarabel"
+        answer = solve_step(one, solver_for(one, name, "native"))
+        assert answer.certificate.kind in ("exact", "enclosure")
+        assert max(answer.certificate.residuals.values()) < ROUNDING
+        assert answer.statistics.digits > 5
+        assert DenseStep(one).units.size not in (0.5, 1.0, 2.0)
+
+
+def test_without_compiled_code_the_answer_has_the_same_bits(monkeypatch):
+    step = pushed_point()
+    expected = solve_step(step, solver_for(step, "daqp", "native"))
+    monkeypatch.setattr(solve, "compiled", lambda name: None)
+    found = solve_step(step, solver_for(step, "daqp", "native"))
+    np.testing.assert_allclose(found.delta_q, expected.delta_q, rtol=EXACT, atol=EXACT)
+
+
+def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkeypatch):
+    """Lam / h with lam = 1e300 N s and h = 1e-10 s."""
+    step = pushed_point(h=1e-10)
+    good = solve_step(step, certify="off")
+    lam = np.full(len(good.lam), 1e300)
+    with np.errstate(over="ignore"):
+        bad = step_solution(step, good.delta_q, lam, good.certificate, good.statistics)
+    monkeypatch.setattr(solve, "uncertified_solution", lambda *_: bad)
+    with pytest.raises(StepDataError, match="range of float64"):
+        solve_step(step, certify="residual")
+    assert solve_step(step, certify="off") is bad
+
+
+def test_friction_and_impulses_are_both_far_from_the_largest_number():
+    """Of LARGE = 2^200 each square counts by itself: 2^100 is as much as both may have."""
+
+    def far(mu, lam):
+        contacts = SimpleNamespace(mu=np.array([[mu, mu, 0.0]]))
+        step = SimpleNamespace(h=0.01, contacts=contacts)
+        return _far_from_largest(SimpleNamespace(step=step, lam=np.array([lam, lam])))
+
+    assert LARGE == 2.0**200
+    assert far(0.5, 1.0)
+    assert not far(2.0**101, 1.0)
+    assert not far(0.5, 2.0**101)
+    assert not far(2.0**101, 2.0**101)
