@@ -105,6 +105,8 @@ def _bullet(one: Soonest, comparison: Comparison) -> str:
             f"At `{one.setting}` the solver misses 6 digits on {size(bad):,} {noun}, among them "
             f"{named}."
         )
+    if missing := int((~own["called"]).sum()):
+        words.append(f"Its budget did not reach {missing:,} problems, which count as missed.")
     return " ".join(words)
 
 

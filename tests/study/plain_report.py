@@ -112,7 +112,7 @@ def rows_of_line(title, where, columns, line, rows):
     """The rows that one line of a table is about."""
     kept = picked(rows, where)
     names = ["label", "setting"]
-    if "all these solvers were run on" in where:
+    if "all these solvers were given" in where:
         kept = shared(kept, names)
         stated = re.search(r"on the ([\d,]+) problems", where)[1].replace(",", "")
         assert int(stated) == len({(r["problem"], r["repetition"]) for r in kept}), title

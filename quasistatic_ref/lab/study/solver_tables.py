@@ -15,7 +15,7 @@ LEVELS = (3.0, 6.0, 9.0)
 """Digits at which success is counted."""
 WORST = 12
 """How many false claims are shown."""
-RUN_BY_ALL = "; on the {} that all these solvers were run on"
+SHARED = "; on the {} that all these solvers were given; what a budget did not reach is missed"
 
 
 def solver_table(columns: Columns, where: Where) -> Table:
@@ -58,7 +58,7 @@ def solver_cells(part: Columns) -> list[str]:
 
 def same_problems(columns: Columns) -> str:
     """How many problems a comparison is on, as the end of a filter."""
-    return RUN_BY_ALL.format(f"{len(np.unique(columns['unit'])):,} problems")
+    return SHARED.format(f"{len(np.unique(columns['unit'])):,} problems")
 
 
 def outcome_table(columns: Columns) -> Table:
