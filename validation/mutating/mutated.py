@@ -179,7 +179,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/newton.py": ENCLOSED,
     "certify/scaled_blocks.py": ENCLOSED,
     "contact/corners.py": SOLIDS,
-    "contact/curved.py": CURVED,
+    "contact/curved.py": ("unit/contact/test_curved_points.py", *CURVED),
     "contact/distance.py": PAIRS,
     "contact/hull.py": SOLIDS,
     "contact/placed.py": SOLIDS,
