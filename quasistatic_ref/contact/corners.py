@@ -21,8 +21,9 @@ def corners(shape: Shape, towards: Array) -> tuple[Array, float]:
 
     A box and a convex mesh have their vertices; a capsule the centres of its two caps, with its
     radius; a cylinder four points on each rim and a cone its tip and four points on its rim,
-    a quarter turn apart. Of the points of a rim, the first is the one that lies farthest towards
-    the other body; of an upright shape, where all are as far, it is on the x axis.
+    a quarter turn apart; in this order, the lower cap and rim first. Of the points of a rim, the
+    first is the one that lies farthest towards the other body; of an upright shape, where all are
+    as far, it is on the x axis.
 
     Parameters
     ----------

@@ -51,11 +51,13 @@ ENCLOSED = (
     "unit/solve/test_native.py",
 )
 PAIRS = (
+    "unit/contact/test_corners.py",
     "unit/contact/test_distance.py",
     "unit/contact/test_pairs.py",
     "unit/contact/test_jacobian.py",
 )
 SOLIDS = (
+    "unit/contact/test_corners.py",
     "unit/contact/test_solid_pairs.py",
     "unit/contact/test_distance.py",
     "unit/contact/test_curved_pairs.py",
