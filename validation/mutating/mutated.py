@@ -58,6 +58,7 @@ PAIRS = (
 )
 SOLIDS = (
     "unit/contact/test_corners.py",
+    "unit/contact/test_polytopes.py",
     "unit/contact/test_solid_pairs.py",
     "unit/contact/test_distance.py",
     "unit/contact/test_curved_pairs.py",
@@ -188,7 +189,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/polytope.py": SOLIDS,
     "contact/polytope_pair.py": SOLIDS,
     "contact/poses.py": FOLLOWED,
-    "contact/solid_pair.py": CURVED,
+    "contact/solid_pair.py": ("unit/contact/test_polytopes.py", *CURVED),
     "contact/solid_rows.py": ("unit/lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "contact/sparse_jacobian.py": SPARSE,
     "contact/support.py": SOLIDS,
