@@ -52,11 +52,14 @@ ENCLOSED = (
     "unit/solve/test_native.py",
 )
 PAIRS = (
+    "unit/contact/test_corners.py",
     "unit/contact/test_distance.py",
     "unit/contact/test_pairs.py",
     "unit/contact/test_jacobian.py",
 )
 SOLIDS = (
+    "unit/contact/test_corners.py",
+    "unit/contact/test_polytopes.py",
     "unit/contact/test_solid_pairs.py",
     "unit/contact/test_distance.py",
     "unit/contact/test_curved_pairs.py",
@@ -201,7 +204,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/polytope.py": SOLIDS,
     "contact/polytope_pair.py": SOLIDS,
     "contact/poses.py": FOLLOWED,
-    "contact/solid_pair.py": CURVED,
+    "contact/solid_pair.py": ("unit/contact/test_polytopes.py", *CURVED),
     "contact/solid_rows.py": ("unit/lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "contact/sparse_jacobian.py": SPARSE,
     "contact/ways_out.py": ("unit/contact/test_ways_out.py", *SOLIDS),
@@ -230,9 +233,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/point_cloud.py": CLOUDS,
     "model/solids/box.py": SOLIDS,
     "model/solids/capsule.py": SOLIDS,
-    "model/solids/cone.py": CURVED,
+    "model/solids/cone.py": ("unit/contact/test_curved_points.py", *CURVED),
     "model/solids/cylinder.py": CURVED,
-    "model/solids/ellipsoid.py": CURVED,
+    "model/solids/ellipsoid.py": ("unit/contact/test_curved_points.py", *CURVED),
     "model/solids/half_space.py": ("unit/contact/test_cloud.py", *SOLIDS),
     "model/solids/hull.py": SOLIDS,
     "model/solids/round.py": SOLIDS,

@@ -7,12 +7,15 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes import piles
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.large import large_step, table
 from quasistatic_ref.model import world
+from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, Sphere
+from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS
@@ -23,7 +26,9 @@ from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import FAR
 from tests.helpers import always_in_blocks
+from tests.scenes import CLUB
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
+from tests.unit.model.urdf_texts import written
 
 BOXES = (2, 1, 2)
 NO_TARGET = np.zeros(0)
@@ -63,6 +68,20 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
         sparse.motion(delta_q), dense.motion(delta_q), rtol=EXACT, atol=ROUNDING
     )
     assert sparse.name == dense.name
+
+
+def test_the_block_of_a_club_that_swings_over_a_floor_is_one_column(tmp_path):
+    # It turns about y, 0.1 m above the floor, with a ball of 0.01 m at x = 0.2: the ball's lowest
+    # point moves by y x (0.2, 0, -0.01) = (-0.01, 0, -0.2), and there is no spin about z.
+    system = System([Body("a", written(tmp_path, CLUB, "club.urdf"), "fixed", ("swing",))])
+    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.eye(3)[2], 0.0))
+    on_club = system.link("a/club"), np.eye(3), np.array([0.2, 0.0, 0.0])
+    pairs = [ContactPair("p", floor, PlacedShape("ball", *on_club, Sphere(0.01)), 0.5, 0.0, 4, 1)]
+    kinematics = system.kinematics(system.q_start)
+    geometry = BlockGeometry(contact_layout(pairs), system.motion)
+    found = geometry.contacts(closest_points(pairs, kinematics), kinematics).blocks
+    assert found.column.tolist() == [[0]]
+    np.testing.assert_allclose(found.J, [[[-0.01], [0], [-0.2], [0]]], rtol=EXACT, atol=ROUNDING)
 
 
 def test_the_sparse_form_is_the_standard_form(always_sparse):
