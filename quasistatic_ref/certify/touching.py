@@ -112,27 +112,29 @@ def bearing(rows: Array, lam: Array, size: float) -> Mask:
         Compared with which a multiplier is nothing [of lam].
     """
     bears: Mask = lam > BEARING * size
-    if bears.all():
+    if bears.all() or not size:  # without a load nothing bears
         return bears
     held = rows[bears]
     if len(held):  # what others span can take from them
         _, s, V = np.linalg.svd(held, full_matrices=False)
         V = V[s > DEPENDENT * s[0]]
         bears |= np.linalg.norm(rows - rows @ V.T @ V, axis=1) <= DEPENDENT
-    net = rows.T @ lam
+    net = rows.T @ lam / size
     for e in np.flatnonzero(~bears):
         if bears[e]:
             continue
-        most = _most(rows, net, int(e), size)
-        bears |= most > BEARING * size
+        bears |= _most(rows, net, int(e)) > BEARING
     return bears
 
 
-def _most(rows: Array, net: Array, e: int, size: float) -> Array:
-    """An optimal lam, shape (k,), in which the row e bears as much as it can, up to a bound."""
+def _most(rows: Array, net: Array, e: int) -> Array:
+    """An optimal lam, shape (k,), in which the row e bears as much as it can, up to a bound.
+
+    All in units of the step's size: the tolerances of the program's solver are absolute.
+    """
     k = len(rows)
     cost = np.zeros(k)
     cost[e] = -1.0
-    bounds = [(0.0, 10.0 * size if i == e else None) for i in range(k)]
+    bounds = [(0.0, 10.0 if i == e else None) for i in range(k)]
     found = linprog(cost, A_eq=rows.T, b_eq=net, bounds=bounds)
     return np.asarray(found.x) if found.status == 0 else np.zeros(k)

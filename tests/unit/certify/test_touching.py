@@ -33,7 +33,7 @@ def test_rows_that_face_each_other_bear_load_in_some_optimal_lam():
     assert bearing(rows, lam, size).tolist() == [True, True, True, False]
 
 
-@pytest.mark.parametrize("unit", [1.0, 2.0**100])
+@pytest.mark.parametrize("unit", [1.0, 2.0**100, 2.0**-100])
 def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
     """A point at the limit of friction: the row against the push bears all load, and all touch.
 
