@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.model.solids.round import Round, rim_corners, rim_point
 from quasistatic_ref.model.solids.shape import circle
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import ON_SURFACE
 
 
 class Cone(Round):
@@ -81,9 +82,10 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
     level = np.maximum(above_side, above_base)
     # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
-    # By where the closest point is, not by its distance: next to the surface that is all rounding.
+    # By where the closest point is, not by its distance: next to the surface that is all rounding,
+    # and on an edge or the tip so is its direction.
     within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
-    face = (level <= 0) | within | (distance == 0)
+    face = (level <= 0) | within | (distance <= ON_SURFACE * slant)
     flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
     phi = np.where(face, level, distance)
     return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
