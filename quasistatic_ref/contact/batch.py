@@ -8,8 +8,8 @@ import numpy as np
 
 from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.contact.poses import PairPoses
-from quasistatic_ref.contact.shortlist import Shortlist
 from quasistatic_ref.contact.solid_rows import SolidRows
+from quasistatic_ref.contact.tracker_bound import Shortlist
 from quasistatic_ref.model.shapes import Shape
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import UNSEEN

@@ -16,8 +16,8 @@ from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
-from quasistatic_ref.contact.shortlist import Shortlist, shortlist
 from quasistatic_ref.contact.solid_rows import kind_order
+from quasistatic_ref.contact.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array

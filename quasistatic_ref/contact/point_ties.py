@@ -10,7 +10,7 @@ from quasistatic_ref.contact.couples import Couple
 from quasistatic_ref.contact.distance import ClosestPoints, late, nearest_of_solids, with_corners
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.shortlist import shortlist
+from quasistatic_ref.contact.tracker_bound import shortlist
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.tolerances import TIED
 

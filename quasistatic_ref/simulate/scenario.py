@@ -20,6 +20,7 @@ from quasistatic_ref.simulate.checks import check_motion, check_sizes
 from quasistatic_ref.simulate.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.overrides import Settings, apply_settings, toml_tables
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.scenario_table import (
     FORMAT,
@@ -29,7 +30,6 @@ from quasistatic_ref.simulate.scenario_table import (
     VERSION,
     value,
 )
-from quasistatic_ref.simulate.settings import Settings, apply_settings, toml_tables
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.tables import check_made, check_names
 from quasistatic_ref.simulate.target import Targets

@@ -38,7 +38,7 @@ CONTACT = (
     "equations/test_eq02_relative_velocity.py",
     "equations/test_eq03_contact_jacobian.py",
 )
-FOLLOWED = ("unit/contact/test_shortlist.py", "properties/test_tracker.py")
+FOLLOWED = ("unit/contact/test_tracker_bound.py", "properties/test_tracker.py")
 FORGED = (
     "unit/certify/test_single_faults.py",
     "unit/certify/test_enclosure.py",
@@ -189,7 +189,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/tracker.py": FOLLOWED,
     "contact/cloud_tracker.py": FOLLOWED,
     "contact/batch.py": FOLLOWED,
-    "contact/shortlist.py": FOLLOWED,
+    "contact/tracker_bound.py": FOLLOWED,
     "contact/ball_tree.py": FOLLOWED,
     "contact/settle.py": CURVED,
     "contact/faces.py": CURVED,

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.spec_sweep import MOST_RUNS, Axis, Sweep, sweep_s
 from quasistatic_ref.lab.study.store import Row
 from quasistatic_ref.lab.study.sweep import run_file, run_sweep
 from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.settings import parsed
+from quasistatic_ref.simulate.overrides import parsed
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"

@@ -25,7 +25,7 @@ from quasistatic_ref.lab.study.spec_table import (
 )
 from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.resources import scenario_names
-from quasistatic_ref.simulate.settings import toml_tables
+from quasistatic_ref.simulate.overrides import toml_tables
 
 KINDS = ("solvers", "sweep")
 FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")

@@ -1,4 +1,4 @@
-"""Changes of a scenario's tables before they are read: from the command line, or from Python."""
+"""Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
 
 import re
 import tomllib

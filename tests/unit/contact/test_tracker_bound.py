@@ -12,7 +12,7 @@ from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.cloud_tracker import SHORT, CloudTracker
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.shortlist import BEAM, Shortlist, reach, shortlist, size
+from quasistatic_ref.contact.tracker_bound import BEAM, Shortlist, reach, shortlist, size
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import (
     Box,
