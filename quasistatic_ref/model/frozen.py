@@ -41,7 +41,8 @@ def freeze_lengths(owner: Any, key: str) -> None:
     """Replace a field by three positive lengths, read-only; ModelError if they are not."""
     freeze_array(owner, key, (3,))
     lengths = getattr(owner, key)
-    if not ((lengths > 0).all() and np.isfinite(2 * lengths).all()):
+    # Of Python's floats: NumPy's warn where twice a length overflows.
+    if not all(length > 0 and np.isfinite(2 * length) for length in lengths.tolist()):
         raise ModelError("must be three positive lengths", field=key, value=lengths.tolist())
     if not (lengths >= SHORT).all():
         raise ModelError(f"must be at least {SHORT:g} m", field=key, value=lengths.tolist())

@@ -29,11 +29,13 @@ EXACT = (
     "properties/test_exact_against_enumeration.py",
 )
 
-SYSTEM = (
-    "unit/model/test_system.py",
-    "unit/model/test_system_forces.py",
-    "unit/model/test_system_refusals.py",
-)
+
+def units(room: str, *names: str) -> tuple[str, ...]:
+    """The tests of units of a room, by the names of their files."""
+    return tuple(f"unit/{room}/test_{name}.py" for name in names)
+
+
+SYSTEM = units("model", "system", "system_forces", "system_refusals")
 CONTACT = (
     "equations/test_eq02_relative_velocity.py",
     "equations/test_eq03_contact_jacobian.py",
@@ -51,53 +53,31 @@ ENCLOSED = (
     "unit/certify/test_enclosure.py",
     "unit/solve/test_native.py",
 )
-PAIRS = (
-    "unit/contact/test_corners.py",
-    "unit/contact/test_distance.py",
-    "unit/contact/test_pairs.py",
-    "unit/contact/test_jacobian.py",
-)
-SOLIDS = (
-    "unit/contact/test_corners.py",
-    "unit/contact/test_polytopes.py",
-    "unit/contact/test_solid_pairs.py",
-    "unit/contact/test_distance.py",
-    "unit/contact/test_curved_pairs.py",
-)
+PAIRS = units("contact", "corners", "distance", "pairs", "jacobian")
+SOLIDS = units("contact", "corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
 LARGE = ("unit/certify/test_sparse_bound.py", "unit/certify/test_bound_formulas.py")
-SPARSE = (
-    "unit/step/test_kept_and_shown.py",
-    "unit/step/test_sparse.py",
-    "unit/solve/test_solver.py",
-)
-CLOUDS = ("unit/model/test_clouds.py", "unit/model/test_meshes.py")
+SPARSE = (*units("step", "kept_and_shown", "sparse"), *units("solve", "solver"))
+CLOUDS = units("model", "clouds", "cloud_headers", "meshes")
 SCENES = (
     "unit/simulate/test_scenario.py",
     "unit/simulate/test_simulator.py",
     "unit/step/test_words.py",
 )
 URDF = (
-    "unit/model/test_urdf.py",
-    "unit/model/test_urdf_refusals.py",
-    "unit/model/test_meshes.py",
+    *units("model", "urdf", "urdf_refusals", "urdf_limits", "meshes"),
     "errors/test_bad_urdfs.py",
 )
-DATA = (
-    "unit/step/test_arrays.py",
-    "unit/step/test_kept_and_shown.py",
-    "unit/step/test_data.py",
-    "unit/step/test_plain_data.py",
-    "unit/step/test_step_files.py",
-)
-SOLVERS = (
-    "unit/solve/test_adapters.py",
-    "unit/solve/test_second_order.py",
-    "unit/solve/test_extended.py",
-    "unit/solve/test_kept_between_steps.py",
-    "unit/solve/test_native.py",
-    "unit/solve/test_backends.py",
-    "unit/solve/test_solver.py",
-    "unit/solve/test_units.py",
+DATA = units("step", "arrays", "kept_and_shown", "data", "plain_data", "step_files")
+SOLVERS = units(
+    "solve",
+    "adapters",
+    "second_order",
+    "extended",
+    "kept_between_steps",
+    "native",
+    "backends",
+    "solver",
+    "units",
 )
 SOLVED = (
     "unit/solve/test_kept_between_steps.py",
@@ -107,13 +87,7 @@ SOLVED = (
     "unit/step/test_problem.py",
     "unit/step/test_cones.py",
 )
-CURVED = (
-    "unit/contact/test_curved_witness.py",
-    "unit/contact/test_curved_pairs.py",
-    "unit/contact/test_faces.py",
-    "unit/contact/test_distance_guard.py",
-    "unit/contact/test_distance.py",
-)
+CURVED = units("contact", "curved_witness", "curved_pairs", "faces", "distance_guard", "distance")
 
 DIFFERENTIATED = (
     "unit/certify/test_touching.py",
@@ -208,28 +182,20 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/solid_rows.py": ("unit/lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "contact/sparse_jacobian.py": SPARSE,
     "contact/ways_out.py": ("unit/contact/test_ways_out.py", *SOLIDS),
-    "model/body.py": ("unit/model/test_solid.py", *SCENES),
+    "model/body.py": ("unit/model/test_solid.py", "unit/model/test_planar.py", *SCENES),
     "model/clouds.py": CLOUDS,
-    "model/configuration.py": SCENES,
+    "model/configuration.py": (*units("model", "configuration", "system_refusals"), *SCENES),
     "model/convex_mesh.py": ("unit/model/test_meshes.py", "unit/contact/test_solid_pairs.py"),
     "model/dae.py": ("unit/model/test_meshes.py",),
-    "model/frozen.py": ("unit/step/test_plain_data.py", *SYSTEM),
+    "model/frozen.py": ("unit/model/test_shapes.py", "unit/step/test_plain_data.py", *SYSTEM),
     "model/kinematics.py": ("unit/model/test_system.py", *CONTACT),
     "model/mesh_files.py": ("unit/model/test_meshes.py",),
     "model/motion.py": ("unit/model/test_system.py", "unit/simulate/test_simulator.py", *CONTACT),
     "model/pcd.py": CLOUDS,
     "model/ply.py": CLOUDS,
     "model/point_table.py": CLOUDS,
-    "model/screw.py": (
-        "unit/model/test_screw.py",
-        "unit/model/test_rotation.py",
-        "unit/model/test_system.py",
-    ),
-    "model/shapes.py": (
-        "unit/model/test_shapes.py",
-        "unit/model/test_solid.py",
-        "unit/step/test_words.py",
-    ),
+    "model/screw.py": units("model", "screw", "rotation", "system"),
+    "model/shapes.py": (*units("model", "shapes", "solid"), "unit/step/test_words.py"),
     "model/point_cloud.py": CLOUDS,
     "model/solids/box.py": SOLIDS,
     "model/solids/capsule.py": SOLIDS,
@@ -251,8 +217,12 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/urdf_tree.py": URDF,
     "model/urdf_xml.py": URDF,
     "model/words.py": ("unit/step/test_words.py", "unit/step/test_plain_data.py"),
-    "model/workspace.py": ("unit/model/test_system.py", "unit/simulate/test_memory.py"),
-    "model/world.py": ("unit/model/test_system.py", "unit/step/test_sparse.py", *SYSTEM[1:]),
+    "model/workspace.py": (*units("model", "world", "system"), "unit/simulate/test_memory.py"),
+    "model/world.py": (
+        *units("model", "world", "planar", "system"),
+        "unit/step/test_sparse.py",
+        *SYSTEM[1:],
+    ),
     "solve/adapters/clarabel.py": SOLVERS,
     "solve/adapters/daqp.py": SOLVERS,
     "solve/adapters/osqp.py": SOLVERS,
@@ -319,7 +289,11 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/mass.py": SYSTEM,
     "model/mass_rates.py": DIFFERENTIATED,
     "model/motion_rates.py": ("unit/model/test_motion_rates.py", *DIFFERENTIATED),
-    "model/tangent.py": ("unit/simulate/test_step_jax.py", "unit/simulate/test_smoothed.py"),
+    "model/tangent.py": (
+        "unit/model/test_tangent.py",
+        "unit/simulate/test_step_jax.py",
+        "unit/simulate/test_smoothed.py",
+    ),
     "solve/barrier.py": ("unit/simulate/test_smoothed.py",),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""

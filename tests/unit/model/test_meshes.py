@@ -1,15 +1,19 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
+import coal
 import numpy as np
 import pytest
 
 from quasistatic_ref.errors import ModelError, ScenarioError
-from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
+from quasistatic_ref.model import convex_mesh
+from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 from quasistatic_ref.model.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import loaded_urdf
 from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.tolerances import CONVEX
 from tests.tolerances import CLOSED_FORM, EXACT
 from tests.unit.model.urdf_texts import collision, link, robot, written
 
@@ -32,6 +36,52 @@ def test_a_dented_mesh_knows_by_how_much(tmp_path: Path) -> None:
     assert not hull.is_convex
 
 
+CORNERS = np.array([[x, y, z] for x in (5, 8) for y in (-2, -1) for z in (7, 9)], dtype=float)
+"""Of a box of 3 m, 1 m and 2 m, away from the origin."""
+
+
+def test_triangles_of_a_hull_are_counter_clockwise_from_outside() -> None:
+    # (b - a) x (c - a) is twice the area times the outward normal; all areas are the box's.
+    hull = convex_hull(CORNERS)
+    a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
+    areas = np.cross(b - a, c - a) / 2
+    np.testing.assert_allclose(np.sum(areas * hull.normals), 2 * (3 + 6 + 2), rtol=CLOSED_FORM)
+    np.testing.assert_allclose(np.sum(a * areas) / 3, 3 * 1 * 2, rtol=CLOSED_FORM)
+
+
+def test_the_hull_of_a_mesh_has_its_corners() -> None:
+    box = convex_hull(CORNERS)
+    spare = np.vstack([box.vertices, [[100, 100, 100]]])  # of no triangle
+    hull = hull_of_mesh(spare, box.triangles)
+    assert {tuple(corner) for corner in hull.vertices} == {tuple(corner) for corner in CORNERS}
+    assert hull.is_convex
+
+
+@pytest.mark.parametrize("block", [convex_mesh.BLOCK, 24])
+def test_a_fin_inside_a_mesh_counts_by_its_depth(
+    block: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A fin holds no volume: its tip is 0.25 below the nearest face, of a box of 3 m at most.
+    monkeypatch.setattr(convex_mesh, "BLOCK", block)
+    box = convex_hull(CORNERS)
+    vertices = np.vstack([box.vertices, [[6.5, -1.25, 8.0]]])
+    hull = hull_of_mesh(vertices, np.vstack([box.triangles, [[0, 1, 8], [0, 8, 1]]]))
+    np.testing.assert_allclose(hull.excess, 0.25 / 3, rtol=CLOSED_FORM)
+    assert not hull.is_convex
+
+
+def test_an_open_mesh_encloses_what_its_triangles_and_its_centre_do() -> None:
+    # Of a tetrahedron's four faces three are there, each with a quarter of the volume.
+    corners = np.array([3.0, -1.0, 2.0]) + np.vstack([np.zeros(3), np.eye(3)])
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    np.testing.assert_allclose(hull_of_mesh(corners, faces).excess, 1 / 4, rtol=CLOSED_FORM)
+
+
+def test_an_excess_counts_as_convex_up_to_its_limit() -> None:
+    assert convex_hull(CORNERS, CONVEX).is_convex
+    assert not convex_hull(CORNERS, 1.01 * CONVEX).is_convex
+
+
 def test_a_flat_mesh_is_refused() -> None:
     with pytest.raises(ModelError, match="vertices: must not lie in one plane"):
         convex_hull([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
@@ -44,7 +94,10 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path: Path) -> None:
     shape = urdf.shapes[0].shape
     assert isinstance(shape, ConvexMesh)
     np.testing.assert_allclose(shape.volume, 8 / 6, rtol=EXACT, atol=1e-6)
-    assert urdf.notes[0].startswith("a#0: mesh replaced by its convex hull, 4 corners; it is not")
+    assert urdf.notes[0] == (
+        "a#0: mesh replaced by its convex hull, 4 corners; "
+        "it is not convex (by 40 %), so a contact with it must say hull = true"
+    )
 
 
 def test_a_package_address_is_looked_for_in_package_dirs(tmp_path: Path) -> None:
@@ -111,6 +164,11 @@ def test_a_collada_mesh_is_loaded(tmp_path: Path) -> None:
     np.testing.assert_allclose(hull.volume, 1 / 6, rtol=EXACT, atol=CLOSED_FORM)
 
 
+def test_the_largest_index_of_31_bits_is_left_to_the_loader(tmp_path: Path) -> None:
+    path = written(tmp_path, COLLADA.replace("0 3 2 1", f"0 3 {2**31 - 1} 1"), "a.dae")
+    assert mesh_path("a.dae", tmp_path, ()) == path.resolve()
+
+
 @pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)
 def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(
     tmp_path: Path, right: str, wrong: str, words: str
@@ -129,6 +187,24 @@ def test_an_unreadable_mesh_is_named_without_places_in_a_library(tmp_path: Path)
         loaded_urdf(body)
     assert "line" not in str(caught.value)
     assert "function" not in str(caught.value)
+
+
+def test_a_mesh_library_s_reason_is_the_line_before_its_hint(tmp_path: Path) -> None:
+    path = written(tmp_path, "", "a.stl")
+    with pytest.raises(ModelError, match=r"a\.stl: cannot be read as a mesh: File is empty$"):
+        mesh_hull(path, np.ones(3))
+
+
+@pytest.mark.parametrize("said", ["one line", "one line\n\n"])
+def test_a_reason_of_one_line_is_given_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: str
+) -> None:
+    def load(*_: object) -> None:
+        raise RuntimeError(said)
+
+    monkeypatch.setattr(coal, "MeshLoader", lambda: SimpleNamespace(load=load))
+    with pytest.raises(ModelError, match=r"cannot be read as a mesh: one line$"):
+        mesh_hull(tmp_path / "a.stl", np.ones(3))
 
 
 def test_another_file_in_a_scenario_s_place_is_said_to_be_none(tmp_path: Path) -> None:

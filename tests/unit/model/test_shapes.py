@@ -17,9 +17,16 @@ from quasistatic_ref.model.shapes import (
     PointCloud,
     Sphere,
 )
+from quasistatic_ref.tolerances import ORTHONORMAL, SHORT
 from tests.tolerances import ROUNDING
 
 TEXT: Any = "big"
+
+
+def sheared(by: float) -> np.ndarray:
+    """A matrix R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
+    return np.array([[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+
 
 REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
@@ -28,6 +35,17 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ("infinite radius", lambda: Sphere(np.inf), "radius: must be a finite number"),
     ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
     ("text", lambda: Sphere(TEXT), r"radius: must be a finite number \(got 'big'\)"),
+    ("a radius below a proton's", lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
+    (
+        "extent too large to double",
+        lambda: Box(np.array([1, 1.7e308, 1])),
+        "half_extents: must be three positive lengths",
+    ),
+    (
+        "an extent below a proton's",
+        lambda: Box(np.array([1, 0.9 * SHORT, 1])),
+        "half_extents: must be at least 1e-15 m",
+    ),
     ("flat box", lambda: Box(np.array([1, 0, 1])), "half_extents: must be three positive lengths"),
     ("two extents", lambda: Box(np.ones(2)), r"half_extents: must have shape \(3,\)"),
     ("nan box", lambda: Box(np.array([1, np.nan, 1])), "half_extents: must hold finite numbers"),
@@ -44,6 +62,11 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
         lambda: PlacedShape("a#0", 0, np.diag([1.0, 1.0, -1.0]), np.zeros(3), Sphere(1.0)),
         "a#0.R: must be a rotation",
     ),
+    (
+        "shear",
+        lambda: PlacedShape("a#0", 0, sheared(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
+        "a#0.R: must be a rotation",
+    ),
 ]
 
 
@@ -51,6 +74,13 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
 def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> None:
     with pytest.raises(ModelError, match=words):
         make()
+
+
+def test_sizes_and_rotations_at_their_limits_are_taken() -> None:
+    assert Sphere(SHORT).radius == SHORT
+    assert Box(np.full(3, SHORT)).half_extents.tolist() == [SHORT] * 3
+    R = sheared(ORTHONORMAL)
+    assert np.array_equal(PlacedShape("a#0", 0, R, np.zeros(3), Sphere(1.0)).R, R)
 
 
 def test_coal_sees_the_sizes_as_written() -> None:

@@ -119,3 +119,32 @@ def test_weight_at_the_centre_of_mass_is_gravity(tmp_path: Path) -> None:
     q, weight = system.q_start, system.mass("a") * GRAVITY
     force = system.centre_of_mass_force(q, "a", weight, np.zeros(3))
     assert force == pytest.approx(system.gravity_force(q, GRAVITY), abs=100 * ROUNDING)
+
+
+CART = robot(
+    link("rail", inertial=""),
+    '<link name="cart"><inertial><mass value="2"/>'
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
+    '<link name="bob"><inertial><origin xyz="0 0 -0.7"/><mass value="3"/>'
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
+    joint("slide", "rail", "cart", "prismatic", "1 0 0"),
+    joint("swing", "cart", "bob", "revolute", "0 1 0"),
+)
+
+
+def test_the_mass_matrix_of_a_cart_and_its_pendulum_follows_the_angle() -> None:
+    # The bob is at x = s - l sin(a): M = [m + m_b, -m_b l cos(a); ., I + m_b l^2].
+    m, m_b, length, moment = 2.0, 3.0, 0.7, 0.01
+    system = System([Body("crane", CART)])
+    assert not system.rigid
+    for angle in (0.0, 1.0, 2.0):
+        q = np.array([0.3, angle])
+        both = -m_b * length * np.cos(angle)
+        expected = [[m + m_b, both], [both, moment + m_b * length**2]]
+        np.testing.assert_allclose(system.M_u(q), expected, rtol=0, atol=10 * ROUNDING)
+
+
+def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere() -> None:
+    system = System([Body("crane", CART, actuated="all"), Body("box", BOX, "floating")])
+    assert system.rigid
+    assert system.M_u(system.integrate(system.q_start, np.ones(8))) is system.M_u(system.q_start)

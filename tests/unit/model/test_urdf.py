@@ -139,6 +139,12 @@ def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path: Path, base: str
         loaded_urdf(path, base=base)
 
 
+def test_an_axis_that_is_not_written_is_x() -> None:
+    hinge = joint("j", "a", "b").replace('<axis xyz="0 0 1"/>', "")
+    urdf = loaded_urdf(robot(link("a"), link("b"), hinge))
+    assert urdf.file.joints[0].axis.tolist() == [1.0, 0.0, 0.0]
+
+
 def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:
     model.jointPlacements[1].rotation = Rotation.from_euler("x", 1e-6).as_matrix()
 
@@ -175,7 +181,7 @@ def _other_name(model: pin.Model, _: pin.GeometryModel) -> None:
 TAMPERED = {
     _other_axis: r"link\[upper\]: its joint's origin, axis or mimic was not loaded as written",
     _other_weld: r"link\[tool\]: its joint's origin, axis or mimic was not loaded as written",
-    _other_mass: r"link\[lower\].inertial: mass, centre or inertia was not loaded as written",
+    _other_mass: r"link\[lower\].inertial: .* was not loaded as written \(2 kg\) \(got 2\.0",
     _other_centre: r"link\[follower\].inertial: mass, centre or inertia was not loaded",
     _no_shape: r"link\[base_link\].collision: only 0 of the shapes written were loaded",
     _other_shape: r"link\[upper\].collision\[0\]: was not loaded as written",
@@ -226,3 +232,19 @@ def test_a_loader_of_another_text_is_noticed(
     monkeypatch.setattr(urdf_module, "_loaded", dishonest)
     with pytest.raises(ModelError, match=words):
         loaded_urdf(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("misread", range(5))
+def test_every_joint_of_a_chain_is_compared(monkeypatch: pytest.MonkeyPatch, misread: int) -> None:
+    honest = urdf_module._loaded
+    links = [link(f"l{k}") for k in range(6)]
+    joints = [joint(f"j{k}", f"l{k}", f"l{k + 1}", axis="0 0 1") for k in range(5)]
+    other = joint(f"j{misread}", f"l{misread}", f"l{misread + 1}", axis="0 1 0")
+
+    def dishonest(read: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
+        wrong = [*joints[:misread], other, *joints[misread + 1 :]]
+        return honest(robot(*links, *wrong), base)
+
+    monkeypatch.setattr(urdf_module, "_loaded", dishonest)
+    with pytest.raises(ModelError, match=rf"link\[l{misread + 1}\]: its joint's origin, axis"):
+        loaded_urdf(robot(*links, *joints))

@@ -11,6 +11,7 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.shapes import Sphere
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.words import system_page
 from quasistatic_ref.resources import scenario_names
 from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
@@ -154,6 +155,19 @@ def test_large_things_are_short_too(rng):
     many = System([Body.of_shape(f"ball{i}", Sphere(0.1), 1.0, xyz=(i, 0, 0)) for i in range(40)])
     check(many)
     assert repr(many).endswith("... and 28 more")
+
+
+def test_a_system_counts_what_of_each_body_is_actuated():
+    free, moved = (Body.of_shape(name, Sphere(0.1), 2.0) for name in ("free", "moved"))
+    puck = Body.of_shape("puck", Sphere(0.1), 3.0, base="planar")
+    title, _, columns, rows = system_page(System([free, replace(moved, actuated="all"), puck]))
+    assert title == "System: 3 bodies, 15 coordinates (6 actuated), 18 entries of q"
+    assert columns[2:4] == ("actuated", "not actuated")
+    assert rows == [
+        ("free", "floating", "0", "6", "1", "1", "2"),
+        ("moved", "floating", "6", "0", "1", "1", "2"),
+        ("puck", "planar", "0", "3", "1", "1", "3"),
+    ]
 
 
 def test_names_are_escaped_and_cut():

@@ -1,0 +1,47 @@
+"""Configurations from outside: unit parts of length one, zeros without a sign."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.model.configuration import configuration, normalised
+from quasistatic_ref.model.coordinates import Joint
+
+JOINTS = (
+    Joint("box/base", "floating", False, slice(0, 7), slice(0, 6)),
+    Joint("puck/base", "planar", False, slice(7, 11), slice(6, 9)),
+    Joint("arm/spin", "continuous", False, slice(11, 13), slice(9, 10)),
+    Joint("arm/swing", "revolute", False, slice(13, 14), slice(10, 11)),
+)
+UNITS = {"quaternion": slice(3, 7), "heading": slice(9, 11), "turn": slice(11, 13)}
+# Lengths whose squares add up in whole numbers: 1 + 4 + 4 + 16 = 25, 9 + 16 = 25, 64 + 225 = 289.
+Q = np.array([5, 6, 7, 1, 2, 2, 4, 8, 9, 3, 4, 8, 15, 0.5], dtype=np.float64)
+
+
+def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths() -> None:
+    expected = [5, 6, 7, 1 / 5, 2 / 5, 2 / 5, 4 / 5, 8, 9, 3 / 5, 4 / 5, 8 / 17, 15 / 17, 0.5]
+    q = Q.copy()
+    assert normalised(JOINTS, q).tolist() == expected
+    assert np.array_equal(q, Q)
+
+
+@pytest.mark.parametrize("part", UNITS.values(), ids=UNITS)
+def test_a_unit_part_of_length_zero_stays(part: slice) -> None:
+    q = normalised(JOINTS, Q)
+    q[part] = 0.0
+    assert np.array_equal(normalised(JOINTS, q), q)
+
+
+def test_lengths_off_by_rounding_alone_keep_their_bits() -> None:
+    q = normalised(JOINTS, Q)
+    q[UNITS["quaternion"]] = [0.0, 0.0, 0.0, 1.0 + 2.0**-52]
+    q[UNITS["turn"]] = [1.0 - 2.0**-53, 0.0]
+    assert np.array_equal(normalised(JOINTS, q), q)
+    assert np.array_equal(configuration(JOINTS, len(q), q), q)
+
+
+def test_a_configuration_has_no_negative_zeros() -> None:
+    q = normalised(JOINTS, Q)
+    q[:3] = q[-1] = -0.0
+    for found in (normalised(JOINTS, q), configuration(JOINTS, len(q), q)):
+        assert np.array_equal(found, q)
+        assert not np.signbit(found).any()
