@@ -250,7 +250,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "step/data.py": DATA,
     "step/extension.py": ("unit/solve/test_native.py", "examples/test_extensions.py"),
     "step/files.py": (
-        "unit/step/test_solution_files.py",
+        "unit/step/test_step_files.py",
         "unit/step/test_solution_files.py",
         "errors/test_bad_steps.py",
     ),

@@ -197,6 +197,14 @@ def test_rows_that_cannot_be_written_are_kept_and_others_become_integers():
         assert found.tolist() == [6, 4]
 
 
+def test_a_frame_at_the_tolerance_to_the_bit_passes_and_is_not_named():
+    x, y, z = np.eye(3)
+    limit = [ORTHONORMAL, 0.0, 1.0]  # d1 . n is the tolerance, n . n rounds to 1
+    right = changed(CONTACTS, d1=[x, x], d2=[y, y], n=[limit, z])
+    with pytest.raises(StepDataError, match=r"contacts\[c1\]: d1, d2, n must be"):
+        changed(right, n=[limit, 2 * z])
+
+
 def test_a_wrong_frame_is_named_with_its_axes():
     """The second contact's normal has length 2: d1, d2 and n of that contact are reported."""
     n = CONTACTS.n * [[1.0], [2.0]]
