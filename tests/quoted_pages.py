@@ -9,7 +9,7 @@ neither here nor in tests/chosen_numbers.py fail the test.
 
 import math
 
-from quasistatic_ref.contact import ball_tree, cloud_tracker, shortlist
+from quasistatic_ref.contact import ball_tree, cloud_tracker, tracker_bound
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
 from quasistatic_ref.lab.grasp import TOP
 from quasistatic_ref.lab.validate.registry import BY_NAME
@@ -163,10 +163,10 @@ QUOTED = {
     ],
     "docs/distances.md": [
         ("`UNSEEN` is {:.0e} of L", lambda: [UNSEEN]),
-        ("a distance {:.0f} times as large beyond the k-th", lambda: [shortlist.RATIO]),
+        ("a distance {:.0f} times as large beyond the k-th", lambda: [tracker_bound.RATIO]),
         ("Up to {:,} points all are measured", lambda: [ball_tree.SMALL]),
         ("leaves of up to {} points", lambda: [ball_tree.LEAF]),
-        ("the next best up to a width of {}", lambda: [shortlist.BEAM]),
+        ("the next best up to a width of {}", lambda: [tracker_bound.BEAM]),
         ("lasted for fewer than {} steps are made twice as long, up to {} points",
          lambda: [cloud_tracker.SHORT, cloud_tracker.WIDE]),
     ],

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact import cloud_tracker, shortlist
+from quasistatic_ref.contact import cloud_tracker, tracker_bound
 from quasistatic_ref.contact.solid_rows import SolidRows
 from quasistatic_ref.lab.study.bench.profile import (
     BACKENDS,
@@ -28,7 +28,7 @@ STEPS = 6
 
 def test_the_distances_of_the_tracker_are_those_that_it_really_evaluates(monkeypatch):
     counted = []
-    signed_distance, measure = shortlist.signed_distance, SolidRows.__call__
+    signed_distance, measure = tracker_bound.signed_distance, SolidRows.__call__
 
     def distances(shape, points):
         counted.append(len(points))
@@ -38,7 +38,7 @@ def test_the_distances_of_the_tracker_are_those_that_it_really_evaluates(monkeyp
         counted.append(np.count_nonzero(~np.isnan(x[:, 0])))
         return measure(self, x)
 
-    for module in (shortlist, cloud_tracker):
+    for module in (tracker_bound, cloud_tracker):
         monkeypatch.setattr(module, "signed_distance", distances)
     monkeypatch.setattr(SolidRows, "__call__", rows)
     monkeypatch.setattr(simulator, "compiled", lambda name: None)
