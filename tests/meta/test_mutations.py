@@ -119,6 +119,14 @@ def test_the_default_of_an_argument_is_more_than_a_function():
     assert changed("f: -1 -> 1") is None
 
 
+def test_a_generator_of_a_constant_is_more_than_a_function():
+    text = "SMALL = tuple(x + 1 for x in (1, 2))\ndef f(y):\n    return [y + x for x in SMALL]"
+    plain = ast.unparse(ast.parse(text))
+    of_constant, of_function = mutants("f.py", plain)
+    assert changed_functions("f.py", plain, of_constant) is None
+    assert changed_functions("f.py", plain, of_function) == {"f"}
+
+
 def test_swapped_code_runs_and_swaps_back():
     plain = ast.unparse(ast.parse(SOURCE))
     module = {}

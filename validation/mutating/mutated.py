@@ -236,7 +236,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/native.py": ("unit/solve/test_native.py", "unit/solve/test_units.py"),
     "solve/scaled.py": SOLVERS,
     "solve/second_order.py": ("unit/solve/test_native.py", "unit/step/test_cones.py"),
-    "solve/solve.py": SOLVED,
+    "solve/solve.py": (*SOLVED, "unit/solve/test_native.py"),
     "solve/solver.py": SOLVED,
     "solve/sparse.py": (*SPARSE, "unit/certify/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
@@ -294,6 +294,6 @@ TESTS: dict[str, tuple[str, ...]] = {
         "unit/simulate/test_step_jax.py",
         "unit/simulate/test_smoothed.py",
     ),
-    "solve/barrier.py": ("unit/simulate/test_smoothed.py",),
+    "solve/barrier.py": ("unit/solve/test_barrier.py", "unit/simulate/test_smoothed.py"),
 }
 """The files that are mutated, and the tests that are to notice, the quickest first."""

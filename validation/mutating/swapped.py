@@ -19,7 +19,7 @@ def changed_functions(path: str, source: str, mutant: Mutant) -> frozenset[str] 
 
     `source` is the file's text as :func:`ast.unparse` writes it, as the mutant's is. None if the
     mutant changes more: a constant of the module, say, or the default of an argument, of which
-    other modules have copies.
+    other modules have copies. What a generator outside of functions makes is a constant, too.
     """
     names = set()
     for old, new in _pairs(path, source, mutant.source):
@@ -29,7 +29,10 @@ def changed_functions(path: str, source: str, mutant: Mutant) -> frozenset[str] 
         elif old.co_freevars != new.co_freevars:
             return None
         elif old != new:
-            names.add(function_name(old))
+            name = function_name(old)
+            if name.endswith(("<genexpr>", "comp>")):
+                return None
+            names.add(name)
     return frozenset(names)
 
 

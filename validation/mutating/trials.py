@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import gc
+import importlib
 import json
 import signal
 import sys
@@ -122,8 +123,13 @@ class Trials:
     def _make_plain(self) -> None:
         """Give the functions the code of their files' plain text, from which a mutant differs once.
 
-        The tests then pass with it, which shows that to swap code changes nothing else.
+        The tests then pass with it, which shows that to swap code changes nothing else. A file that
+        is imported only where it is used has functions from here on, too: a fork would import it
+        without its mutant.
         """
+        for file in {mutant.file for mutant in self.chosen}:
+            parts = Path(file).with_suffix("").parts
+            importlib.import_module(".".join((self.package.name, *parts)))
         self.living = living_functions(str(self.package))
         for file in {mutant.file for mutant in self.chosen}:
             path, source = str(self.package / file), (self.package / file).read_text()

@@ -48,7 +48,7 @@ def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
     assert Equations(found).s.tolist() == pytest.approx([1.0])
 
 
-def test_rows_touch_within_the_rounding_of_their_place_or_where_they_bear_load():
+def test_rows_touch_within_the_rounding_of_their_place_or_under_load():
     gap = TOUCHING / 2
     step = point_on_floor(phi=gap, force=(0.0, 0.0, -1.0))
     still = SimpleNamespace(delta_q=np.zeros(3), lam=np.zeros(4))

@@ -51,7 +51,7 @@ def test_h_in_balls_is_kept_while_it_is_the_same():
     assert solver.kept_hessian(heavier).fits(heavier)
 
 
-def test_the_bound_of_an_error_is_that_of_the_step_and_not_of_the_one_before():
+def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
     solver = solver_for(pushed_point(), "daqp", "native")
     for m in (0.3, 0.5, 2.0):
         step = pushed_point(m)

@@ -222,7 +222,7 @@ def test_units_that_are_not_finite_and_positive_are_refused():
                 check_units(units._replace(**{name: bad}), step)
 
 
-def test_rows_are_as_unlike_as_the_longest_and_the_shortest_that_is_not_zero():
+def test_rows_are_as_unlike_as_the_longest_and_the_shortest_not_of_zeros():
     """H is a multiple of the identity. Without friction the rows of a contact are n, of length 1.
 
     Own rows have lengths 5, 0.5 and 0.
