@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.tangent import entry_rates, half_turns, right_jacobian
-from tests.tolerances import ROUNDING
+from tests.tolerances import FOUR_ULP, ROUNDING
 
 FLOATING = Joint("box/base", "floating", False, slice(0, 7), slice(0, 6))
 PLANAR = Joint("puck/base", "planar", False, slice(0, 4), slice(0, 3))
@@ -18,6 +18,15 @@ def test_the_jacobian_of_a_small_turn_keeps_its_second_order() -> None:
     a, b = 1e-7, 2e-7
     J = right_jacobian(np.array([0, 0, 0, a, b, 0]))
     np.testing.assert_allclose(J[3, 4], a * b / 6, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("angle", [1e-3, 1.1, 3.0])
+def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None:
+    # About z: J_xx = J_yy = sin(a) / a, J_xy = -J_yx = (1 - cos(a)) / a = 2 sin(a / 2)^2 / a.
+    along, across = np.sin(angle) / angle, 2 * np.sin(angle / 2) ** 2 / angle
+    turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
+    found = right_jacobian(np.array([0, 0, 0, 0, 0, angle]))
+    np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)
 
 
 @pytest.mark.parametrize("length", [0.5, 1.0, 3.0])
