@@ -103,7 +103,7 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name, body) -> None:
 
 
 @pytest.mark.parametrize("name", NO_TIES)
-def test_a_point_on_or_outside_of_a_solid_or_near_one_part_of_it_is_not_tied(name) -> None:
+def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name) -> None:
     solid, p = NO_TIES[name]
     assert not inside(solid, p, POINT, STILL)
 
