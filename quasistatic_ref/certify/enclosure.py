@@ -160,8 +160,7 @@ def _enclosed(
     reserve = guess.reserve * frame.size * frame.size  # in the form's units of energy
     lam = _impulses(step, form, frame, found, guess)
     exact = _at_apex(step, form, guess, lam)
-    balance = arb_mat(form.H) * found.x - arb_mat(form.g)
-    net = np.array([float(v * form.net_unit) for v in balance.entries()]) + 0.0
+    net = _net(form, found)
     if exact is not None:
         working, x, delta_q = exact
         error = 0.0
@@ -294,3 +293,8 @@ def _at_apex(
     solution = rational_solution(form, working)
     x = [fmpq(v) / solution.denominator for v in solution.x]
     return working, x, rounded_solution(form, solution)[0]
+
+
+def _net(form: ExactForm, found: Checked) -> Array:
+    net = arb_mat(form.H) * found.x - arb_mat(form.g)
+    return np.array([float(v * form.net_unit) for v in net.entries()]) + 0.0
