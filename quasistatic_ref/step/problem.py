@@ -16,6 +16,9 @@ from quasistatic_ref.step.friction import Friction, frame_jacobian
 class StepProblem:
     """Eq. :eq:`eq-13`; ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it.
 
+    Expressions for extensions: ``delta_q``, and ``motion``, a tuple of gap, slip_1, slip_2 and spin
+    [m] of shapes (n_c,). The list ``contact_rows`` has a constraint for each row of the cone.
+
     Parameters
     ----------
     like : StepData
@@ -23,16 +26,8 @@ class StepProblem:
     friction : callable, optional
         A cone of :mod:`~quasistatic_ref.step.friction`, in place of the paper's.
     constraints, costs : callable, optional
-        Functions that take this StepProblem and return a list of additional constraints, or of
-        additional costs. Where a cost replaces the springs, the caller sets the parameters K_q and
-        tau_k to zero after each :meth:`fill`.
-
-    Attributes
-    ----------
-    motion : tuple of cvxpy.Expression, each of shape (n_c,)
-        gap, slip_1, slip_2 and spin [m]: the last three times their friction coefficients.
-    contact_rows : list of cvxpy.Constraint
-        Non-penetration and friction, one constraint for each row of the cone.
+        Functions of this StepProblem that return a list of additional constraints, or costs. Where
+        a cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
     """
 
     def __init__(
@@ -43,7 +38,6 @@ class StepProblem:
         h, n_a, n_u, n_v, n_c = like.h, like.n_a, like.n_u, like.n_v, like.contacts.n_c
         mu_v, _, mu_omega = like.contacts.mu.T
         torsional = like.contacts.rows == 6
-
         delta_q_a, delta_q_u = cp.Variable(n_a, "delta_q_a"), cp.Variable(n_u, "delta_q_u")
         delta_q = cp.hstack([delta_q_a, delta_q_u])
         K_q, M_u = (cp.Parameter((n, n), s, PSD=True) for s, n in (("K_q", n_a), ("M_u", n_u)))
@@ -85,8 +79,7 @@ class StepProblem:
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step; StepDataError if it is of another kind."""
         if not self.fits(step):
-            problem = "h, the cone, n_a, n_u, the number of extra rows, mu_v, mu_omega or the rows"
-            raise StepDataError(f"the step differs in {problem} of a contact")
+            raise StepDataError("the step has another h, cone, size, mu_v, mu_omega or row count")
         tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
         J = frame_jacobian(step.contacts, step.contacts.J)
         forces, own = (tau_k, step.tau_a, step.tau_u), (step.extra.A, step.extra.b)

@@ -176,7 +176,7 @@ def test_a_step_of_another_kind_is_refused(other, rng):
     step = random_step(rng, 3, 4, (6, 4, 6))
     problem = StepProblem(step)
     assert problem.fits(with_mu_of(step, random_step(np.random.default_rng(1), 3, 4, (6, 4, 6))))
-    with pytest.raises(StepDataError, match="the step differs in h, the cone, n_a, n_u, "):
+    with pytest.raises(StepDataError, match="the step has another h, cone, size, "):
         problem.fill(other(step, rng))
 
 
