@@ -85,6 +85,14 @@ def test_multipliers_that_do_not_fall_never_vanish(order, balls):
     )
 
 
+def test_a_row_whose_multiplier_ends_at_zero_is_none_of_the_working_set():
+    """On x_0 = 1 and x_0 + x_1 = 2 lies x = (1, 1) = A'lam of lam = (0, 1)."""
+    optimum = dual_active_set(program([[1, 0], [1, 1]], [1, 2]), warm=[0])
+    assert isinstance(optimum, Optimum)
+    assert optimum.point.working == (1,)
+    assert list(optimum.point.rational.lam) == [1]
+
+
 def test_combination_without_positive_part_proves_infeasibility():
     """x_0 >= 1, x_1 >= 1 and -2 x_0 - 3 x_1 >= -4: y = (2, 3, 1), b'y = 1."""
     end = dual_active_set(program([[1, 0], [0, 1], [-2, -3]], [1, 1, -4]), [0, 1])
