@@ -25,6 +25,7 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 import pytest
@@ -92,8 +93,10 @@ def outcomes(
     status = pytest.main([*options, "--deselect", LEFT_OUT, *paths], plugins=[trials])
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
         raise RuntimeError("the tests do not pass without a mutant")
-    for mutant in of_constants:
-        heard(mutant, imported(mutant, tests[mutant.file]))
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        jobs = {pool.submit(imported, m, tests[m.file]): m for m in of_constants}
+        for job in as_completed(jobs):
+            heard(jobs[job], job.result())
 
 
 def imported(mutant: Mutant, tests: Iterable[str]) -> str:

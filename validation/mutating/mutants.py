@@ -2,8 +2,8 @@
 
 Operators: + and -, * and /, << and >>, ** and * change places; a minus or a `not` is dropped; a
 comparison is turned round or loses its equality; an index or a bound of a slice is one off; an
-axis is another; two indices, or two neighbours in a list, change places. Annotations and messages
-are left alone.
+axis is another; two indices, or two neighbours in a list, change places. Annotations, other types,
+``__all__`` and messages are left alone.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.In: (ast.NotIn,),
     ast.NotIn: (ast.In,),
 }
+TYPES = ("tuple", "list", "dict", "set", "type", "Callable", "Mapping", "Sequence")
+"""What stands before the brackets of a type."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ def _expressions(tree: ast.AST, where: str = "module") -> Iterator[tuple[ast.AST
         if name in ("annotation", "returns", "decorator_list", "bases", "type_params"):
             continue
         for node in value if isinstance(value, list) else [value]:
-            if not isinstance(node, ast.AST) or isinstance(node, ast.JoinedStr):
+            if not isinstance(node, ast.AST) or isinstance(node, ast.JoinedStr) or _runs_not(node):
                 continue
             inside = where
             if isinstance(node, ast.FunctionDef | ast.ClassDef):
@@ -107,6 +109,14 @@ def _expressions(tree: ast.AST, where: str = "module") -> Iterator[tuple[ast.AST
             if isinstance(node, ast.expr | ast.AugAssign | ast.keyword):
                 yield node, inside
             yield from _expressions(node, inside)
+
+
+def _runs_not(node: ast.AST) -> bool:
+    """Whether a part only names: the list ``__all__``, or a type such as ``dict[str, Any]``."""
+    if isinstance(node, ast.Assign):
+        return isinstance(node.targets[0], ast.Name) and node.targets[0].id == "__all__"
+    generic = isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name)
+    return generic and node.value.id in TYPES
 
 
 def _changed(node: ast.AST) -> Iterator[ast.AST]:

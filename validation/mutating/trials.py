@@ -39,7 +39,7 @@ from validation.mutating.swapped import (
 
 PATIENCE = 4.0
 """A test hangs that takes so many times as long as without the mutant, and three seconds more."""
-OWN, OTHERS = 10.0, 3.0
+OWN, OTHERS = 20.0, 3.0
 """Seconds of tests that one mutant meets, of its own files and of others, as long as they take when
 they are traced: about three times as long as otherwise. The slowest are left out."""
 NOTICED = {int(signal.SIGXCPU): "hangs", int(signal.SIGALRM): "hangs"}

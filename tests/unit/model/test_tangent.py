@@ -40,6 +40,23 @@ def test_a_base_moves_along_its_own_axes_whatever_its_unit_s_length(length: floa
     np.testing.assert_allclose(E[:2, :2], [[c, -s], [s, c]], rtol=0, atol=ROUNDING)
 
 
+def test_a_turn_changes_the_entries_as_the_product_of_the_units() -> None:
+    """By e about its own axes a unit moves by q (e / 2): of quaternions, or of complex numbers.
+
+    (x, w) (u, 0) has the vector w u + x x u and the scalar -x . u; c + i s times i is -s + i c.
+    """
+    x, w = np.array([0.2, -0.5, 0.7]), 0.4
+    turned = entry_rates([FLOATING], np.array([1, 2, 3, *x, w]))[3:, 3:]
+    for column, u in zip(turned.T, np.eye(3) / 2, strict=True):
+        product = [*(w * u + np.cross(x, u)), -x @ u]
+        np.testing.assert_allclose(column, product, rtol=0, atol=ROUNDING)
+    for found in (
+        entry_rates([PLANAR], np.array([1.0, 2.0, 0.6, 0.8]))[2:, 2],
+        entry_rates([CONTINUOUS], np.array([0.6, 0.8]))[:, 0],
+    ):
+        np.testing.assert_array_equal(found, [-0.8, 0.6])
+
+
 HALF = [
     *((FLOATING, axis, 6) for axis in (3, 4, 5)),
     (PLANAR, 2, 3),
