@@ -19,7 +19,7 @@ class StepProblem:
     Parameters
     ----------
     like : StepData
-        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants.
+        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
     friction : callable, optional
         A cone of :mod:`~quasistatic_ref.step.friction`, in place of the paper's.
     constraints, costs : callable, optional
@@ -30,7 +30,7 @@ class StepProblem:
     Attributes
     ----------
     motion : tuple of cvxpy.Expression, each of shape (n_c,)
-        gap, slip_1, slip_2 and spin [m]: the last three times their friction coefficients.
+        gap, slip_1, slip_2 and spin [m]; the last three include their friction coefficients.
     contact_rows : list of cvxpy.Constraint
         Non-penetration and friction, one constraint for each row of the cone.
     """
