@@ -5,9 +5,9 @@ normal (N, 3): the gradient of phi. The closest point on the shape is then p - p
 gradient is not unique (the centre of a sphere, a tie of two faces) the least index wins, so that
 results are deterministic.
 
-Closed forms, but for the ellipsoid (Newton's method, to rounding). (Coal is right for sphere, box,
-capsule and half-space, and these agree with it to 1e-12; inside a cylinder its depth is wrong by up
-to millimetres, ours is not.)
+All shapes have closed forms but the ellipsoid, whose closest point is found by Newton's method, to
+rounding. (Coal is right for sphere, box, capsule and half-space, and agrees with these functions to
+1e-12; inside a cylinder coal's depth is wrong by up to millimetres.)
 """
 
 import numpy as np

@@ -33,11 +33,12 @@ class ClosestPoints(NamedTuple):
     phi : ndarray, shape (n_c,)
         Signed distance [m].
     alpha, beta : ndarray, shape (n_c, 3)
-        Closest points on the two bodies [m]; beta - alpha = phi n.
+        Closest points on alpha's body and on beta's [m]; beta - alpha = phi n.
     n : ndarray, shape (n_c, 3)
         Unit normal from alpha's body to beta's, also in penetration.
     point : ndarray of int, shape (n_c,)
-        Index of the cloud's point; of two solids, the candidate's number, or 0 if one is kept.
+        Index of the cloud's point; for two solids the number of the candidate, or 0 if only
+        one is kept.
     """
 
     phi: Array
@@ -63,8 +64,8 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
     Raises
     ------
     ContactError
-        If a pair has no trustworthy normal, or a pose is not finite: given NaN, coal says
-        that the distance is 0.
+        If a pair has no trustworthy normal, or a pose is not finite (given NaN, coal would
+        answer with a distance of 0).
     """
     R, t = kinematics.R, kinematics.t
     check_finite(R, t)
@@ -101,7 +102,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
 
 
 def nearest_of_solids(pair: ContactPair, a: Placed, b: Placed) -> ClosestPoints:
-    """The closest points of two solids alone; among several contacts they come after corners."""
+    """The closest pair of two solids, numbered after the corners if several contacts are kept."""
     found = solid_pair(pair.name, a, b)
     phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
     return ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
@@ -132,11 +133,11 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:
-    """Which candidates are kept after all others: an earlier one again, or a spare closest pair.
+    """Which candidates rank after all others: repetitions, and a closest pair beside k corners.
 
-    The closest pair is mostly one of the corners. On parallel faces it can be any point between
-    corners that are equally near but for rounding; ranked by its distance it would displace one of
-    these corners, and a box on a table would have three corner contacts instead of four.
+    The closest pair mostly coincides with a corner candidate. On parallel faces it can be any point
+    between corners that are equally near but for rounding; ranked by its distance it would displace
+    one of these corners, and a box on a table would have three corner contacts instead of four.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
@@ -150,7 +151,7 @@ def _points_on_solid(
     solid: Placed, other: Placed, points: Array, radius: float, k: int | None = None, first: int = 0
 ) -> ClosestPoints:
     """Points of another body, each with a ball about it, on a solid: all, or the k closest."""
-    # One product, as a tracker has it for all pairs at once: the bits are then the same.
+    # One product, because a tracker forms it so for all pairs at once: the bits are then equal.
     relative = solid.R.T @ np.column_stack([other.R, other.t - solid.t])
     in_solid = rotated(relative[:, :3], points) + relative[:, 3]
     phi, normal = signed_distance(solid.shape, in_solid)

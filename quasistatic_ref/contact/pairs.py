@@ -1,4 +1,4 @@
-"""What may touch what, and how rough it is. The user's contact numbers live here, nowhere else."""
+"""Which shapes may touch, and their friction: all that a user says about contacts is kept here."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class ContactPair(Plain):
     rows : int
         6, or 4 for contacts without torsion.
     k : int
-        How many of the closest points are kept; fewer where there are fewer candidates.
+        How many of the closest points are kept; all candidates if there are fewer.
     hull : bool
         Whether a mesh that is not convex may be taken for its hull.
 
@@ -93,7 +93,7 @@ class ContactPair(Plain):
 
 @dataclass(frozen=True, eq=False)
 class ContactLayout(Plain):
-    """What does not change from step to step about the contacts of a list of pairs.
+    """What is the same in every step about the contacts of a list of pairs.
 
     Parameters
     ----------

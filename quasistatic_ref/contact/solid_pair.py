@@ -1,9 +1,10 @@
-"""Signed distance, closest points and normal of two solids, by the method that suits them.
+"""Signed distance, closest points and normal of two solids, each pair by its own method.
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
-have closed forms, right to rounding; so have a polytope or a cylinder and a cylinder, cone or
-ellipsoid that are apart. The others, curved solids that meet, and cones and ellipsoids among
-themselves, start from coal's answer, which is refined and proved.
+have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). A
+polytope or a cylinder and a cylinder, cone or ellipsoid that are apart have candidates, one for
+each face, edge, rim and vertex. For all others, curved solids that meet, and cones and ellipsoids
+among themselves, coal's answer is refined, and then checked.
 """
 
 from quasistatic_ref.contact.by_coal import coal_witness
@@ -28,7 +29,7 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     Raises
     ------
     ContactError
-        If there is no closed form and coal has no answer that proves itself.
+        If the pair is of the last kind, and coal's refined answer fails a check.
     """
     if isinstance(b.shape, Sphere):
         return _sphere_on_solid(a, b, b.shape.radius)

@@ -16,11 +16,12 @@ from quasistatic_ref.step.data import Array
 
 
 class ContactTracker:
-    """What :func:`~quasistatic_ref.contact.distance.closest_points` gives, sooner.
+    """What :func:`~quasistatic_ref.contact.distance.closest_points` returns, in less time.
 
-    It remembers which points of the clouds can matter, so one object belongs to one run. Poses may
-    jump; that costs time only. Pairs of two solids are measured again at each step: the number of
-    their contacts is fixed, and the distance of each is part of the step, near or far.
+    A tracker remembers which points of the clouds can come among the closest, so each run has a
+    tracker of its own. Poses may jump; that costs time only. Pairs of two solids are measured anew
+    at each step: the number of their contacts is fixed, and the distance of each is part of the
+    step, near or far.
 
     Parameters
     ----------

@@ -1,7 +1,6 @@
-"""The paper's order of coordinates, q = [q_a; q_u], against pinocchio's.
+"""The paper's order of coordinates, q = [q_a; q_u], and its permutation to pinocchio's order.
 
-Within each block the order is pinocchio's. Nothing outside
-:class:`~quasistatic_ref.model.system.System` sees the other.
+Within each block the order is pinocchio's. Outside of `model` all vectors are in the paper's order.
 """
 
 from collections.abc import Sequence
@@ -10,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.arrays import Array, Indices
 
@@ -57,8 +57,8 @@ class Joint(Plain):
         Its entries of delta_q: 6 (body-frame twist, linear then angular), 3 (x and y along the
         body's own axes, then the angle) or 1.
     limits : tuple of float, optional
-        Least and greatest position that its URDF allows [m, rad]: the model ignores them. None
-        where it names none, or where there are none to name.
+        Least and greatest position that its URDF allows [m, rad], which the model ignores. None
+        where the URDF gives none or both are 0, and for bases and continuous joints.
     """
 
     name: str
@@ -99,9 +99,9 @@ class Order:
     joints : tuple of Joint
         In the paper's order.
     q : ndarray of int, shape (n_q,)
-        Which entry of pinocchio's q each entry of ours is.
+        For each entry of the paper's q, its index in pinocchio's q.
     v : ndarray of int, shape (n_v,)
-        The same of delta_q.
+        The same for delta_q.
     """
 
     joints: tuple[Joint, ...]
@@ -110,17 +110,17 @@ class Order:
 
     @cached_property
     def q_back(self) -> Indices:
-        """Which entry of our q each entry of pinocchio's is, shape (n_q,)."""
+        """For each entry of pinocchio's q, its index in the paper's q, shape (n_q,)."""
         return np.argsort(self.q)
 
     @cached_property
     def v_back(self) -> Indices:
-        """The same of delta_q."""
+        """The same for delta_q, shape (n_v,)."""
         return np.argsort(self.v)
 
     @cached_property
     def same(self) -> bool:
-        """Whether both orders are one, as with all actuated bodies before the others."""
+        """Whether both orders are equal, as when all actuated joints come before the others."""
         return bool((np.diff(self.q) > 0).all())
 
     def paper_q(self, q: Array) -> Array:
@@ -128,32 +128,32 @@ class Order:
         return q if self.same else q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
-        """Configuration in pinocchio's order, from the paper's; ValueError unless (n_q,)."""
-        q = _of_shape(q, self.q.shape)
+        """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
+        q = _of_shape(q, "q", self.q.shape)
         return q if self.same else q.take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
-        """Last axis, shape (..., n_v), from pinocchio's order to the paper's; of delta_q, J."""
+        """Delta_q, or J, shape (..., n_v), its last axis in the paper's order, from pinocchio's."""
         return v if self.same else v.take(self.v, axis=-1)
 
     def model_v(self, v: Array) -> Array:
-        """Vector of delta_q in pinocchio's order, from the paper's; ValueError unless (n_v,)."""
-        v = _of_shape(v, self.v.shape)
+        """Vector of delta_q in pinocchio's order, from the paper's; ModelError unless (n_v,)."""
+        v = _of_shape(v, "delta_q", self.v.shape)
         return v if self.same else v.take(self.v_back)
 
 
-def _of_shape(x: Array, shape: tuple[int, ...]) -> Array:
+def _of_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
     x = np.asarray(x, dtype=np.float64)
     if x.shape != shape:
-        raise ValueError(f"expected shape {shape}, not {x.shape}")
+        raise ModelError(f"must have shape {shape}", field=name, value=x.shape)
     return x
 
 
 def joint_key(joint: str) -> str:
     """Name of a joint inside the model.
 
-    URDF lets a link and a joint share a name; appendModel does not. No body's name holds a
-    space, so this cannot be a link's.
+    URDF lets a link and a joint share a name; pinocchio's appendModel does not. No body's name
+    holds a space, so that no link has this name.
     """
     return f"joint {joint}"
 
@@ -164,7 +164,7 @@ def paper_order(joints: Sequence[Joint]) -> Order:
     Parameters
     ----------
     joints : sequence of Joint
-        Their entries of q and delta_q being pinocchio's.
+        With their slices of pinocchio's q and delta_q.
     """
     ordered: list[Joint] = []
     entries_q: list[int] = []

@@ -20,8 +20,9 @@ class Kinematics:
     t : ndarray, shape (L, 3)
         Origin of each link's frame in the world [m].
     columns : ndarray, shape (6, n_x)
-        Of each joint's column, velocity of the point at the world's origin and angular velocity
-        of what the joint moves [m, rad], in the world frame, per unit of its coordinate.
+        One column for each degree of freedom of the joints, in the world frame: the spatial
+        velocity of the body that the joint moves, per unit of the joint's coordinate. Rows 0-2:
+        velocity of the body's point at the world's origin [m]; rows 3-5: angular velocity [rad].
     motion : Motion, optional
         Which columns move a link; without it nothing moves.
     """

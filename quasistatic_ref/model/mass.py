@@ -1,4 +1,4 @@
-"""The un-actuated block M_u of the mass matrix: whether it stays the same, and is of use."""
+"""The un-actuated block M_u of the mass matrix: whether it is constant, and not singular."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -11,9 +11,10 @@ from quasistatic_ref.step.arrays import Array
 
 
 def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:
-    """Whether M_u is the same at every q: every un-actuated joint is a rigid body's, alone.
+    """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
-    In its own frame a free body's mass matrix is constant, unless a joint hangs from it.
+    The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
+    connects another link to the body.
     """
     free = [joint for joint in joints if not joint.actuated]
     if any(joint.kind != "floating" for joint in free):

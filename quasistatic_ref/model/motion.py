@@ -1,4 +1,4 @@
-"""How links move with the coordinates: what of it is the same at every configuration."""
+"""Which coordinates move which links: the part of a Jacobian that does not depend on q."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -33,7 +33,7 @@ class Motion:
     """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
-    coordinate: it moves with that of another.
+    coordinate of its own: it moves with the coordinate of another joint.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class Motion:
         return np.eye(self.n_v)[self.owner]
 
     def of_coordinates(self, columns: Array) -> Array:
-        """Per unit of delta_q, shape (..., n_v), from `columns` [m, rad]."""
+        """Columns per unit of delta_q, shape (..., n_v), from `columns` of pinocchio [m, rad]."""
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)

@@ -33,10 +33,10 @@ __all__ = ["Body", "Kinematics", "System"]
 class System:
     """Bodies in one world.
 
-    Methods that take q trust it; :meth:`checked` is for what comes from outside. They share a
-    workspace: one System must not be used from two threads at once; a copy has its own. Copies
-    and pickles hold the texts of the URDFs, and read no file. Two systems are equal if the same
-    was said of the same bodies and read from their files.
+    Methods that take q do not check it; :meth:`checked` checks a q that comes from outside. The
+    methods share a workspace: one System must not be used from two threads at once; a copy has a
+    workspace of its own. Copies and pickles hold the texts of the URDFs, and read no file. Two
+    systems are equal if their bodies and the files that were read are equal.
 
     Parameters
     ----------
@@ -49,13 +49,13 @@ class System:
     n_q, n_q_a : int
         Entries of q, and those of them that are actuated.
     joints : tuple of Joint
-        In the paper's order, with their slices of q and delta_q; mimics have none.
+        In the paper's order, with their slices of q and delta_q; mimic joints are not among them.
     coordinates : tuple of Coordinate, length n_v
     mimics : tuple of MimicJoint
     links : tuple of str
         ``"world"``, then ``"gripper/left_finger"``, ...
     masses : ndarray, shape (L,)
-        Mass of each link as its file says [kg].
+        Mass of each link as its file says [kg]; 0 of the world and of links without inertial.
     centres : ndarray, shape (L, 3)
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
@@ -68,7 +68,7 @@ class System:
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
     ignored : tuple of str
-        What the URDFs say and the model does not use, e.g. ``arm: link[tool].visual``.
+        What stands in the URDFs and the model does not use, e.g. ``arm: link[tool].visual``.
     notes : tuple of str
         Where the model differs from its files, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
@@ -177,7 +177,7 @@ class System:
         return np.array(q_next)
 
     def pinocchio_sum(self, q: Array, delta_q: Array) -> Array:
-        """Pinocchio's q (+) delta_q, (n_q,); :meth:`integrate` places bases more accurately."""
+        """Pinocchio's q (+) delta_q, (n_q,); :meth:`integrate` moves bases more accurately."""
         order = self._order
         return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
 
@@ -251,7 +251,7 @@ class System:
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q.
 
-        The last result is kept, because the end of a step is the start of the next one.
+        The last result is kept, because the q at the end of a step is the q of the next one.
         """
         at = np.asarray(q, dtype=np.float64).tobytes()
         if self._latest is None or self._latest[0] != at:
@@ -262,10 +262,11 @@ class System:
     def centre_of_mass_force(
         self, q: Array, body_name: str, force: ArrayLike, torque: ArrayLike
     ) -> Array:
-        """Generalised force of a wrench at a body's centre of mass, shape (n_v,) [N, N m].
+        """Generalised force of a wrench on a body's root link, shape (n_v,) [N, N m].
 
-        The wrench acts on the root link, at the centre of mass of that link and of whatever
-        fixed joints weld to it: for a body without moving joints, that of the whole body.
+        The wrench acts at the centre of mass of the root link and of the links that fixed joints
+        weld to it. For a body without moving joints this is the centre of mass of the whole body;
+        for an articulated body it is not.
 
         Parameters
         ----------
@@ -277,7 +278,7 @@ class System:
         Raises
         ------
         ModelError
-            If there is no such body, or its base is fixed, so that the wrench would be lost.
+            If there is no such body, or its base is fixed, so that the wrench would move nothing.
         """
         root = self._root(body_name)
         joint = self._model.frames[self._frames[root - 1]].parentJoint

@@ -22,7 +22,7 @@ from quasistatic_ref.step.arrays import Array, positive_definite
 
 @dataclass(frozen=True, eq=False)
 class Wrenches(Plain):
-    """An external wrench at a body's centre of mass, piecewise linear in time.
+    """An external wrench at the centre of mass of a body's root link, piecewise linear in time.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Wrenches(Plain):
 
 @dataclass(frozen=True, eq=False)
 class BodyEntry(Plain):
-    """What one table says, before the system is known.
+    """What one ``[bodies.NAME]`` table says, before the system is known.
 
     Parameters
     ----------
@@ -58,7 +58,8 @@ class BodyEntry(Plain):
         As parsed: waypoints.
     cloud : Path or None
     gravity_compensated : bool
-        Whether gravity on the actuated coordinates is the robot's business (default) or ours.
+        Whether the robot compensates gravity on its actuated coordinates (default), so that the
+        model leaves it out.
     wrenches : Wrenches or None
     """
 

@@ -22,7 +22,7 @@ ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 def target_function(system: System, h: float, target: Target, steps: int) -> Checked:
-    """Targets in any accepted form as a function of (t, q); every value checked as q is.
+    """Targets in any accepted form as a function of (t, q); every value is checked like a q.
 
     Parameters
     ----------
@@ -72,9 +72,9 @@ def force_function(system: System, force: Force | None) -> Checked:
 
 
 def of_time_and_q(function: Callable[..., Any], name: str) -> OfTimeAndQ:
-    """A function of t or of (t, q), as one of (t, q), shape of its result as it is.
+    """A function of t or of (t, q), as one of (t, q); its result keeps its shape.
 
-    What it must be given decides; arguments with defaults are left to them.
+    The arguments without defaults decide which of both it is; the others keep their defaults.
 
     Parameters
     ----------

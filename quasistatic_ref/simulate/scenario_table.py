@@ -1,7 +1,7 @@
 """Every field of a scenario, said once: the loader, the JSON Schema and the reference page read it.
 
-What goes beyond one field, such as that rows = 6 needs mu_omega, the loader checks by hand;
-``RULES`` says as much of that as a schema can.
+Rules about several fields, such as that rows = 6 needs mu_omega, are checked by the loader;
+``RULES`` holds those of them that a JSON Schema can express.
 """
 
 from collections.abc import Mapping
@@ -96,7 +96,8 @@ TABLES = Tables({
         "targets": Field("list of tables", "waypoints, linear in time, held at both ends",
                          default=[], of=WAYPOINT),
         "cloud": Field(
-            "text", "file of points in the root link's frame, in place of its shapes", "m", None,
+            "text", "file of points in the root link's frame, meant by the body's name in contacts",
+            "m", None,
             schema={"pattern": r"\S"},
         ),
         "gravity_compensated": Field(
@@ -111,7 +112,10 @@ TABLES = Tables({
     WAYPOINT: {"t": Field("number", "time; next to it any joints and their values", "s")},
     WRENCH: {
         "t": Field("number", "time", "s"),
-        "force": Field("three numbers", "at the centre of mass, world frame", "N", (0.0, 0.0, 0.0)),
+        "force": Field(
+            "three numbers", "at the centre of mass of the root link, world frame", "N",
+            (0.0, 0.0, 0.0),
+        ),
         "torque": Field("three numbers", "about it, world frame", "N m", (0.0, 0.0, 0.0)),
     },
     SHAPE: {

@@ -43,8 +43,9 @@ GRAVITY = (0.0, 0.0, -9.81)
 class Simulator:
     """A system, what may touch in it, and how each step is solved.
 
-    It keeps what is slow to make and the same at every step: which points of the clouds may matter,
-    the columns that move a contact, the solver. A copy is a new simulator of the same settings.
+    A simulator keeps what is slow to make and serves many steps: which points of the clouds may
+    come among the closest, which columns of J move a contact, the solver. A copy is a new simulator
+    with the same settings.
 
     Parameters
     ----------
@@ -53,16 +54,17 @@ class Simulator:
     h : float
         Time step [s].
     K_q : ndarray, shape (n_a, n_a)
-        Joint stiffness [N/m, N m/rad], in the order of q_a.
+        Stiffness of the actuated coordinates [N/m, N m/rad], in the order of delta_q.
     gravity : array_like, shape (3,)
         [m/s^2], world frame.
     gravity_acts : ndarray of bool, shape (n_a,), optional
-        Whether gravity acts on each actuated coordinate; by default the robot compensates all.
+        Whether gravity acts on each actuated coordinate; by default on none, as if the robot
+        compensated its own weight.
     solver : str, optional
         Name of a backend; by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`. A step on which that default,
-        named or not, fails is solved by Clarabel. The solver, accuracy and certify are as in
-        :func:`~quasistatic_ref.solve.solve.solve_step`.
+        :func:`~quasistatic_ref.solve.engines.default_backend`. If a step that is not certified in
+        full fails with that default, named or not, Clarabel solves it. `solver`, `accuracy` and
+        `certify` are otherwise as in :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
         reaches the backend and the cone, and ``"cvxpy"`` for extensions that are not linear
@@ -70,9 +72,9 @@ class Simulator:
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
-        q -> constraints and costs of the user's own at q, for every step.
+        A function of q that returns the user's own constraints and costs for the step from q.
     limits : Limits, optional
-        Beyond which no step is taken; by default those of
+        Penetration and reach beyond which a run ends; by default those of
         :class:`~quasistatic_ref.simulate.limits.Limits`.
 
     Attributes
@@ -83,7 +85,7 @@ class Simulator:
         The compiled implementation of :meth:`step`, with the same bits; None if there is none for
         this simulator.
     solver : Solver or None
-        What solved the last step; it takes the next one if that fits.
+        The object that solved the last step; it solves the next one, too, if that step fits it.
 
     Raises
     ------
@@ -152,7 +154,7 @@ class Simulator:
         q_bar_a : ndarray, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
         force : ndarray, shape (n_v,), optional
-            External generalised force in addition to gravity [N, N m].
+            External generalised force, in addition to gravity [N, N m].
 
         Returns
         -------
@@ -161,7 +163,11 @@ class Simulator:
         Raises
         ------
         StepDataError
-            If a force has another shape, or a number is not finite.
+            If the force has another shape, or a number is not finite.
+        ModelError
+            If q or q_bar_a has another shape.
+        ContactError
+            If a pair has no trustworthy normal at q, or q is not finite.
         StepNotSolved
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
@@ -210,17 +216,18 @@ class Simulator:
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a
-        tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
-        if tau.shape != self.gravity_acts.shape:
+        if np.shape(force) not in {(), self.gravity_acts.shape}:
             problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
+        tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
         constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
         return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
-        """The step with the user's linear constraints at q, shape (n_q,), and the other extension.
+        """The step with the user's own rows at q, shape (n_q,); and the extension or None.
 
-        The second is the extension if it holds nonlinear constraints or costs, else None.
+        An extension that holds costs or nonlinear constraints is returned beside the unchanged
+        step; the linear constraints of any other become rows of the step.
         """
         if self.extension is None:
             return step, None
@@ -231,7 +238,7 @@ class Simulator:
         return (step, own) if rows is None else (extended.with_rows(step, rows), None)
 
     def fitting(self, step: StepData) -> Solver:
-        """The solver: another one, if the last does not fit the step."""
+        """The solver of the last step if it fits this step, else a new one."""
         if self.solver is None or not self.solver.fits(step):
             self.solver = solver_for(step, self.backend, self.engine)
         return self.solver

@@ -12,18 +12,18 @@ from quasistatic_ref.step.solution import StepSolution
 
 
 class Spare:
-    """A second backend, which is made when it is needed.
+    """A second backend, Clarabel, which is made when it is needed.
 
     Parameters
     ----------
     default : str
-        The backend by default of such runs.
+        The default backend of a run with these settings.
     engine : str
     accuracy : float
         In natural units [-].
     certify : str
-        As in :func:`~quasistatic_ref.solve.solve.solve_step`. What is certified in full needs no
-        second backend.
+        As in :func:`~quasistatic_ref.solve.solve.solve_step`. With ``"full"`` in a polyhedral cone
+        the exact method needs no backend, and so no second one.
     """
 
     def __init__(self, default: str, engine: str, accuracy: float, certify: str) -> None:
@@ -32,7 +32,7 @@ class Spare:
         self.solver: Solver | None = None
 
     def after(self, step: StepData, first: Callable[[], StepSolution]) -> StepSolution:
-        """What `first` gives, or else :meth:`answer`.
+        """The solution that `first` returns or, if `first` fails, that of :meth:`answer`.
 
         Raises
         ------
@@ -49,7 +49,7 @@ class Spare:
         Raises
         ------
         StepNotSolved
-            The `failure` itself, if it is not one of the default backend, or of both.
+            The `failure` itself, if another backend than the default failed, or both backends did.
         """
         of_backend = type(failure) is StepNotSolved and failure.backend == self.default
         if not of_backend or self.default == DEFAULT:

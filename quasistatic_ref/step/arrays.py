@@ -16,9 +16,9 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 QUIET = copy_context()
-"""Where NumPy does not warn: what overflows shows in the result, and the processor's flags, which
-NumPy warns of, get lost between BLAS's threads. (np.errstate sets a variable that every call of
-NumPy then looks up again: 9 us a step.)"""
+"""A context in which NumPy does not warn: an overflow shows in the result, and the flags of the
+processor, on which NumPy's warnings depend, get lost between BLAS's threads. (np.errstate instead
+would set a variable that every call of NumPy then looks up again: 9 us a step.)"""
 QUIET.run(np.seterr, all="ignore")
 
 
@@ -29,7 +29,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> Array:
-    """Real numbers as a float64 array, of the same shape; not a copy if they are one already.
+    """Real numbers as a float64 array of the same shape; a float64 array is returned itself.
 
     Raises
     ------
@@ -53,13 +53,13 @@ def finite(x: Array) -> bool:
 
 
 def largest(x: Array) -> float:
-    """The largest number of a vector, of its unit [-], or zero if none is larger; NaN if one is."""
+    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
     most = float(x[x.argmax()]) if x.size else 0.0
     return 0.0 if most <= 0 else most
 
 
 def columns(value: Any, name: str, ndim: int) -> int:
-    """Number of columns that a matrix, or a stack of matrices, has; StepDataError if it is none."""
+    """Number of columns of a matrix or a stack of matrices; StepDataError of anything else."""
     shape = numbers(value, name).shape
     if len(shape) != ndim:
         raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
@@ -94,7 +94,7 @@ def frozen(
     Raises
     ------
     InputError
-        If they are no finite numbers, or not of that shape.
+        If the numbers are not finite, or not of that shape.
     """
     array = numbers(value, name, error)
     if array.shape != shape and (array.size or 0 not in shape):
@@ -121,7 +121,7 @@ def definite(name: str, matrix: Any, n: int) -> Array:
     Raises
     ------
     StepDataError
-        If it is none, not finite or of another shape.
+        If it is not symmetric, not positive definite, not finite or of another shape.
     """
     return positive_definite(name, frozen(matrix, name, (n, n)))
 
@@ -142,7 +142,7 @@ def positive_definite(key: str, S: Array) -> Array:
         pivots = np.diag(np.linalg.cholesky(S)) ** 2
     except np.linalg.LinAlgError:
         pivots = np.full(len(S), -np.inf)
-    # A pivot is what is left of its diagonal entry: a comparison that units cannot change.
+    # A pivot and its diagonal entry have the same unit, so units do not change this comparison.
     if (pivots <= DEFINITE * np.diag(S)).any():
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())

@@ -16,11 +16,11 @@ class Blocks(Plain):
     Parameters
     ----------
     column : ndarray of int, shape (n_c, w)
-        Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w. An
-        array that cannot be written is kept as it is, and says by being the same that steps have
-        their entries in the same places.
+        Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w. A
+        read-only array is kept and not copied: steps that share one array have their entries in
+        the same places, which is seen without a comparison of numbers.
     J : ndarray, shape (n_c, 4, w)
-        As J of ``Contacts``, those columns; zero where there are fewer.
+        Those columns of the J of ``Contacts``; zero where a contact has fewer than w.
     n_v : int
         Number of coordinates.
 

@@ -1,8 +1,8 @@
 """The friction cones by name: how many rows each gives to a contact, and what they are called.
 
-What the rows are is in :mod:`~quasistatic_ref.step.friction`. A contact uses the leading ones;
-where ``rows`` is 4, mu_omega is not used. The ellipsoid is no polyhedron; a contact in it has four
-multipliers.
+What the rows are is in :mod:`~quasistatic_ref.step.friction`. A contact whose ``rows`` is 4 does
+not use mu_omega, and has only the leading rows. The ellipsoid is no polyhedron; a contact in it has
+four multipliers.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from quasistatic_ref.step.arrays import Indices
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
 MOST_FACETS = 1024
-"""More sides than that differ from the circle by less than 5e-6 and make steps of many MB."""
+"""A polygon with more sides is within 5e-6 of the circle, and makes steps of many MB."""
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
@@ -33,7 +33,7 @@ class Cone:
     row_names : tuple of str
         A name for each number of lam that a contact with torsion has.
     short : int
-        How many of them a contact has whose mu_omega is not used.
+        How many of these numbers a contact has whose mu_omega is not used.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Cone:
 
     @property
     def polyhedral(self) -> bool:
-        """Whether the cone is a matter of rows alone."""
+        """Whether the cone is described by linear inequalities (rows) alone."""
         return self.name != ELLIPSOID
 
     def counts(self, rows: Indices) -> Indices:

@@ -19,7 +19,7 @@ ROWS = {4, 6}
 
 
 class Points(Plain):
-    """What contacts have, in whichever form their J is kept."""
+    """The fields of contacts other than J, which is kept dense or in blocks."""
 
     name: tuple[str, ...]
     phi: Array
@@ -70,7 +70,7 @@ class Points(Plain):
 
     def _check_frames(self, n_c: int) -> None:
         axes = np.array([self.d1, self.d2, self.n])
-        # Not by matmul, which warns where numbers overflow; what overflows is no unit vector.
+        # Not by matmul, which warns where numbers overflow: such axes are refused below.
         defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
         right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
         if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
@@ -94,14 +94,16 @@ class Contacts(Points):
         Unit normal from alpha's body to beta's, and the tangents, in the world frame: {d1, d2, n}
         is right-handed.
     J : ndarray, shape (n_c, 4, n_v)
-        Contact Jacobian, Eq. :eq:`eq-3`: rows 0-2 the velocity of beta relative to alpha in the
-        world frame [m], row 3 the relative spin about n [rad], each per unit of delta_q.
+        Contact Jacobian, Eq. :eq:`eq-3`: rows 0-2 the displacement of the material point at beta
+        relative to the one at alpha, in the world frame [m], row 3 the relative rotation about n
+        [rad], each per unit of delta_q.
     mu_v : ndarray, shape (n_c,)
         Tangential friction coefficient [-], >= 0.
     mu_omega : ndarray, shape (n_c,)
         Torsional friction coefficient, a length [m], >= 0.
     rows : ndarray of int, shape (n_c,)
-        6, or 4 for a contact whose mu_omega is not used: of the paper's cone, its number of rows.
+        6, or 4 for a contact whose mu_omega is not used. With the paper's cone this is the number
+        of the contact's rows; with another cone it only says whether mu_omega is used.
 
     Raises
     ------
@@ -135,7 +137,7 @@ class Contacts(Points):
         return self.J @ delta_q
 
     def dense(self) -> "Contacts":
-        """Themselves; see :class:`SparseContacts`."""
+        """These contacts themselves; :class:`SparseContacts` form all of J."""
         return self
 
 
@@ -146,12 +148,12 @@ def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class SparseContacts(Points):
-    """The contact points of a step of many bodies: as :class:`Contacts`, J without its zeros.
+    """The contact points of a step of many bodies: :class:`Contacts` that keep J without zeros.
 
     Parameters
     ----------
     name, phi, n, d1, d2, mu_v, mu_omega, rows
-        As there.
+        As in :class:`Contacts`.
     blocks : Blocks
         The columns of J that are not zero.
     """

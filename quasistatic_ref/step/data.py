@@ -1,4 +1,4 @@
-"""One step of the model as data: what every implementation must agree on before solving.
+"""One step of the model as data: everything that its quadratic program is made of.
 
 Conventions: coordinates are in the paper's order, q = [q_a; q_u]; positions, normals and
 tangents are in the world frame; SI units. The JSON form is version 1 of ``quasistatic-ref/step``.
@@ -36,7 +36,7 @@ __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "SparseContacts", "S
 
 @dataclass(frozen=True, eq=False)
 class Extra(Plain):
-    """Polyhedral rows of the user's own, A delta_q >= b.
+    """Linear inequalities of the user's own, A delta_q >= b.
 
     Parameters
     ----------
@@ -100,15 +100,15 @@ class StepData(Plain):
     h : float
         Time step [s], > 0.
     K_q : ndarray, shape (n_a, n_a)
-        Joint stiffness [N/m, N m/rad], symmetric positive definite.
+        Stiffness of the actuated coordinates [N/m, N m/rad], symmetric positive definite.
     M_u : ndarray, shape (n_u, n_u)
         Un-actuated block of the mass matrix [kg, kg m, kg m^2], symmetric positive definite.
     tau_a : ndarray, shape (n_a,)
-        Generalised force on the actuated coordinates other than the springs' [N, N m].
+        Generalised force on the actuated coordinates, without that of the springs [N, N m].
     tau_u : ndarray, shape (n_u,)
         Generalised force on the un-actuated coordinates [N, N m].
     delta_q_bar_a : ndarray, shape (n_a,)
-        Desired change of the actuated coordinates [m, rad].
+        Desired change of the actuated coordinates: target (-) q_a [m, rad].
     contacts : Contacts or SparseContacts
         The contact points considered.
     cone : str
@@ -133,7 +133,7 @@ class StepData(Plain):
     tau_a: Array
     tau_u: Array
     delta_q_bar_a: Array
-    contacts: Contacts  # or SparseContacts, which are read in the same way
+    contacts: Contacts  # or SparseContacts, which have the same fields
     cone: str
     extra: Extra
 

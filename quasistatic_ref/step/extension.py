@@ -25,7 +25,7 @@ def none(symbols: Any) -> tuple[()]:
 
 @dataclass(frozen=True, eq=False)
 class Symbols:
-    """What an extension may speak of: CVXPY expressions in SI units, whatever the problem's are.
+    """What an extension may use: CVXPY expressions in SI units, whatever units the problem has.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ class Symbols:
     delta_q_bar_a : cvxpy.Expression
         Desired change of the actuated coordinates [m, rad].
     slack : tuple of cvxpy.Expression
-        phi + [J'(n~ + d~_i)]' delta_q [m] for each row index i, of the contacts that have it. In
-        the ellipsoid, the gap phi + J_n delta_q alone.
+        One expression for each row index i of the cone: phi + [J'(n~ + d~_i)]' delta_q [m] of the
+        contacts that have row i. In the ellipsoid, the gap phi + J_n delta_q alone.
     """
 
     delta_q: cp.Expression

@@ -1,9 +1,10 @@
-r"""Friction cones, each of them one function of a contact's gap, slip_1, slip_2 and spin.
+r"""Polyhedral friction cones, each one function of a contact's gap, slip_1, slip_2 and spin.
 
 These are phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q: the gap
 after the step; and the sliding along d1 and d2 and the rotation about n, each multiplied by its
-coefficient of friction. A cone returns what must not be negative, one entry for each of its rows.
-It only adds, subtracts and multiplies by float64 numbers. Therefore it returns
+coefficient of friction. All four are lengths. A cone's function returns what must not be negative,
+one entry for each of its rows. It only adds, subtracts and multiplies by float64 numbers. Therefore
+it returns
 
 - given numbers, the slacks of Eq. :eq:`eq-10`;
 - given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
@@ -14,7 +15,8 @@ It only adds, subtracts and multiplies by float64 numbers. Therefore it returns
 
 Multipliers >= 0 of the rows combine to a contact force inside of the cone; each function states the
 inequality that these forces satisfy. Where mu_v (or mu_omega) is 0, \|f\|/mu <= f_n means f = 0. A
-contact whose mu_omega is not used has the leading rows only, and a spin of zero.
+contact whose mu_omega is not used has the leading rows only, and a spin of zero. The ellipsoid is
+no polyhedron and has no such function: its four rows are J_n, J_1, J_2 and J_w themselves.
 """
 
 from collections.abc import Callable
@@ -54,8 +56,8 @@ def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
 def product(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     r""":math:`|f_1|/\mu_v + |f_2|/\mu_v \le f_n` and :math:`|\tau|/\mu_\omega \le f_n`.
 
-    Neither takes from the other. The rows are +d1, +d2, -d1, -d2, each with +spin, then each with
-    -spin, in the unit [m] of the arguments.
+    Tangential force and torque do not reduce each other's limit. The rows are +d1, +d2, -d1, -d2,
+    each with +spin, then each with -spin, in the unit [m] of the arguments.
     """
     sliding = (slip_1, slip_2, -slip_1, -slip_2)
     return (*(gap + slip + spin for slip in sliding), *(gap + slip - spin for slip in sliding))
@@ -70,9 +72,10 @@ def frictionless(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
 def facets(K: int) -> ConeFunction:
     r"""The cone of a K-sided tangential pyramid: ||(f_1, f_2)||_K / mu_v + |tau| / mu_omega <= f_n.
 
-    ||.||_K is the gauge of the regular polygon with corners on the unit circle, the first at d1:
-    it is between the length and the length over cos(pi / K). K = 4 is the paper's cone, bit for
-    bit. The corners' cosines and sines are data, rounded correctly to float64.
+    ||.||_K is the gauge of the regular polygon with corners on the unit circle, the first at d1.
+    The gauge of a vector is at least its length and at most its length over cos(pi / K). K = 4 is
+    the paper's cone, bit for bit. The corners' cosines and sines are data, rounded correctly to
+    float64.
 
     Parameters
     ----------
@@ -108,7 +111,7 @@ def cone_function(name: str) -> ConeFunction:
     StepDataError
         If there is no such cone.
     InputError
-        Of the ellipsoid: one second-order cone, gap >= ||(slip_1, slip_2, spin)||, has no rows.
+        For the ellipsoid: one second-order cone, gap >= ||(slip_1, slip_2, spin)||, has no rows.
     """
     if not cone(name).polyhedral:
         raise InputError("has no rows", field="cone", value=name)
@@ -117,7 +120,7 @@ def cone_function(name: str) -> ConeFunction:
 
 @cache
 def cone_matrix(name: str) -> Array:
-    """Coefficients of the rows of a polyhedral cone: its function of the four unit vectors.
+    """Coefficients of the rows of a polyhedral cone: what its function makes of unit vectors.
 
     Returns
     -------
@@ -181,7 +184,7 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The constant term of each row [m]: phi; in the ellipsoid of its normal row only, else 0.
+    """The constant term of each row [m]: phi; in the ellipsoid phi in the row J_n, 0 in the others.
 
     Returns
     -------
@@ -207,7 +210,8 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     Returns
     -------
     ndarray, shape (n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m]; the torque is taken through beta.
+        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m]: a force at the point beta, and a torque
+        about n.
     """
     if name == ELLIPSOID:
         return lam.reshape(-1, 4)[:, [1, 2, 0, 3]] / h

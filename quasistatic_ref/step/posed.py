@@ -1,7 +1,7 @@
 """Steps as a simulator poses them: right by construction, and so not checked number by number.
 
-To read they are a :class:`~quasistatic_ref.step.data.StepData` like any other, equal to one of the
-same numbers. Whatever is made of their parts by hand, also through ``replace``, is checked.
+They are read like any other :class:`~quasistatic_ref.step.data.StepData`, and are equal to one with
+the same numbers. A step that a user makes of their parts, also through ``replace``, is checked.
 """
 
 from typing import NamedTuple
@@ -75,10 +75,9 @@ class PosedContacts(Contacts):
     Parameters
     ----------
     name, phi, n, d1, d2, J, mu_v, mu_omega, rows
-        As in :class:`~quasistatic_ref.step.contacts.Contacts`; taken as they are, and not written
-        any more.
+        As in :class:`~quasistatic_ref.step.contacts.Contacts`; not copied, but made read-only.
     mu : ndarray, shape (n_c, 3), optional
-        Their ``mu`` [-, -, m], where it was formed before.
+        ``mu`` of the contacts [-, -, m], if it was formed before.
     """
 
     def __init__(
@@ -114,8 +113,7 @@ class PosedStep(StepData):
     ----------
     constant : Constants
     tau_a, tau_u, delta_q_bar_a, contacts
-        As in :class:`~quasistatic_ref.step.data.StepData`; taken as they are, and not written any
-        more.
+        As in :class:`~quasistatic_ref.step.data.StepData`; not copied, but made read-only.
     """
 
     def __init__(

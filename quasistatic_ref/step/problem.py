@@ -16,13 +16,13 @@ from quasistatic_ref.step.friction import Friction, frame_jacobian
 class StepProblem:
     """Eq. :eq:`eq-13`; ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it.
 
-    Expressions for extensions: ``delta_q``, and ``motion``, a tuple of gap, slip_1, slip_2 and spin
-    [m] of shapes (n_c,). The list ``contact_rows`` has a constraint for each row of the cone.
+    Extensions have ``delta_q``, ``contact_rows`` (a constraint for each row of the cone) and
+    ``motion``: gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
 
     Parameters
     ----------
     like : StepData
-        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants.
+        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
     friction : callable, optional
         A cone of :mod:`~quasistatic_ref.step.friction`, in place of the paper's.
     constraints, costs : callable, optional

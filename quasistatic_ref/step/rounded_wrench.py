@@ -16,13 +16,13 @@ def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     Parameters
     ----------
     contacts, lam, h, name
-        As there; lam is finite.
+        As in :func:`~quasistatic_ref.step.friction.contact_wrenches`; lam is finite.
 
     Returns
     -------
     ndarray, shape (n_c, 4)
         (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
-        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond their range.
+        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond float64's range.
     """
     matrix = np.eye(4) if name == ELLIPSOID else cone_matrix(name)
     ends = row_layout(name, contacts.rows.tobytes()).offsets

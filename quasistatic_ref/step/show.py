@@ -29,13 +29,13 @@ def clipped(text: str, width: int = WIDTH) -> str:
 
 
 def shortened(name: str, width: int = NAME) -> str:
-    """A name on one line of at most that many columns; its end, which tells it apart, is kept."""
+    """A name on one line of at most `width` columns; its end, by which names differ, is kept."""
     line, head = one_line(name), (width - 3) // 2
     return line if len(line) <= width else f"{line[:head]}...{line[head + 3 - width :]}"
 
 
 def number(x: object) -> str:
-    """A number to four digits; a dash for what is not known, or is none."""
+    """A number to four digits; a dash for anything else, such as None."""
     return f"{float(x) + 0.0:.4g}" if isinstance(x, Real) else "-"
 
 

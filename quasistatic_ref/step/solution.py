@@ -21,17 +21,18 @@ class Certificate(Plain):
     ----------
     kind : str
         ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"enclosure"`` (in the
-        ellipsoid: it is as near to the optimum as error_bound says, proved), ``"residual"``
-        (optimality residuals were computed and are small) or ``"none"``.
+        ellipsoid: delta_q is proved to be as near to the optimum as error_bound says),
+        ``"residual"`` (optimality residuals were computed and are small) or ``"none"``.
     residuals : mapping of str to float
         Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-]. They differ in the last
         places from processor to processor, prove nothing, and never enter a solution file.
     active : tuple of (int, int)
         Contact and row of each member of the working set; the user's own rows count as those of
-        one contact more. Its multipliers are positive, its rows independent and without slack. In
-        the ellipsoid: the first independent rows of the contacts that bear load, for ``"exact"``.
+        one contact more. The rows of the working set are independent, their multipliers positive
+        and their slacks zero. In the ellipsoid, for ``"exact"``: the first independent rows of the
+        contacts that bear load.
     multipliers_unique : bool or None
-        Whether lam may be compared component by component; None where nothing is claimed, as below.
+        Whether lam may be compared component by component. Here and below None: nothing is claimed.
     differentiable : bool or None
         Whether delta_q is differentiable with respect to the forces and targets (g).
     smallest_inactive_slack : float or None
@@ -71,12 +72,12 @@ class SolverStatistics(NamedTuple):
     solve_time : float or None
         Time inside the solver [s], where it reports one.
     accuracy : float
-        What it was called with, in natural units [-].
+        The accuracy that was asked of the solver, in natural units [-].
     digits : float or None
         Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
     engine : str
-        The interface by which it was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``; ``"none"``
-        without a backend.
+        The interface by which the solver was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``;
+        ``"none"`` without a backend.
     """
 
     backend: str
@@ -102,15 +103,15 @@ class StepSolution(Plain):
     lam_extra : ndarray, shape (extra rows,)
         Multipliers of the user's own rows [N s, for rows in m].
     step : StepData
-        What it is the optimum of.
+        The step whose optimum this is.
     backend : str
     certificate : Certificate
     statistics : SolverStatistics
-        Not compared: wall times are in it.
+        Not compared by ``==``, because it holds wall times.
 
     Notes
     -----
-    Arrays are taken as they are, and cannot be written any more.
+    The arrays are not copied, but made read-only.
     """
 
     delta_q: Array
@@ -152,7 +153,7 @@ class StepSolution(Plain):
 
     @property
     def status(self) -> str:
-        """``"optimal"``: anything else is raised, not returned."""
+        """Always ``"optimal"``: a step without an accepted answer raises ``StepNotSolved``."""
         return "optimal"
 
 
@@ -163,7 +164,7 @@ def step_solution(
     certificate: Certificate,
     statistics: SolverStatistics,
 ) -> StepSolution:
-    """The solution of a step from delta_q (n_v,) and lam (m,), the user's own rows last."""
+    """The solution of a step from delta_q (n_v,) and lam (m,), in which own rows come last."""
     m = int(step.offsets[-1])
     backend = statistics.backend
     return StepSolution(delta_q, lam[:m], lam[m:], step, backend, certificate, statistics)

@@ -1,7 +1,7 @@
 """The answer of a step as JSON: ``quasistatic-ref/solution``, version 2.
 
-Nothing stands in it that `verify` does not prove; neither timings nor the name of a backend do.
-Files of version 1 are read too; what cannot be proved of them is listed by name.
+Besides the answer itself a file holds only claims that `verify` proves: no timings, and no name of
+a backend. Files of version 1 are read too; their fields that nothing proves are listed by name.
 """
 
 from collections.abc import Sequence
@@ -38,16 +38,16 @@ ELLIPSOID_CLAIMS: dict[str, tuple[str, ...]] = {
     "residual": (),
     "none": (),
 }
-"""The same in the ellipsoid."""
+"""What a certificate of each kind holds in the ellipsoid."""
 MAY_BE_NULL = {
     ("exact", "smallest_inactive_slack"),
     ("exact", "smallest_active_multiplier"),
     ("residual", "error_bound"),
 }
-"""Numbers that some steps do not have: a step without idle rows, or without active ones, or an
-answer without a bound."""
+"""Numbers that may be missing: of a step without idle rows, or without active rows, or of an answer
+without a bound."""
 VERSION_1_UNCHECKED = ("backend", "wrench", "certificate.residuals")
-"""What a file of version 1 holds and nothing proves; more of it in the ellipsoid."""
+"""Fields of a file of version 1 that nothing proves; in the ellipsoid the next ones as well."""
 VERSION_1_ELLIPSOID = (
     "lam", "lam_extra", "certificate.multipliers_unique", "certificate.differentiable",
     "certificate.smallest_inactive_slack", "certificate.smallest_active_multiplier",
@@ -61,13 +61,13 @@ class SolutionFile:
     Parameters
     ----------
     delta_q : ndarray, shape (n_v,), or None
-        None of an infeasible step. Of a file whose step_sha256 is another step's nothing is read.
+        None for an infeasible step. If step_sha256 is that of another step, every field is None.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
     certificate : Certificate or None
     farkas : tuple of str or None
-        Of an infeasible step: the proof, as fractions ``"p/q"``.
+        For an infeasible step: the proof, as fractions ``"p/q"``.
     unchecked : tuple of str
         Fields of a file of version 1 that nothing proves.
     """
@@ -88,8 +88,8 @@ def claims_in(cone: str) -> dict[str, tuple[str, ...]]:
 def solution_text(step: StepData, solution: StepSolution) -> str:
     """The solution of a step as one line of JSON.
 
-    Where a backend's own answer has a bound, multipliers that it left below zero are written 0.0:
-    that is what the bound takes them for.
+    Where a backend's own answer has an error bound, negative multipliers are written as 0.0,
+    because the bound was computed with 0.0 in their place.
     """
     certificate, lam, lam_extra = solution.certificate, solution.lam, solution.lam_extra
     kind = certificate.kind
@@ -186,7 +186,7 @@ def _certificate(table: Fields, cone: str) -> Certificate:
 
 
 def _first_certificate(table: Fields) -> Certificate:
-    """Version 1: any claim may be missing, and residuals are there, which are not believed."""
+    """Version 1: any claim may be missing; its residuals are read and not used."""
     kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
     residuals = table.table("residuals", {})
     for name in residuals.names():

@@ -58,7 +58,7 @@ class Pattern:
 
 
 def _same(one: NDArray[Any], two: NDArray[Any]) -> bool:
-    """Whether two arrays are equal; in a run they are one, which is seen at once."""
+    """Whether two arrays are equal; the steps of a run share one array, which `is` shows."""
     return one is two or np.array_equal(one, two)
 
 
@@ -95,7 +95,7 @@ def in_blocks(step: StepData) -> Blocks:
 
 
 def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
-    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, as large as their entries only."""
+    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`; of H and A only entries not zero."""
     blocks = in_blocks(step)
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)

@@ -31,7 +31,7 @@ def certificate_page(certificate: Certificate) -> Page:
 
 
 def certificate_facts(certificate: Certificate) -> list[str]:
-    """What is claimed of an answer, its kind aside, a sentence each."""
+    """What is claimed of an answer besides the kind of its certificate, one sentence each."""
     residual = max(certificate.residuals.values(), default=None)
     facts = [f"worst residual {number(residual)}, error bound {number(certificate.error_bound)}"]
     known = certificate.multipliers_unique, certificate.differentiable

@@ -39,13 +39,13 @@ class Cone(Round):
         return tip if tip @ direction > rim @ direction else rim
 
     def support_value(self, directions: Array) -> Array:
-        """Of tip or rim along `directions` (N, 3) [-], shape (N,) [m]."""
+        """The larger reach of tip and rim along `directions` (N, 3) [-], shape (N,) [m]."""
         radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
         tip = self.half_length * axial
         return np.maximum(tip, self.radius * radial - tip)
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """Tip, and four points of the rim, shape (5, 3) [m], by the way `towards` [-] the other."""
+        """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
         tip = np.array([[0, 0, self.half_length]])
         return np.concatenate([tip, rim_corners(self.radius, -self.half_length, towards)]), 0.0
 

@@ -30,17 +30,17 @@ class Cylinder(Round):
         return distance_to_cylinder(points, self.radius, self.half_length)
 
     def support_point(self, direction: Array) -> Array:
-        """On a rim, a side or a cap, by the `direction`; both of shape (3,), [m] and [-]."""
+        """On a rim, or mid-side or mid-cap, by the `direction`; shapes (3,), [m] and [-]."""
         rim = rim_point(self.radius, direction)
         return np.array([*rim, self.half_length * np.sign(direction[2])])
 
     def support_value(self, directions: Array) -> Array:
-        """Along the radial and the axial part of `directions` (N, 3) [-], shape (N,) [m]."""
+        """Sum of the radial and the axial reach along `directions` (N, 3) [-], shape (N,) [m]."""
         radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
         return self.radius * radial + self.half_length * np.abs(axial)
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """Four points on each rim, shape (8, 3) [m], by the way `towards` [-] the other body."""
+        """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)
         return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
 

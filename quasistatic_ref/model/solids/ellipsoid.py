@@ -12,8 +12,7 @@ from quasistatic_ref.model.solids.shape import Shape, ball, lengths
 from quasistatic_ref.step.arrays import Array
 
 STEPS = 100
-"""Most Newton steps to an ellipsoid's root: about ten are usual, as each starts within 1 of it in
-the sum."""
+"""Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,16 +61,17 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
 
     The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
     root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
-    every sum of the denominators is free of cancellation. Where one term alone is 1 the root is not
-    yet reached; the sum is at most 3 there and convex, so that Newton's steps rise to the root.
+    every sum of the denominators is free of cancellation. Newton's method starts at the largest w
+    at which one of the three terms alone is 1: the sum is then between 1 and 3, and it is convex
+    and decreasing, so that w rises to the root with every step.
     (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
     """
     least = half_axes.min()
     r = (half_axes / least) ** 2
     sign = np.where(points < 0, -1.0, 1.0)
     z = np.abs(points) / half_axes
-    # On the plane of the medial axis the closest point is not unique: one side, always the same,
-    # is taken by moving the point off that plane by less than any number matters.
+    # On the plane of the medial axis the closest point is not unique. A point on this plane is
+    # moved off it, always to the same side, by so little that no digit of the result changes.
     z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
     low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
     w = low
@@ -79,7 +79,7 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
         terms = (r * z / (w[:, None] + (r - 1))) ** 2
         slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
         rise = (np.sum(terms, axis=1) - 1) / slope
-        # A point that is there stays there: its bits do not depend on the others of its batch.
+        # A point that has converged is not moved again: its bits do not depend on its batch.
         moving = rise > np.spacing(w)
         if not moving.any():
             break
@@ -88,6 +88,6 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
     on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
     normal = on / half_axes
     normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]
-    # Along the normal, which is exact to rounding also where the distance is next to nothing.
+    # Along the normal: right to rounding also where the distance is next to nothing.
     phi = np.sum((np.abs(points) - on * half_axes) * normal, axis=1)
     return phi, sign * normal

@@ -58,7 +58,7 @@ class HalfSpace(Shape):
         return phi, np.broadcast_to(self.normal, points.shape)
 
     def surface(self, around: int, up: int) -> Array:
-        """None, shape (0, 3) [m]: what is drawn of its surface depends on the other bodies."""
+        """No points, shape (0, 3) [m]: how much of the plane is drawn depends on the scene."""
         return np.zeros((0, 3))
 
     def words(self) -> str:

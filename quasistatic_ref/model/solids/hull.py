@@ -18,8 +18,8 @@ def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     """Signed distance and outward normal of points (N, 3) against a convex polytope.
 
     Inside, the largest of the signed distances to the planes of its faces, which is exact;
-    outside, the distance to the nearest triangle. Each point is computed by itself, the same
-    bits in any company.
+    outside, the distance to the nearest triangle. Each point is computed by itself: its bits do not
+    depend on which other points are given.
 
     Returns
     -------
@@ -79,8 +79,9 @@ def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
         within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
     level = dot(points[:, None] - corners[:, 0], n)
     above = within & (level > 0)
-    # No edge is nearer then: where it seems so, by rounding, its direction is wrong by more. Of a
-    # point on a face rounding decides the sign of its level.
+    # A point above the inside of a face is nearest to that face. If an edge seems nearer, that is
+    # rounding, and the edge's direction is the less accurate one. For a point on a face, rounding
+    # decides the sign of its level.
     some = np.asarray(above.any(axis=1))
     best = np.where(some, np.inf, best)
     square = np.where(np.where(some[:, None], above, within), level * level, np.inf)

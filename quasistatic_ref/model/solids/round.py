@@ -40,7 +40,7 @@ def rim_corners(radius: float, z: float, towards: Array) -> Array:
     Parameters
     ----------
     radius, z : float
-        Of the rim, and its height [m].
+        Radius of the rim, and its height [m].
     towards : ndarray, shape (3,)
         Unit vector [-] to the other body; the first point is the one nearest to it.
     """
@@ -52,7 +52,7 @@ def rim_corners(radius: float, z: float, towards: Array) -> Array:
 
 
 def rim_point(radius: float, direction: Array) -> tuple[float, float]:
-    """X and y of the point of a rim that is farthest along a direction; its middle, if of none.
+    """X and y of a rim's point farthest along a direction; the rim's centre if all are as far.
 
     Parameters
     ----------

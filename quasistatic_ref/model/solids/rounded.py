@@ -10,7 +10,7 @@ _AXES = np.eye(3)
 
 
 class Rounded(Shape):
-    """A cuboid core, of which edges may be zero, and a ball about each of its points."""
+    """A cuboid, the core, whose edges may be zero, with a ball about each point of the core."""
 
     @property
     def core(self) -> tuple[Array, float]:
@@ -22,12 +22,12 @@ class Rounded(Shape):
         return distance_to_rounded_box(points, *self.core)
 
     def support_point(self, direction: Array) -> Array:
-        """Of the core's corner along a `direction`, both of shape (3,), [m] and [-]."""
+        """From the core's corner along `direction`, the radius beyond; shapes (3,), [m] and [-]."""
         half_extents, radius = self.core
         return np.asarray(radius * direction + half_extents * np.sign(direction))
 
     def support_value(self, directions: Array) -> Array:
-        """Of the core along `directions` (N, 3) [-], and the radius, shape (N,) [m]."""
+        """Reach of the core along `directions` (N, 3) [-] plus the radius, shape (N,) [m]."""
         half_extents, radius = self.core
         return np.asarray(radius + np.abs(directions) @ half_extents)
 
@@ -37,7 +37,7 @@ def distance_to_rounded_box(
 ) -> tuple[Array, Array]:
     """Signed distance (N,) [m] and outward normal (N, 3) of points against a :class:`Rounded`.
 
-    Outside the core by components, inside to the nearest face.
+    The distance to the core is that of each coordinate outside, and to the nearest face inside.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What every shape answers about itself, in its own frame, and what a shape refuses by default."""
+"""The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ class Shape(Plain):
         phi : ndarray, shape (N,)
             [m], negative inside.
         normal : ndarray, shape (N, 3)
-            Unit normals: the gradient of phi. Where it is not unique, always the same one.
+            Unit normals: the gradient of phi. Where it is not unique, one of them, always the same.
 
         Raises
         ------
@@ -42,7 +42,7 @@ class Shape(Plain):
         raise self.lacks("a cloud touches solid shapes only")
 
     def support_point(self, direction: Array) -> Array:
-        """A point that is farthest along a direction; the first of several.
+        """A point that is farthest along a direction.
 
         Parameters
         ----------
@@ -52,7 +52,8 @@ class Shape(Plain):
         Returns
         -------
         ndarray, shape (3,)
-            [m]. Where a face, an edge or a generator is perpendicular to the direction, its middle.
+            [m]. Where a face, an edge or a generator is perpendicular to the direction, its middle;
+            but of a convex mesh the first vertex, and of a cone's generator one of its ends.
 
         Raises
         ------
@@ -62,7 +63,7 @@ class Shape(Plain):
         raise self.lacks("has no farthest point")
 
     def support_value(self, directions: Array) -> Array:
-        """How far it reaches along unit vectors: max n . x, shape (N,) [m].
+        """How far the shape reaches along unit vectors n: max n . x, shape (N,) [m].
 
         Parameters
         ----------
@@ -77,7 +78,7 @@ class Shape(Plain):
         raise self.lacks("has no closed-form reach")
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """The points that can carry a load where it lies flat on another; by default none.
+        """The points that can carry a load where the shape lies flat on another; by default none.
 
         Parameters
         ----------
@@ -87,10 +88,10 @@ class Shape(Plain):
         Returns
         -------
         points : ndarray, shape (corner_count, 3)
-            [m]. Those on rims come last, four each: the first lies farthest towards the other body;
-            of an upright shape, where all are as far, it is on the x axis.
+            [m]. Corners on rims come last, four on each rim: the first lies farthest towards the
+            other body. If all points of the rim are equally far, the first is on the x axis.
         radius : float
-            Of the ball about each [m].
+            Radius of the ball about each corner [m].
         """
         return np.zeros((0, 3)), 0.0
 
@@ -101,12 +102,12 @@ class Shape(Plain):
 
     @property
     def corner_count(self) -> int:
-        """How many corners it has, whatever its pose."""
+        """Number of corners, which does not depend on the direction."""
         return len(self.corners(np.array([1.0, 0.0, 0.0]))[0])
 
     @property
     def extent(self) -> float:
-        """Longest edge of the box about it along its own axes [m]; of a half-space, infinity."""
+        """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
         reach = self.support_value(AXES)
         return float((reach[:3] + reach[3:]).max())
 
@@ -121,12 +122,12 @@ class Shape(Plain):
         raise self.lacks("has no coal object of another size")
 
     def surface(self, around: int, up: int) -> Array:
-        """Points whose hull looks like it, or the points of a cloud, shape (N, 3) [m].
+        """Points whose hull is drawn as the shape, or the points of a cloud, shape (N, 3) [m].
 
         Parameters
         ----------
         around, up : int
-            Points of what is round, around its axis and along it.
+            Numbers of points on round surfaces, around the axis and along it.
         """
         raise self.lacks("has no surface to draw")
 

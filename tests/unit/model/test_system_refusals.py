@@ -59,8 +59,10 @@ def test_a_configuration_of_another_length_is_refused(scene: System) -> None:
         scene.checked(scene.q_start[:-1])
     with pytest.raises(ModelError, match="q: must be numbers"):
         scene.checked(["zero"] * scene.n_q)
-    with pytest.raises(ValueError, match="expected shape"):
+    with pytest.raises(ModelError, match=rf"^q: must have shape \({scene.n_q},\) \(got \(1,\)\)$"):
         scene.integrate(scene.q_start[:1], np.zeros(scene.n_v))
+    with pytest.raises(ModelError, match=rf"^delta_q: must have shape \({scene.n_v},\)"):
+        scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
 
 
 def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:

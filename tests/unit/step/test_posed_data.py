@@ -105,11 +105,12 @@ def test_sparse_contacts_refuse(things, changes):
         replace(sparse, **{key: change(getattr(sparse, key)) for key, change in changes.items()})
 
 
-def test_a_force_of_another_shape_is_refused(things):
+@pytest.mark.parametrize("shape", [(8, 8), (3,), (1,)], ids=str)
+def test_a_force_of_another_shape_is_refused(things, shape):
     scenario = things["Scenario"]
     simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
     with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
-        simulator.step(q, goal, np.ones((8, 8)))
+        simulator.step(q, goal, np.ones(shape))
 
 
 @pytest.mark.parametrize(
