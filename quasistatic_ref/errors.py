@@ -165,7 +165,7 @@ class StepIllPosed(StepNotSolved):
     delta_q : ndarray, shape (n_v,)
         The exact optimum [m, rad], correctly rounded.
     length : float
-        Its length in the H norm, relative to what the step asks for by itself [-].
+        Its length in the H norm, over the largest that the loads or a row ask for alone [-].
     """
 
     def __init__(self, step: StepData, delta_q: Array, length: float) -> None:

@@ -22,21 +22,22 @@ a condition number above 1e14, and its inverse no correct digit."""
 ACCURACY: Final = 1e-12
 """Default accuracy of every backend, in natural units [-].
 
-The tightest at which Clarabel, OSQP and PIQP still solve every step of ``bunny_grasp``."""
+With it Clarabel, DAQP and PIQP solve every step of ``bunny_grasp``, and so does OSQP, which is then
+called with 1e-10, the least accuracy that the table of backends gives it."""
 
 ENCLOSED: Final = 1e-13
 """Largest error, in the one definition, at which an answer counts as enclosed.
 
-Rounding the answer to float64 alone costs 1e-16; a bound that ends between is the sign of a
-problem almost without interior."""
+Rounding the answer to float64 alone costs 1e-16; a bound much above that is the sign of a problem
+almost without interior."""
 
 IMPULSES: Final = 1e-9
 """Largest duality gap of the multipliers of an answer in the ellipsoid, relative to the energies
-1/2 ||H^-1 g||_H^2 and 1/2 ||delta_q||_H^2 of its step; and how far they may be outside of their
-cone, relative to the largest of them, where no gap is claimed.
+1/2 ||H^-1 g||_H^2 and 1/2 ||delta_q||_H^2 of its step, added; and how far the multipliers may be
+outside of their cones, relative to the largest of them, where no gap is claimed.
 
-They are not unique. Rounding to float64 alone leaves a gap of 1e-16; a force where nothing touches
-leaves one of the size of its work."""
+Multipliers are not unique. Rounding them to float64 alone leaves a gap of 1e-16; a force where
+nothing touches leaves a gap of the size of its work."""
 
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
@@ -45,15 +46,17 @@ Six orders above the default accuracy: an answer beyond it is not a less exact a
 a wrong one."""
 
 BOUNDED: Final = 1e-6
-"""Largest bound of an answer's error [-] that float64 is trusted to have made as small as it may.
+"""Largest bound of an answer's error, computed in float64 [-], that is kept as it is.
 
-It leaves about 1e-7 of an exact answer; a larger one is tried again in balls, which leave 1e-8."""
+Of an exact answer float64 gives a bound of about 1e-7. A bound above 1e-6 is computed again in
+balls, which give 1e-8."""
 
 FAR: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
 
-The unconstrained step is about one long. Solvers lose digits where 1e6 and 1 stand together; a
-row that is held at 100 stays inactive, and the judge, who sees the true distance, would notice."""
+The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
+together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
+notice if it did not."""
 
 PROVED: Final = 1e-13
 """Largest excess of a solid's support over a candidate for the closest point, relative to the
@@ -99,9 +102,9 @@ SHORT: Final = 1e-15
 """
 
 ILL_POSED: Final = 1e6
-"""Longest certified step, in the H norm and relative to what the step asks for by itself: the
-largest of the unconstrained steps that the targets, tau_a and tau_u cause each alone, and the
-longest push-out of a single row.
+"""Longest certified step: its length in the H norm over the largest of four lengths [-]. Three are
+the lengths of the unconstrained steps that the targets, tau_a and tau_u would each cause alone; the
+fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the norm of H^-1.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
@@ -141,28 +144,30 @@ CLOSED_FORM: Final = 1e-12
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 
 BEARS: Final = 1e-9
-"""Least normal force of a contact that bears load, over the largest of its step: solvers leave
-1e-12 of it on contacts that do not touch."""
+"""Least normal force of a contact that bears load, over the largest normal force of its step [-]:
+solvers leave 1e-12 of the largest on contacts that do not touch."""
 
 SLOW: Final = 0.1
-"""Largest share of the friction that contacts can bear which the spurious drag may take without a
-word: forces on moving bodies are then wrong by a tenth of friction."""
+"""Largest share of the friction that contacts can bear [-] which the spurious drag may take without
+a warning: forces on moving bodies are then wrong by a tenth of that friction."""
 
 SUNK: Final = 0.01
-"""Depth at a step, relative to the smaller shape of a pair [-], which the step before did not see
-coming and which is worth a word: pushed out at once, it throws bodies about. The scenarios in
+"""Depth at a step, relative to the smaller shape of a pair [-], that the step before did not
+predict and that is worth a warning: pushed out at once, it throws bodies about. The scenarios in
 models/ stay below 1e-5; points that a pair's k leaves out sink by the size of its features."""
 
 LEAP: Final = 0.25
-"""Motion per step, relative to what is moved [-], or turn [rad], that is worth a word: to first
-order it is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of sphere_spin reaches 0.15."""
+"""Motion per step, relative to the size of what is moved [-], or turn [rad], that is worth a
+warning: to first order the motion is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of
+sphere_spin reaches 0.15."""
 
 BEYOND: Final = 1e-9
-"""How far a target may exceed a limit of its URDF [m, rad] without a word: rounding of its
+"""How far a target may exceed a limit of its URDF [m, rad] without a warning: rounding of its
 interpolation between waypoints is 1e-16."""
 
 IN_METRES: Final = 20.0
-"""Longest mesh or cloud, and farthest target of a length [m], that is taken for one in metres.
+"""Size of a mesh or cloud, and largest coordinate of a target that is a length [m], up to which
+numbers are taken for metres.
 
 What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
 
@@ -192,8 +197,8 @@ Between 2 boxes in a row (576), where dense ones take less time, and 3 (1,440), 
 (validation/results/large_steps.md). bunny_grasp has 780."""
 
 SPARSE_FROM_PIQP: Final = 10_000
-"""The same for PIQP, whose dense method is faster: between 6 boxes in a row (6,336) and 8
-(11,520)."""
+"""The same for PIQP, whose dense method is faster than theirs: between 6 boxes in a row (6,336) and
+8 (11,520)."""
 
 DENSE_BELOW: Final = 150_000
 """Entries below which runs that certify nothing and name no backend stay with DAQP and dense
@@ -205,17 +210,18 @@ TOUCHING: Final = 1e-14
 derivative is computed [-]: some fifty roundings of 2e-16."""
 
 BEARING: Final = 1e-11
-"""Multiplier of a row, as the displacement that it causes in the H norm over the step's, at which
-it counts as none where a derivative is computed [-]: rounding of places, 1e-16 m, over a step of
-1e-5 m."""
+"""Multiplier of a row at which it counts as none where a derivative is computed: the displacement
+that it causes over that of the step, in the H norm [-]. That is the rounding of places, 1e-16 m,
+over a step of 1e-5 m."""
 
 DEPENDENT: Final = 1e-8
-"""Least singular value of rows of length one that counts as none [-], where no derivative hangs on
-it: what others span is counted as theirs."""
+"""Singular value of rows of length one up to which it counts as zero [-], where no derivative
+depends on it: a row this near to the span of others is counted as spanned."""
 
 INDEPENDENT: Final = 3e-4
-"""Least singular value of rows of length one that are independent where a derivative is asked for
-[-]. Displacements are right to 1e-16 over it, and derivatives to that over it again: to 1e-9."""
+"""Least singular value of rows of length one that are independent where a derivative is computed
+[-]. Displacements are right to 1e-16 divided by it, and derivatives to 1e-16 divided by its square:
+to 1e-9."""
 
 SPLIT: Final = 1e-12
 """Largest singular value of rows, or of the equations of a closest pair, that is rounding [-]:
@@ -225,7 +231,7 @@ INDEPENDENT hold at once or do not, and normals between this and UNIQUE are not 
 CONSISTENT: Final = 1e-11
 """Largest rate at which dependent rows leave each other, or straight surfaces in line with each
 other, relative to the terms that make it, that is rounding [-]: random states are at 1e-13 and
-below. What is let pass is an error of about ten times as much."""
+below. A rate that is let pass leaves an error of about ten times its size."""
 
 ON_RIM: Final = 1e-9
 """How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
@@ -233,7 +239,7 @@ on it. Closest points are right to 1e-15 but where the surfaces are nearly paral
 
 LEVEL: Final = 1e-5
 """Tilt of a cylinder or a cone [rad] below which its rim counts as level where a derivative is
-asked for. Its lowest point moves by 1 / tilt of a turn, right to 2e-16 / tilt of that; where it
+computed. Its lowest point moves by 1 / tilt of a turn, right to 2e-16 / tilt of that; where it
 cancels, errors were 1e-7 at a tilt of 3e-7, and fall with its square."""
 
 UNIQUE: Final = 1e-6
@@ -242,8 +248,8 @@ distance from the world's origin, whichever is larger, at which the pair counts 
 Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16."""
 
 INSIDE: Final = 1e-6
-"""How far inside of a cone a load or a motion is, relative to itself, that stays there where its
-normal turns by TIED and float64 rounds [-]."""
+"""A load or a motion that is at least this far inside of a cone, relative to its own size [-],
+stays inside when the normal of the cone turns by TIED and float64 rounds."""
 
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:

@@ -211,7 +211,7 @@ QUOTED = {
     "docs/guides/choose_a_backend.md": [
         ("at which it does [not solve {} of the grasp's steps]",
          lambda: [of.one_in(of.highs_unsolved())]),
-        ("{:.0f} to {:.0f} times as fast by the backend", of.native_gains),
+        ("{:.0f} to {:.0f} times as fast, depending on the backend", of.native_gains),
     ],
 }  # fmt: skip
 

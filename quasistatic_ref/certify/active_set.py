@@ -1,13 +1,13 @@
 """The dual active-set method of Goldfarb and Idnani (1983), with exact signs.
 
 Each :class:`~quasistatic_ref.certify.point.Point` is the minimiser on a working set W of
-independent rows; all multipliers being >= 0 it is the optimum of the problem with the rows of W
-alone. The method adds one violated row after the other:
+independent rows; if all multipliers are >= 0, it is the optimum of the problem with the rows of W
+alone. The method adds one violated row after the other.
 
-with a_p the violated row and u the multipliers on W + {p}, walk from those of W (that of p being
-zero) towards u. If no multiplier becomes negative, W + {p} is the next working set (a full step).
-Otherwise the first to vanish leaves W, and the walk goes on from where it is. Where a_p is a
-combination of the rows of W, x cannot move: the walk is along the combination, and if no
+Let a_p be the violated row and u the multipliers on W + {p}. Walk from the multipliers on W (that
+of p being zero) towards u. If no multiplier becomes negative, W + {p} is the next working set (a
+full step). Otherwise the first to vanish leaves W, and the walk goes on from where it is. Where a_p
+is a combination of the rows of W, x cannot move: the walk is along the combination, and if no
 multiplier ever vanishes the combination is a proof that the problem is infeasible.
 
 Termination. A walk drops at most |W| rows. It ends with the dual objective strictly larger: at
@@ -64,8 +64,8 @@ class Optimum:
 def most_violated(point: Point) -> tuple[int | None, list[int]]:
     """Return a violated row, if there is one, and all signs once there is none.
 
-    Any choice of the row is right. The most violated one, the least index of a tie, takes a
-    fifth of the walks that the least index takes from a cold start on a grasp.
+    Any violated row may be chosen. If the most violated one is (of equal ones that of least index),
+    a grasp takes a fifth of the walks from a cold start that it takes with the least index.
     """
     shown = [i for i, sign in enumerate(point.slack_signs) if sign == -1]
     if shown and point.balls is not None:
@@ -75,10 +75,10 @@ def most_violated(point: Point) -> tuple[int | None, list[int]]:
 
 
 def least_index(point: Point) -> tuple[int | None, list[int]]:
-    """Return the first violated row, likewise.
+    """Return the violated row of least index, if there is one, and all signs once there is none.
 
-    It depends on exact signs alone, not on the midpoints of balls: every implementation of the
-    method takes the same path.
+    The choice depends on exact signs alone, not on the midpoints of balls: every implementation of
+    the method takes the same path.
     """
     signs = point.decided_slack_signs
     violated = [i for i, sign in enumerate(signs) if sign == -1]

@@ -1,13 +1,13 @@
 r"""The ellipsoid where it is rational: every contact that bears load sticks, at the cone's apex.
 
 There A_j x = b_j holds for all rows of those contacts: x is the minimiser on independent ones
-among them, a solution of linear equations. Six or more rows may be dependent, so lam is not
-unique; given one in float64, the nearest by changes of the independent rows alone makes
+among them, a solution of linear equations. The rows of all these contacts may be dependent, so lam
+is not unique; given one in float64, changes of its entries on the independent rows alone make
 
 .. math:: H x - g = A^T \lambda
 
-exact. Whether x and that lam are inside of the cones, and lam'(A x - b) = 0, is then a matter of
-rational numbers: by convexity nothing else has to be checked.
+exact. Whether x and the changed lam are inside of their cones, and lam'(A x - b) = 0, is then
+decided in rational numbers: by convexity nothing else has to be checked.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from quasistatic_ref.step.data import Array, StepData
 
 
 def apex_rows(step: StepData, form: ExactForm, lam: Array) -> tuple[int, ...]:
-    """The first independent rows among all of those contacts that bear load.
+    """The first independent rows among all rows of the contacts that bear load.
 
     Parameters
     ----------

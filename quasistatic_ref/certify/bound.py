@@ -5,13 +5,13 @@ For a feasible x and any y >= 0, with x_y = H^-1 (g + A'y) the minimiser of the 
 .. math:: \tfrac12\|x - x^*\|_H^2 \le f(x) - d(y)
           = \tfrac12\|x - x_y\|_H^2 + y^T (A x - b).
 
-A solver's x is hardly ever feasible to the last bit: it is moved along a direction d with A d > 0,
+A solver's x is hardly ever feasible to the last bit: x is moved along a direction v with A v > 0,
 as far as its worst violation needs, and the distance moved is added to the bound. If x is not
-feasible and no such direction is found (a body wedged in), no bound is given: infinity.
+feasible and no such direction is found (a body wedged in), the bound is infinite.
 
-The gap f(x) - d(y) is computed in ball arithmetic and rounded upwards. It is the square of an
-error: an answer in float64, right to 1e-16 itself, leaves a gap of about 1e-16 and thus shows some
-eight digits. The exact method shows all of them.
+The gap f(x) - d(y) is computed in ball arithmetic and rounded upwards. It bounds the square of an
+error: an answer that is right to 1e-16 has a gap of about 1e-16, so that the bound shows some eight
+digits. The exact method shows all of them.
 """
 
 from collections.abc import Sequence
@@ -106,9 +106,9 @@ class EnclosedAnswer:
 
 
 def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | None:
-    """The minimiser on a guessed active set, enclosed; costs no rational solve.
+    """The minimiser on a guessed active set with a bound of its error, without a rational solve.
 
-    No sign is decided: a right active set gives an error of 1e-16, a wrong one a larger bound that
+    No sign is decided: a right active set gives a bound of 1e-16, a wrong one a larger bound, which
     holds as well.
 
     Parameters
@@ -132,7 +132,7 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
         y = arb_mat(form.m, 1)
         for i, value in zip(active, solution.lam, strict=True):
             y[i, 0] = value.mid() if value > 0 else arb(0)
-        with ctx.workprec(2 * PRECISION):  # x has all bits of the first: its slacks are rounding
+        with ctx.workprec(2 * PRECISION):  # x fills PRECISION: its slacks need more bits
             moved = _feasible(step, form, balls, x)
         if moved is None:
             return None
@@ -146,7 +146,7 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
 def _distance(
     form: ExactForm, balls: BallForm, x: arb_mat, moved: arb_mat, y: arb_mat
 ) -> tuple[arb, float]:
-    """Bound of ||x - x*||_H from a feasible point and multipliers y >= 0, and of the error."""
+    """Bounds of ||x - x*||_H and of the relative error, from a feasible point and y >= 0."""
     H = arb_mat(form.H)
     way, off = moved - x, moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
     gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
@@ -156,14 +156,14 @@ def _distance(
 
 
 def _feasible(step: StepData, form: ExactForm, balls: BallForm, x: arb_mat) -> arb_mat | None:
-    """Return a point near x that surely satisfies all rows, or None."""
+    """Return a point x + t v near x that surely satisfies all rows, or None."""
     slack = (balls.A * x - balls.b).entries()
     if all(s >= 0 for s in slack):
         return x
     direction = opening_direction(step)
     if direction is None:
         return None
-    d = _column(direction, form.x_unit)
+    d = _column(direction, form.x_unit)  # v above
     opening = (balls.A * d).entries()
     size = max((-s / o).upper() for s, o in zip(slack, opening, strict=True))
     moved = x + d * size * (1 + arb(2) ** -60)
@@ -171,7 +171,7 @@ def _feasible(step: StepData, form: ExactForm, balls: BallForm, x: arb_mat) -> a
 
 
 def opening_direction(step: StepData) -> Array | None:
-    """A strictly feasible direction d, A d > 0 in every row; None if none is found.
+    """A strictly feasible direction v, A v > 0 in every row; None if none is found.
 
     Parameters
     ----------
@@ -190,7 +190,8 @@ def opening_direction(step: StepData) -> Array | None:
     A = A / norms[:, None]
     inverse = np.linalg.pinv(A)
     d = np.zeros(A.shape[1])
-    # Alternating projections of z = A d to {z >= 1} and to the range of A (Cheney, Goldstein 1959).
+    # Alternating projections of z = A v (d here) to {z >= 1} and to the range of A: Cheney and
+    # Goldstein (1959).
     for _ in range(ROUNDS):
         short = np.maximum(1 - A @ d, 0)
         if short.max(initial=0.0) < 0.5:

@@ -3,8 +3,8 @@
 A certificate names a working set of independent rows. Solving one linear system without rounding
 gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is the optimum, which
 is unique. Verification solves that system in rational numbers. It shares with the method that found
-the answer the formation of H, g, A and b, the test that H is positive definite, and the decisions
-on degeneracy; it shares no search for a working set.
+the answer the formation of H, g, A and b, the rational solution of that system, the test that H is
+positive definite, and the decisions on degeneracy; it does not search for a working set.
 """
 
 from collections.abc import Mapping, Sequence
@@ -99,7 +99,7 @@ def verify(
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
-    Or, where a certificate of another kind claims less, whether that is so.
+    Where a certificate of another kind claims less: whether that claim holds.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def verify(
     lam : ndarray, shape (m,), optional
         The claimed multipliers on that working set, the user's own rows last.
     claims : Certificate, optional
-        All of it is checked but the residuals, which are what a solver left behind. Kind
+        All fields but the residuals, which are float64's, are checked. Kind
         ``"none"`` claims nothing and is refused, and so is ``"residual"`` without a bound.
 
     Returns

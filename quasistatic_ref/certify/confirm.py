@@ -1,16 +1,16 @@
 r"""The optimum on a working set that was guessed right, confirmed in balls without forming A.
 
 Where a backend answers well, the rows whose multipliers exceed their slacks are mostly a working
-set of the optimum. With :math:`y = h\lambda`, and with h H and h g, which sums and products of the
-step's numbers give, the minimiser on :math:`A_W x = b_W` is
+set of the optimum. Sums and products of the step's numbers give h H and h g. With
+:math:`y = h\lambda` the minimiser on :math:`A_W x = b_W` is
 
 .. math:: A_W (hH)^{-1} A_W^T y = b_W - A_W (hH)^{-1} hg, \qquad
           x = (hH)^{-1} (hg + A_W^T y).
 
 It is the optimum if the first matrix is regular (the rows of W are then independent), y > 0, and
-every other row has a positive slack or is implied by those of W. Balls show all of that but the
-zeros; these follow from how the rows of a contact are combined, or from the rank of exact rows.
-What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
+every other row has a positive slack or an equation that those of W imply. Balls show all of that
+but the zeros; these follow from how the rows of a contact are combined, or from the rank of exact
+rows. What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
 """
 
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
 
 
 class BallHessian:
-    """The inverse of h H in balls, H proved to be positive definite: kept while H is the same.
+    """The inverse of h H in balls, and a proof that H is positive definite; kept while H stays.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class BallHessian:
         self.rough: Array = np.linalg.inv(step.H).astype(np.float64)
 
     def fits(self, step: StepData) -> bool:
-        """Whether it is that of a step."""
+        """Whether a step has the same h, and the same arrays K_q and M_u."""
         h, K_q, M_u = self.of
         return h == step.h and K_q is step.K_q and M_u is step.M_u
 
@@ -73,7 +73,7 @@ class BallHessian:
         return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
 
     def net(self, step: StepData, delta_q: list[arb]) -> list[arb]:
-        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: of radius 0 where H couples zeros only."""
+        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: exact where H couples zeros only."""
         n_a, n_u = step.n_a, step.n_u
         off = arb_mat(n_a, 1, delta_q[:n_a]) - _column(step.delta_q_bar_a)
         actuated = (self.K_q * off - _column(step.tau_a)) * self.h
@@ -83,7 +83,7 @@ class BallHessian:
 
 
 class BallStep:
-    """A step in balls: what the proofs of its guesses have in common.
+    """A step in balls: what the proofs of all guesses of its working set have in common.
 
     Parameters
     ----------
@@ -110,8 +110,8 @@ class BallStep:
         Returns
         -------
         ExactOptimum, Violated or None
-            None where something stays open. Of a guess that is wrong, rows whose multipliers are
-            not surely positive are dropped; that is all.
+            Violated if a slack is proved negative; None where something stays open. Rows
+            whose multipliers are not surely positive are dropped; nothing else is mended here.
         """
         step, hessian = self.step, self.hessian
         working = sorted({int(i) for i in guess})
@@ -136,7 +136,7 @@ class BallStep:
         ends = np.cumsum([len(working), step.n_v, step.n_v])
         lam_w, impulse, delta_q, slack = np.split(numbers, ends)
         open_lam, open_impulse, open_x, open_slack = np.split(~shown, ends)
-        slack[open_slack] = slack[working] = 0.0  # of the open ones to be proved
+        slack[open_slack] = slack[working] = 0.0  # the open ones: to be proved
         idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
         still = np.flatnonzero(open_x).tolist()
         delta_q[still] = 0.0

@@ -3,12 +3,12 @@ r"""Whether the multipliers are unique and the displacement differentiable, deci
 Let Z be the rows without slack at the optimum x, W in Z a working set with positive multipliers,
 and E = Z \ W. A row is *strictly active* if its multiplier is positive in some optimal lam.
 
-- The multipliers are unique iff A_Z' d = 0 and d_E >= 0 imply d_E = 0; by Gordan's theorem, iff
-  some y has A_W y = 0 and A_E y > 0.
+- The multipliers are unique iff A_Z' c = 0 and c_E >= 0 imply c_E = 0; by Gordan's theorem, iff
+  some v has A_W v = 0 and A_E v > 0.
 - x is differentiable as a function of g (of tau_a, tau_u and delta_q_bar_a), A and b being fixed,
   iff every row of Z is strictly active: x is then locally the minimiser on A_Z x = b_Z; otherwise
   its directional derivative is the projection on a cone that is no subspace. By Stiemke's theorem
-  this holds iff no y has A_W y = 0, A_E y >= 0 and A_E y != 0.
+  this holds iff no v has A_W v = 0, A_E v >= 0 and A_E v != 0.
 
 Sticking contacts are differentiable although six rows have rank four. Nothing is said of
 derivatives with respect to A and b: where Z has dependent rows, they exist along changes that
@@ -34,7 +34,7 @@ def multipliers_unique(
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
     spanned, unspanned : sequence of int
-        E: the other rows without slack; those that W spans, and those that it does not.
+        E: the other rows without slack, divided into those that W spans and those that it does not.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def multipliers_unique(
 
 
 def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
-    """Whether delta_q is differentiable with respect to g; parameters as for uniqueness."""
+    """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
     moves = [form.row(i) for i in unspanned]
@@ -57,7 +57,7 @@ def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[
 def _feasible(
     form: ExactForm, working: Sequence[int], moves: list[list[fmpz]], least: list[int]
 ) -> bool:
-    """Return whether some y has A_W y = 0 and moves y >= least, by the active-set method."""
+    """Return whether some v has A_W v = 0 and moves v >= least, by the active-set method."""
     n = form.n
     held = [form.row(i) for i in working]
     rows = held + [[-a for a in row] for row in held] + moves
@@ -77,10 +77,10 @@ def _feasible(
 
 
 def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> list[int]:
-    """Those of the rows that W does not span whose multiplier is positive in some optimal lam.
+    """Those of the `unspanned` rows whose multiplier is positive in some optimal lam.
 
-    By Motzkin's theorem a row e is not strictly active iff some y has A_W y = 0, A_E y >= 0 and
-    a_e y > 0. (Rows that W spans always are.)
+    By Motzkin's theorem a row e is not strictly active iff some v has A_W v = 0, A_E v >= 0 and
+    a_e v > 0. (Rows that W spans are always strictly active.)
 
     Parameters
     ----------

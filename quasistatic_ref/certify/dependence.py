@@ -24,7 +24,7 @@ PRIME: Final = (1 << 61) - 1
 SMALL: Final = 1 << 20
 """Coefficients up to this size are guessed from their residues, then checked in integers.
 
-Within a contact they are -1, 0 and 1."""
+Within a contact of the pyramid they are -1, 0 and 1."""
 
 Row = list[fmpz] | list[int]
 
@@ -84,7 +84,7 @@ def idle_rows(
 
 
 def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
-    """The same, of equations [a, b] that are `held`, their left sides independent.
+    """Which equations [a, b] follow from those that are `held`, whose left sides are independent.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
 
 
 def all_follow(held: Sequence[Row], rows: Sequence[Row]) -> bool:
-    """Whether all of the `rows` :func:`follow` from `held`: a single one that does not ends it.
+    """Whether all of the `rows` :func:`follow` from `held`; the first that does not ends it.
 
     Raises
     ------
@@ -187,12 +187,12 @@ def _primes() -> Iterator[int]:
 
 
 def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[int]) -> bool:
-    """Whether equations of some rows are seen to follow from those of W by how rows are combined.
+    """Whether the coefficients of the rows show that equations of some rows follow from those of W.
 
     The rows of a contact combine the equations of four generators: of the gap, two slips and the
-    spin. Where a coefficient of friction is 0 a generator is none, and contacts whose spins
-    are equal, or opposite, have one in common. What holds among the combinations holds among the
-    rows; the converse does not.
+    spin. A coefficient of friction that is 0 leaves out its generator, and contacts whose spins
+    are equal, or opposite, have that generator in common. A dependence among the coefficients is
+    one among the rows; the converse does not hold.
 
     Parameters
     ----------

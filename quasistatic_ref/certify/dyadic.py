@@ -1,7 +1,7 @@
 """Arithmetic without rounding on arrays of float64 numbers.
 
-A finite float64 is an integer times a power of two, and sums and products of such numbers are
-again: one array of Python integers and one common exponent hold them all.
+A finite float64 is an integer times a power of two, and so are sums and products of such numbers:
+one array of Python integers and one common exponent hold them all.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@ By strong convexity any x strictly inside of the cones, and any y inside of them
 .. math:: \tfrac12\|x - x^*\|_H^2 \le f(x) - d(y)
           = \tfrac12\|x - H^{-1}(g + A^T y)\|_H^2 + y^T (A x - b).
 
-The pair comes from Newton's method, if a backend's answer is a good start, and else from an
-interior point in 640 bits, from a cold start. Membership and gap are then computed in balls, where
-a comparison that shows is true.
+The pair comes from Newton's method if a backend's answer is a good start, and otherwise from a cold
+interior point in 640 bits. Membership and gap are then computed in balls: a comparison that
+these decide is true.
 """
 
 from collections.abc import Iterator
@@ -35,8 +35,8 @@ BITS: Final = 640
 lose five digits for each that the gap gains."""
 
 GAP: Final = arb(2) ** -120
-"""Duality gap at which the interior point stops, 1e-36, where the unconstrained step has length
-one: an error of 1e-18."""
+"""Duality gap at which the interior point stops, 1e-36 in units in which the unconstrained step has
+length one: an error of 1e-18."""
 
 RESERVE: Final = 16 * GAP
 """What Newton's pair, far sharper, claims beyond its own gap: `verify` has the interior point's,
@@ -56,7 +56,7 @@ class Enclosure:
     Parameters
     ----------
     delta_q : ndarray, shape (n_v,)
-        [m, rad]; what may be zero is zero.
+        [m, rad]; an entry that is not proved to differ from zero is 0.0.
     lam : ndarray, shape (m,)
         Impulses (n, d1, d2, spin) of each contact [N s, N m s], each inside of its cone as it
         stands, the user's own rows last.
@@ -125,7 +125,7 @@ class Checked:
 def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     """The optimum of a step in the ellipsoid, or None where none can be certified.
 
-    That is where no displacement is strictly inside of all cones, or none at all.
+    It is None where a contact bears load and no displacement strictly inside of all cones is found.
 
     Parameters
     ----------

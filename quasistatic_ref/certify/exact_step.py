@@ -69,7 +69,7 @@ def well_posed(
     ------
     StepIllPosed
     """
-    # Of three loads the longest step is at least a third of the step that they cause together.
+    # Of three loads' steps the longest is at least a third of the step that they cause together.
     if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * free:
         return optimum
     length = relative_length(step, optimum.delta_q, norm)
@@ -79,12 +79,13 @@ def well_posed(
 
 
 def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:
-    """||delta_q||_H relative to what the step asks for by itself [-].
+    """||delta_q||_H over the largest step that the loads or a single row ask for alone [-].
 
-    That is the largest of the unconstrained steps that the target, tau_a and tau_u would each
-    cause alone (together they may cancel, but for rounding), and of max_i b_i / ||a_i||, the
-    shortest step that satisfies the row i alone (a body pushed out of penetration moves however
-    small g is). Without loads and penetration, zero is the optimum.
+    That is the largest of four lengths in the H norm. Three are those of the unconstrained steps
+    that the targets, tau_a and tau_u would each cause alone (together they may cancel, but for
+    rounding). The fourth is max_i b_i / ||a_i||, in the norm of H^-1: the shortest step that
+    satisfies the row i alone (a body pushed out of penetration moves however small g is). Without
+    loads and penetration, zero is the optimum.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 """A guess of a working set that is wrong by a row or two: where walks in floating point lead.
 
-A backend does not see rows that are violated by less than its tolerance, nor does float64 if that
-is less than the rounding of the slack. The proof of its guess does, and names one. The walk from
-there is that of :mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may have made
-wrong: what it leads to is a guess again, and proved like any other.
+A backend does not see rows that are violated by less than its tolerance, nor does float64 see a
+violation below the rounding of the slack. The proof of the guess does, and names one such row. The
+walk from there is that of :mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may
+have made wrong: what it leads to is a guess again, which has to be proved like any other.
 """
 
 import math
@@ -20,11 +20,12 @@ CHANGES = 4
 """Walks before a guess is given up: on the grasp one or two mend those of DAQP."""
 
 DEPENDENT = 1e-9
-"""A row is taken to depend on others if they leave less than this share of its square."""
+"""A row is taken to depend on others if the part of it that they do not span has less than this
+share of its squared length."""
 
 
 class Violated(NamedTuple):
-    """What was found of a guess whose multipliers are positive, but whose minimiser is outside.
+    """A guess whose multipliers are positive, but whose minimiser violates a row.
 
     Parameters
     ----------
@@ -52,7 +53,7 @@ positive but a row is surely violated; or None if something stays undecided."""
 def proved_nearby(
     prove: Callable[[Indices], Proof], guess: Indices, form: StandardForm, inverse: Array
 ) -> ExactOptimum | None:
-    """The optimum proved on a guess, or on what a few walks make of it.
+    """The optimum proved on a guess, or on the working set that a few walks make of it; or None.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def proved_nearby(
 
 
 def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | None:
-    """The working set, ascending, after a walk that adds the violated row; None if it has no end.
+    """The working set, ascending, after a walk that adds the violated row; None if none is reached.
 
     Parameters
     ----------

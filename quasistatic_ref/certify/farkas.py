@@ -34,7 +34,7 @@ class FarkasVector(Plain):
     contradiction : float
         b'y [m] > 0, rounded.
     owners : dict of str to list of str
-        The contacts that take part, each with the names of its rows.
+        The contacts with a positive entry of y, each with the names of these rows.
     """
 
     y: Array

@@ -26,11 +26,12 @@ CENTRED: Final = arb(0.5)
 """Centrality above which a step goes for the answer; below, one goes back to the central path."""
 
 LEAST: Final = arb(0.25)
-"""Centrality that every step keeps. At 1e-3 a step back costs what the one before it gained: single
-steps never end; between 0.1 and 0.3 grasps take least time."""
+"""Centrality that every iteration keeps. At 1e-3 an iteration back to the path loses what the one
+before it gained, so that some steps are never solved; between 0.1 and 0.3 grasps take least
+time."""
 
 BACKTRACKS: Final = 60
-"""Shortenings of a step, by a quarter each, to keep that."""
+"""Most shortenings of a step, by a quarter each, until it keeps LEAST."""
 
 Vector = list[arb]
 

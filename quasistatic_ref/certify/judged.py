@@ -2,10 +2,10 @@ r"""The bound that an uncertified answer claims, proved from the exact optimum.
 
 .. math:: \|x - x^*\|_H^2 + 2 (f(x^*) - d(\lambda)) \le (\text{error\_bound}\; \|H^{-1} g\|_H)^2
 
-bounds the displacement and the multipliers in one number: the second term is zero for optimal
-multipliers alone. It is what :mod:`~quasistatic_ref.certify.bound` proves when the optimum is not
-known: with a feasible x' at the distance w from x, f(x') - d >= f(x') - f(x*) + f(x*) - d, and the
-triangle inequality does the rest. Here all of it is rational, and compared without a root.
+bounds the errors of displacement and multipliers in one number: the second term is zero for optimal
+multipliers alone. Where the optimum is not known, :mod:`~quasistatic_ref.certify.bound` proves this
+claim: a feasible x' has 1/2 ||x' - x*||_H^2 + f(x*) - d <= f(x') - d, and the triangle inequality
+adds ||x - x'||_H. Here all terms are rational, and compared without a root.
 """
 
 import math
@@ -23,7 +23,8 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 
 WORTHLESS = 1.0
-"""An error bound above it says less than that standing still is as good."""
+"""The largest error bound that says anything: where no contact penetrates, x = 0 and lam = 0 have
+an error bound of 1."""
 
 
 def bound_verdict(

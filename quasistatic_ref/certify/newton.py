@@ -23,13 +23,14 @@ from quasistatic_ref.certify.scaled_blocks import largest
 from quasistatic_ref.step.data import Array
 
 EPSILON: Final = arb(2) ** -60
-"""Each iteration gains its digits at most; as many bits are lost to the linear systems."""
+"""An iteration gains at most the 60 bits of this number; its linear systems lose as many."""
 
 INWARDS: Final = arb(2) ** -200
-"""How far a pair is moved inside of all cones: its gap is of that size, below what is claimed."""
+"""How far a pair is moved inside of all cones: its gap is then of that size, far below the gap that
+is claimed."""
 
 SETTLED: Final = arb(2) ** -220
-"""Change below which iterations end: it is less than INWARDS."""
+"""Change below which iterations end; less than INWARDS."""
 
 ITERATIONS: Final = 12
 """From nine digits five are enough; a wrong guess of what sticks may not settle at all."""

@@ -10,15 +10,16 @@ ROUNDS = 500
 """Corrections of the direction. A heap of 100 boxes needs some ten, a row of 160 a hundred."""
 
 NEAR = 1.0
-"""Slack [-] in natural units up to which A_i d > 0 is demanded of a row: the others stay feasible
-when x is moved by as little as a solver's rounding."""
+"""Slack [-] in natural units up to which a row a_i must have a_i v > 0: all other rows stay
+feasible when x is moved along v by as little as a solver's rounding."""
 
 RIDGE = 1e-3
-"""Added to the diagonal of A'A, whose rows have length one: bodies that touch nothing."""
+"""Added to the diagonal of A'A, the rows of A having length one: without it A'A is singular where a
+body touches nothing."""
 
 
 def opening(A: csc_matrix, slack: Array) -> Array | None:
-    """A direction d with A_i d > 0 in all rows that are nearly tight, or None.
+    """A direction v with a_i v > 0 for all rows a_i that are nearly tight, or None.
 
     Parameters
     ----------
@@ -30,7 +31,7 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
     Returns
     -------
     ndarray, shape (n_v,), or None
-        Found by accelerated alternating projections; nothing is claimed about it.
+        Found by accelerated alternating projections; the caller has to check it.
     """
     length = np.sqrt(np.bincount(A.indices, A.data * A.data, minlength=len(slack)))
     near = slack <= NEAR
@@ -38,11 +39,12 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
         return None
     scale = np.divide(near, length, out=np.zeros(len(slack)), where=near)
     B = (diags(scale) @ A).tocsc()
-    # A ridge instead of a pseudo-inverse, which would fill: the same limit in a few more rounds.
+    # A ridge, since a pseudo-inverse would be dense: the same limit in a few more rounds.
     normal = (B.T @ B + RIDGE * identity(B.shape[1])).tocsc()
     factor = splu(normal, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
     d = before = np.zeros(B.shape[1])
-    # Alternating projections of z = B d to {z >= 1} and to the range of B (Cheney, Goldstein 1959).
+    # Alternating projections of z = B v (d here) to {z >= 1} and to the range of B: Cheney and
+    # Goldstein (1959).
     for k in range(ROUNDS):
         short = np.maximum(near - B @ d, 0.0)
         if short.max(initial=0.0) < 0.5:

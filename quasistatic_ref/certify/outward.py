@@ -8,7 +8,7 @@ from quasistatic_ref.step.data import Array
 
 
 def above(values: Array) -> Array:
-    """The next float64 numbers above `values`, shape (n,) or any [-]: bounds of one operation."""
+    """The next float64 numbers above `values`, shape (n,) or any [-]: bounds of exact results."""
     return np.asarray(np.nextafter(values, np.inf))
 
 

@@ -1,15 +1,15 @@
-r"""The bound of the error of an answer in float64 alone, its own rounding bounded beforehand.
+r"""The bound of the error of an answer in float64 alone, with a bound of its own rounding added.
 
-As :mod:`~quasistatic_ref.certify.bound`, of which it decides the common case: with a direction d,
-A d > 0, x' = x + t d is feasible, and
+The bound is that of :mod:`~quasistatic_ref.certify.bound`, for the common case in which float64
+suffices: with a direction v, A v > 0, x' = x + t v is feasible, and
 
-.. math:: \|x - x^*\|_H \le t\,\|d\|_H
-          + \big((\|r\|_{H^{-1}} + t\,\|d\|_H)^2 + 2\,y^T(A x' - b)\big)^{1/2},
+.. math:: \|x - x^*\|_H \le t\,\|v\|_H
+          + \big((\|r\|_{H^{-1}} + t\,\|v\|_H)^2 + 2\,y^T(A x' - b)\big)^{1/2},
           \qquad r = H x - g - A^T y.
 
-Each sum is off by at most so many u = 2^-53 of the sum of its absolute values, in whatever order
-it is taken; H, g and A are those of the step's numbers without rounding. How many is derived in
-the documentation, on the page of exact answers.
+H, g and A mean those that the step's numbers give without rounding. The rounding of a sum, in
+whatever order it is taken, is at most a certain multiple of u = 2^-53 times the sum of the absolute
+values of its terms. The documentation derives these multiples on the page of exact answers.
 """
 
 import math
@@ -28,14 +28,15 @@ U = 2.0**-53
 """Largest relative error of one operation."""
 
 EXTRA_SLACK, EXTRA_BALANCE, EXTRA_TRANSPOSE, EXTRA_ENERGY = 8, 4, 8, 8
-"""Roundings of A x - b, of H x - g, of A'y and of ||H^-1 g||^2 beyond those of their n (or k)
-products."""
+"""Roundings of A x - b, H x - g, A'y and ||H^-1 g||^2 beyond n, n, k and 4 n: n coordinates, and k
+positive multipliers."""
 
 MORE = 1 + 2.0**-30
-"""For the rounding of bounds themselves: sums of up to 2^20 numbers that are not negative."""
+"""Covers the rounding of the bounds themselves, sums of up to 2^20 numbers that are not negative,
+and the relative rounding u of a slack."""
 
 UNDERFLOW = 2.0**-500
-"""More than what is lost below the range of float64, where units are in RANGE."""
+"""More than products lose below the range of float64, if all units are in RANGE."""
 
 RANGE = 2.0**-100, 2.0**100
 
@@ -48,15 +49,16 @@ class Rounded(NamedTuple):
     x, y : ndarray, shapes (n_v,) and (m,)
         The answer, y >= 0 [-].
     reach : ndarray, shape (n_c, n_v)
-        Above the absolute values that each contact's rows of A are summed of [-].
+        For the rows of A of each contact, an upper bound of the sums of the absolute values of the
+        terms of each entry [-].
     slack, balance : ndarray, shapes (m,) and (n_v,)
         A x - b and H x - g - A'y in float64 [-].
     off_slack : float
-        Bound of the error of a slack, but for u times its size [-].
+        Bound of the error of each slack, apart from u times its absolute value [-].
     off_balance : ndarray, shape (n_v,)
-        Bound of that of the balance [-].
+        Bound of the error of each entry of the balance [-].
     load : ndarray, shape (n_v,)
-        Above the absolute value of g, and of what it is summed of [-].
+        Upper bound of |g|, and of the sums of the absolute values of the terms of g [-].
     """
 
     x: Array
@@ -139,7 +141,7 @@ class FloatBound:
     def rounded(
         self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, y: Array
     ) -> Rounded:
-        """The sums of an answer.
+        """The sums of the bound for an answer, and how far rounding may have moved them.
 
         Parameters
         ----------
@@ -167,7 +169,7 @@ class FloatBound:
         return Rounded(x, y, reach, slack, balance, off_slack, U * sums + lost, load)
 
     def weight(self, mu: Array) -> Array:
-        """How much of each row of J is in a row of A at most, shape (n_c, 4), for a `mu`."""
+        """The largest factor of each row of J in a row of A, shape (n_c, 4), for a `mu`."""
         if mu is not self._mu:
             sliding = 1 + mu[:, :1]
             self._weight = np.hstack([sliding, sliding, sliding, mu[:, 2:]])
@@ -180,14 +182,14 @@ class FloatBound:
         return float(g.dot(self.inverse).dot(g)) - MORE * off
 
     def moved(self, step: StepData, form: StandardForm, at: Rounded) -> tuple[float, float] | None:
-        """Bounds of t ||d||_H and y'(A x' - b) [-]; None if no d with A d > 0 is found."""
+        """Bounds of t ||v||_H and y'(A x' - b) [-]; None if no v with A v > 0 is found."""
         if not at.y.size:
             return 0.0, 0.0
         for again in (False, True):
             found = self.opening(step, again)
             if found is None:
                 return None
-            d, length = found
+            d, length = found  # v above, and its length
             opened = form.A.dot(d)
             off = U * (len(d) + EXTRA_SLACK) * float(at.reach.dot(np.abs(d)).max()) + UNDERFLOW
             least = float(opened.min()) - off
@@ -198,7 +200,7 @@ class FloatBound:
         return None
 
     def opening(self, step: StepData, again: bool) -> tuple[Array, float] | None:
-        """A direction in natural units, (n_v,), and ||d||_H at most: the last one, or `again`."""
+        """The kept v in natural units, (n_v,), or `again` a new one; and a bound of ||v||_H."""
         if again or self._opening is None:
             d = opening_direction(step)
             if d is None:

@@ -37,8 +37,8 @@ def nearest_fraction(x: fmpq) -> float:
 def nearest_in(ball: arb) -> float | None:
     """The float64 nearest to every number in a ball, or None if there is no such float64.
 
-    None is what an exact zero gives unless its ball is exact, and a number half-way between
-    two float64 numbers.
+    None mostly means that the ball has a radius and holds zero, or a number half-way between two
+    float64 numbers.
     """
     x = float(ball) + 0.0  # of its midpoint: a candidate, never -0.0
     below, above = math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
@@ -56,7 +56,7 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
     Returns
     -------
     ndarray, shape (balls,)
-        [of the unit of the balls].
+        The float64 numbers [of the unit of the balls].
     ndarray of bool, shape (balls,)
     """
     midpoints = [float(ball) for ball in balls]
@@ -64,7 +64,8 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
     x = np.array(midpoints) + 0.0  # never -0.0
     with np.errstate(over="ignore", invalid="ignore"):
         gap = np.minimum(np.nextafter(x, np.inf) - x, x - np.nextafter(x, -np.inf))
-    # Half of a gap is a float64, or 0 of the least: what is not below it is not rounded below it.
+    # gap / 2 is a float64 (0 of the least gap): an error that is not below it is not rounded to a
+    # number below it.
     shown = (off < gap / 2) | (off == 0) & (x == 0)
     for i in np.flatnonzero(~shown & (off <= 2 * gap)).tolist():  # a power of two, or subnormal
         value = nearest_in(balls[i])
@@ -101,7 +102,7 @@ def decimal_string(x: Fraction, digits: int) -> str:
 
 
 def _exact(point: arb) -> float:
-    """Return the float64 nearest to a ball without radius; infinite for an infinite one."""
+    """Return the float64 nearest to a ball without radius; NaN if the ball is not finite."""
     if not point.is_finite():
         return float("nan")  # unequal to itself: never taken for an answer
     m, e = point.man_exp()

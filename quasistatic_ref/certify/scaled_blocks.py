@@ -19,15 +19,16 @@ class ScaledBlocks:
     ----------
     problem : Blocks
     blocks : list of range
-        Rows of A of each contact, then each row of the user's own.
+        The rows of A of each contact, then one block for each row of the user's own.
     mu : list of arb
         What each row of A is multiplied by: 1, mu_v, mu_v, mu_omega; 1 for own rows.
     root : list of arb
         Unit of each coordinate.
     length : list of arb
-        Of the rows of each block.
+        Unit of the rows of each block: their largest absolute entry; 1 if all are zero.
     size : arb
-        Of the step.
+        Unit of the step: ||H^-1 g||_H, or the largest gap in units of `length` if g is zero; 1 if
+        all gaps are zero, too.
     """
 
     problem: Blocks
@@ -38,7 +39,7 @@ class ScaledBlocks:
     size: arb
 
     def pair(self, found: Pair) -> Pair:
-        """A pair of the program in the units of the form."""
+        """The same pair in the units of the form: `found` is one of the program."""
         scaled = [self.size * r * v for r, v in zip(self.root, found.x.entries(), strict=True)]
         s = [
             [self.size * ell * v for v in s_j]
@@ -49,7 +50,7 @@ class ScaledBlocks:
         return Pair(arb_mat(len(scaled), 1, scaled).mid(), s, y)
 
     def start(self, form: ExactForm, delta_q: Array, lam: Array) -> tuple[arb_mat, list[list[arb]]]:
-        """The x and y of the program that an answer in SI units is, shapes (n_v,) and (m,)."""
+        """An answer in SI units as x and y of the program, shapes (n_v,) and (m,)."""
         coordinates = zip(self.root, delta_q.tolist(), strict=True)
         x = [(arb(v) / (form.x_unit * self.size * r)).mid() for r, v in coordinates]
         y = [
@@ -98,6 +99,6 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
 
 
 def largest(values: list[arb]) -> arb:
-    """The largest size among some numbers [of their unit]; 1 where all are zero."""
+    """The largest absolute value of some numbers [of their unit]; 1 if all are zero, or none."""
     most = max((abs(v).mid() for v in values), default=arb(0))
     return most if most > 0 else arb(1)

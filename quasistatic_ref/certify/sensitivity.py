@@ -12,8 +12,8 @@ for independent rows W that span S. Whether they stay is decided for each parame
   parameter; it grows everywhere else or nowhere, so one other value decides. (All six rows of a
   sticking contact change together and keep their rank of four; the gap of one of two equal contacts
   breaks it.)
-- A row without slack that is not strictly active must keep its slack of zero: it would hold on
-  one side and let go on the other. Its equation is then consistent with those of S, too.
+- A row without slack that is not strictly active must keep its slack of zero: otherwise it would
+  hold on one side and let go on the other. Its equation then stays consistent with those of S.
 - A friction coefficient that is zero cannot become smaller.
 """
 

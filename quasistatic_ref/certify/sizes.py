@@ -24,8 +24,8 @@ UNIT = 2.0**-53
 ROUNDINGS = 10
 """Roundings from a number of the step to a result, beyond one for each term of the longest sum.
 
-The sizes of A'lam have most of them: cone to coefficients (terms), mu_v (1), axes (3), J' (4, of
-which the last are among the terms), and twice the addition of H x and g."""
+The sizes of H x - g - A'lam have most: with c rows of A in a column, the sums over these rows and
+their contacts together c at most, mu (1), axes (3), J' (4), and two sums with H x and g (2)."""
 
 LARGEST = 2.0**100
 """Numbers in natural units beyond it are given no bound."""

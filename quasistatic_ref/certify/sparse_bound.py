@@ -1,13 +1,14 @@
 r"""A rigorous bound of the error of an answer to a large step, in float64.
 
-The theorem of :mod:`~quasistatic_ref.certify.bound` for a point x' = x + t d that is never
-formed: with r = H x - g - A'y, s = A x - b and y >= 0, if s + t A d >= 0, then
+The theorem of :mod:`~quasistatic_ref.certify.bound` for a point x' = x + t v that is never
+formed: with r = H x - g - A'y, s = A x - b and y >= 0, if s + t A v >= 0, then
 
-.. math:: \|x - x^*\|_H \le t \|d\|_H
-          + \sqrt{(\|r\|_{H^{-1}} + t \|d\|_H)^2 + 2 y^T s + 2 t\, y^T A d}.
+.. math:: \|x - x^*\|_H \le t \|v\|_H
+          + \sqrt{(\|r\|_{H^{-1}} + t \|v\|_H)^2 + 2 y^T s + 2 t\, y^T A v}.
 
-H, g, A and b are those of the exact step; what is computed of them is off by no more than
-:mod:`~quasistatic_ref.certify.sizes` says. Every number below is moved outwards.
+H, g, A and b are those of the exact step. How far float64 may be from them, and from their products
+with x, v and y, is what :mod:`~quasistatic_ref.certify.sizes` bounds. Every operation below is
+rounded outwards.
 """
 
 import math
@@ -47,7 +48,7 @@ class Metric:
 
     @cached_property
     def most(self) -> Array:
-        """What each coordinate squared adds to d'Hd at most, shape (n_v,): the sum of its row."""
+        """Row sums of |H|, rounded up, shape (n_v,): v'Hv is at most their product with v^2."""
         total = np.asarray(abs(self.H).sum(axis=0)).ravel()
         return above(total + rounding(self.entries, total))
 
@@ -58,7 +59,7 @@ class Metric:
 
     @cached_property
     def factor(self) -> SuperLU:
-        """Of H, in float64."""
+        """The factors L and U of H, in float64."""
         return splu(self.H)
 
     def sizes(self, x: Array) -> Array:
@@ -91,7 +92,7 @@ class LargeForm:
 def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:
     """A bound of ||x - x*||_H / ||H^-1 g||_H [-], infinite where none is known.
 
-    Its square bounds ||x - x*||_H^2 + 2 (f(x*) - d(lam)) over ||H^-1 g||_H^2 as well.
+    Its square bounds ||x - x*||_H^2 + 2 (f(x*) - d(lam)) over ||H^-1 g||_H^2, too.
 
     Parameters
     ----------
@@ -110,7 +111,7 @@ def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:
     s, e = form.A @ x - form.b, rounding(sizes.row_terms, sizes.rows(x) + np.abs(form.b))
     low, work, way = below(s - e), total_of_products(y, above(s + e)), 0.0
     if low.min(initial=0.0) < 0:
-        d = opening(form.A, s)
+        d = opening(form.A, s)  # v above
         if d is None or not float(np.abs(d).max()) <= LARGEST:
             return math.inf
         opens, e = form.A @ d, rounding(sizes.row_terms, sizes.rows(d))
@@ -128,7 +129,7 @@ def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:
 
 
 def free_length(form: LargeForm) -> float:
-    """A lower bound of ||H^-1 g||_H [-]: it is the largest g'z / ||z||_H."""
+    """A lower bound of ||H^-1 g||_H [-], which is the largest g'z / ||z||_H of any z."""
     metric, sizes = form.metric, form.sizes
     z = np.asarray(metric.factor.solve(form.g))
     if not float(np.abs(z).max(initial=0.0)) <= LARGEST:

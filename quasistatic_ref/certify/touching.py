@@ -109,7 +109,7 @@ def bearing(rows: Array, lam: Array, size: float) -> Mask:
     lam : ndarray, shape (k,)
         One optimal lam.
     size : float
-        Compared with which a multiplier is nothing [of lam].
+        Size of the step, to which multipliers are compared [of lam].
     """
     bears: Mask = lam > BEARING * size
     if bears.all() or not size:  # without a load nothing bears

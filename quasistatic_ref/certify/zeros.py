@@ -1,13 +1,13 @@
 r"""Zeros of the minimiser on a working set: slacks of other rows, and coordinates.
 
 No ball shows that a number is zero, and no float64 does. Most zeros follow from the working set's
-equations alone. Others are due to what does not act: a ball that spins under its own weight does
-not slide, because nothing pushes it along. Those are read from the rational solution.
+equations alone. Other zeros follow from the loads: a ball that spins under its own weight does not
+slide, because nothing pushes it along. These are read from the rational solution.
 
 With zeros of the second kind a row e without slack may be one that W does not span. Then whether
 the multipliers are unique and delta_q is differentiable depends on which combinations of such rows
-W spans (:mod:`~quasistatic_ref.certify.degeneracy`). If it spans their sum, as it does where both
-directions of a slip are closed, they all are strictly active, and lam is not unique.
+W spans (:mod:`~quasistatic_ref.certify.degeneracy`). If W spans the sum of these rows, as it does
+where both directions of a slip are closed, all of them are strictly active, and lam is not unique.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ from quasistatic_ref.step.data import StepData
 def zeros_hold(
     step: StepData, working: Sequence[int], rows: Sequence[int], coordinates: Sequence[int]
 ) -> bool:
-    """Whether some slacks and x are zero, all of them, and W spans the sum of the rows.
+    """Whether some slacks and coordinates are all zero, and W spans the sum of these rows.
 
     Parameters
     ----------

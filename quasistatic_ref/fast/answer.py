@@ -17,7 +17,7 @@ NONE_OF_OWN = np.zeros(0)
 def as_said(
     step: StepData, solver: Solver, units: Units | None, accuracy: float
 ) -> StepSolution | None:
-    """The solution of a step whose program is written in C, as the backend says it.
+    """The solution of a step whose program compiled code has written, as the backend gives it.
 
     Parameters
     ----------
@@ -32,7 +32,8 @@ def as_said(
     -------
     StepSolution or None
         That of :func:`~quasistatic_ref.solve.solve.solved` with ``certify="off"``, to the last bit;
-        None where that has more to do: options to try, rows out of reach, or a step to refuse.
+        None where `solved` has more to do: further options to try, rows out of reach, or a step to
+        refuse.
     """
     if units is None or not isinstance(solver, NativeSolver) or solver.adapter.NEAR:
         return None
@@ -45,7 +46,7 @@ def _as_said(
     attempt = solver.attempts(accuracy)[0]
     try:
         reply = solver.reply(attempt, None)
-    except Exception:  # whatever another package raises; it raises it again, or does not
+    except Exception:  # whatever another package raises: `solved` tries again
         return None
     if not reply.solved or reply.x is None or reply.lam is None:
         return None

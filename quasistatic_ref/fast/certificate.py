@@ -26,11 +26,11 @@ ARRAYS = (
 """The fields of ``Proof`` in proof.h."""
 
 DECIDED, NEGATIVE, TO_BE_IMPLIED = 0, 7, 8
-"""What a proof comes to: it is one; a row is violated; or it is one if the working set implies
-some zeros."""
+"""Outcomes of a proof: it holds; a row is violated; or it holds if some numbers are proved to be
+zero."""
 
 LARGEST = 64
-"""Most coordinates: the work grows with their cube, the room for the matrix with their square."""
+"""Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
 class Prover:
@@ -90,7 +90,8 @@ class Prover:
         Returns
         -------
         ExactOptimum, Violated or None
-            None where something stays open: nothing is known then.
+            Violated if a slack is proved negative; None
+            where something stays open: nothing is known then.
         """
         working, s = guess.tolist(), self.s
         if not self.usable or len(working) > step.n_v:
@@ -123,7 +124,7 @@ class Prover:
 
 
 def vectors(step: StepData) -> dict[str, Array]:
-    """What changes from step to step, but J: arrays of shape (their size,)."""
+    """What changes from step to step, apart from J: flat arrays of shape (their size,)."""
     contacts = step.contacts
     mu = contacts.mu
     return {

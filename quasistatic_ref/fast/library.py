@@ -2,7 +2,7 @@
 
 A compiler is looked for in this order: the command that ``QUASISTATIC_REF_CC`` names (``none`` asks
 for no compiled code at all), the system's ``cc``, ``gcc`` or ``clang``, and the Python package
-``ziglang``, which the extra ``[fast]`` brings. What it makes is kept in the user's cache folder,
+``ziglang``, which the extra ``[fast]`` brings. The library is kept in the user's cache folder,
 ``XDG_CACHE_HOME`` or ``~/.cache``, under a name that follows from the source and the command.
 """
 
@@ -29,7 +29,7 @@ SOURCES = (
 )  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
-"""The last but two: no compiler may join a product and a sum that the source keeps apart."""
+"""The third: no compiler may join a product and a sum that the source keeps apart."""
 
 
 FUNCTIONS = {
@@ -42,7 +42,7 @@ FUNCTIONS = {
     "hessian": ctypes.c_int,
     "proof": ctypes.c_int,
 }
-"""What each function of the address of a structure returns."""
+"""What each function returns; its one argument is the address of a structure."""
 
 
 class CompileError(Exception):

@@ -1,4 +1,4 @@
-"""A step's program in natural units, written where its solver keeps it."""
+"""A step's program in natural units, written into the arrays of its solver."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ ARRAYS = (
 """The fields of ``Natural`` in natural.c."""
 
 MOST = 1024
-"""Coordinates for which ``OFF`` in natural.c is enough."""
+"""Most coordinates for which ``OFF`` in natural.c is enough."""
 
 
 class NaturalProgram:
@@ -28,10 +28,10 @@ class NaturalProgram:
     Parameters
     ----------
     scene : Scene
-        Where the steps' g, A and b are.
+        Holds the steps' g, A and b.
     solver : NativeSolver
     program : Program
-        Its own.
+        That of the solver.
     metric : Metric
         Of H.
     """
@@ -52,7 +52,7 @@ class NaturalProgram:
                 "inverse": metric.inverse,
                 "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
                 "f": program.f, "natural_b": program.b,
-                # In either order of memory, of which C is told:
+                # In either order of memory; `row` and `column` say in which:
                 "natural_A": program.A.ravel(order="K"),
             }
         )  # fmt: skip
@@ -60,17 +60,17 @@ class NaturalProgram:
         assert all(np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b"))
 
     def fits(self, solver: Solver, step: StepData) -> bool:
-        """Whether it writes a step into the arrays of a solver in the units of its H."""
+        """Whether a step can be written into a solver's arrays: both have the H of this program."""
         own, metric = self._solver, self._metric
         return solver is own and own.metric is metric and metric.H is step.H
 
     def written(self) -> Units | None:
-        """The units of the step that the scene holds; its program is written in them now.
+        """Write the program of the step that the scene holds, and return its natural units.
 
         Returns
         -------
         Units or None
-            None where an order of sums decides on a unit.
+            None where the rounding of a sum, which depends on its order, decides on a unit.
         """
         if not self._write(self._structure.address):
             return None

@@ -7,7 +7,7 @@ from quasistatic_ref.step.data import Array
 
 
 class Poses:
-    """The addresses of a workspace of its own, and what moves it to a configuration.
+    """A pinocchio workspace, its addresses, and the functions that move it to a configuration.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Poses:
     columns : ndarray of int, shape (n_x,)
         Addresses of the Jacobian's columns, velocity before angular velocity.
     gravity : ndarray of int, shape (n_v,)
-        Addresses of what stands for gravity on the left of M dv + g = tau, in the paper's order.
+        Addresses of the entries of g, the gravity term in M dv + g = tau, in the paper's order.
     """
 
     def __init__(self, system: System) -> None:

@@ -1,9 +1,9 @@
-"""In which order NumPy's products of matrices add up: found out, since BLAS does not say.
+"""In which order NumPy's products of matrices are summed: tried out, since BLAS does not say.
 
-NumPy leaves ``@`` to a BLAS, which has kernels for each kind of processor. Those that are in use
+NumPy leaves ``@`` to a BLAS, which has kernels for each kind of processor. The usual kernels
 add the products of an entry one after another, from zero, over rising indices; newer processors
 round a product and its sum together, older ones apart. Compiled code can do either, and must do the
-same.
+same as NumPy.
 """
 
 from collections.abc import Callable

@@ -98,7 +98,7 @@ class Scene(Structure):
 
     def taken(self) -> NDArray[np.void]:
         """What C has written of a step, of shape (): its arrays by their names."""
-        # Of a copy, which cannot be written; one of fields takes ten times as long.
+        # A copy of the bytes is read-only; copying field by field takes ten times as long.
         return np.ndarray((), self.given, self._bytes.tobytes())
 
     @property
@@ -167,9 +167,9 @@ def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:
 
 
 def cone_terms(name: str) -> dict[str, Array | Indices]:
-    """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which they have; (R, 3).
+    """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which terms exist; (R, 3).
 
-    A term of coefficient zero is not the same as none: it can change the sign of a zero.
+    A term with coefficient zero differs from no term: it can change the sign of a zero.
     """
     of_nan = cone_function(name)(0.0, *np.where(np.eye(3) > 0, np.nan, 0.0))
     has = np.isnan(np.array([np.broadcast_to(row, 3) for row in of_nan]))

@@ -26,7 +26,7 @@ class Screws:
     ----------
     system : System
     poses : Poses
-        Whose configuration q they start from.
+        Its configuration q is where sums and differences start.
     """
 
     def __init__(self, system: System, poses: Poses) -> None:

@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
 TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
-"""What a step takes of what C has written."""
+"""The fields of a step among those that C has written."""
 
 SURELY = 1 - 2.0**-40
-"""For the rounding of a sum of squares, of 2^-53 of each."""
+"""Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
 
 
 def taken_by(simulator: Simulator) -> str:
@@ -83,9 +83,9 @@ T = TypeVar("T", PosedContacts, PosedStep)
 
 
 def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
-    """Posed data of a `kind` of their fields: the `same` at each step, and their `own`.
+    """Posed data of a `kind`: of fields that are the `same` at each step, and of their `own`.
 
-    Arrays must be such as cannot be written.
+    The arrays must be read-only.
     """
     made = kind.__new__(kind)
     fields = vars(made)
@@ -132,8 +132,8 @@ class CompiledStep:
         Returns
         -------
         StepResult or None
-            None where NumPy turns out to multiply otherwise here, or has an extension to take or a
-            force to refuse.
+            None where NumPy has to take the step: the first step's matrices differ from NumPy's,
+            the simulator has an extension, or the force has another shape.
         """
         shape = () if isinstance(force, float) else np.shape(force)
         if simulator.extension is not None or (shape and shape != self.force.shape):
@@ -180,9 +180,9 @@ class CompiledStep:
     def step_data(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
     ) -> tuple[ClosestPoints, StepData, StandardForm, float]:
-        """The closest points, the problem of one step, its matrices until the next, the least gap.
+        """The closest points, the problem of one step, its matrices and its least gap [m].
 
-        The last is in [m].
+        The arrays A and b of the matrices are overwritten by the next step.
         """
         scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
         delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
@@ -212,7 +212,7 @@ class CompiledStep:
         return solved(step, solver, accuracy, certify, form, units) if said is None else said
 
     def units(self, solver: Solver, step: StepData) -> Units | None:
-        """The natural units of the step, where its program is written for the solver in them."""
+        """The natural units in which the program of the step is written; None if it is not."""
         program = self.program
         if program is None or not program.fits(solver, step):
             self.program = program = natural_program(self.scene, solver, step)

@@ -29,7 +29,7 @@ class Backend:
     name : str
         Name of the backend: in lower case qpsolvers' name, in upper case CVXPY's.
     method : str
-        What it does, in two words.
+        Its method, in two words.
     attempts : callable
         Accuracy in natural units [-] -> sets of the backend's own options, tried in order until
         one of them solves the step.
@@ -40,14 +40,15 @@ class Backend:
     floor : float
         The least accuracy that it takes, in natural units [-].
     time_limit : str
-        Its option for that [s], if it can stop itself; in a study others are killed from outside.
+        Its option for a time limit [s], if it has one; in a study other backends are killed from
+        outside.
     warm : tuple of str
         ``"cvxpy"``, ``"qpsolvers"``: interfaces that hand on a start; others drop it. (Of an
         interior point a warm start reuses the set-up, not the point.)
     adapter : str
         Class in ``adapters/NAME.py``, where the native engine reaches it.
     sparse : int
-        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices where
+        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices, if
         steps are not certified exactly; 0 if it takes none.
     cvxpy : bool
         Whether CVXPY has an interface to it.
@@ -136,7 +137,7 @@ def _piqp(accuracy: float) -> Attempts:
     # 7e-8 to 4e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
-    # With so little a step of a heap now and then stalls, which its own settings solve.
+    # With so little regularisation it stalls at single steps of a heap; its defaults solve them.
     own = {"reg_lower_limit": 1e-10, "reg_finetune_lower_limit": 1e-13, "preconditioner_iter": 10}
     # The gap is a difference of sums over all rows: with thousands of rows rounding alone leaves
     # 1e-14 to 4e-13 of it, at an answer that is right to 1e-14.
@@ -204,20 +205,22 @@ BACKENDS: dict[str, Backend] = {
     )
 }  # fmt: skip
 UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
-"""Backends from which not every step came back."""
+"""Backends that did not return from every step."""
 DEFAULT = "clarabel"
-"""Of a single step, through CVXPY: it takes every cone and every extension."""
+"""Backend of a single step, through CVXPY: it takes every cone and every extension."""
 DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT
-"""Of small steps of runs, natively: the fastest; certified ones have the same bits with any."""
+"""Backend of small steps of runs, natively: the fastest; certified steps have the same bits with
+any backend."""
 DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
-"""Of large steps that are not certified exactly: sparse, in half of the time of DEFAULT."""
+"""Backend of large steps that are not certified exactly: with sparse matrices, in half of the time
+that DEFAULT takes."""
 NONE = "none"
 """No backend: the exact method from a cold start."""
 
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
 def installed(interface: str) -> tuple[str, ...]:
-    """Backends of the table that are here, by ``"cvxpy"``, ``"qpsolvers"`` or ``"native"``."""
+    """The installed backends, reached by ``"cvxpy"``, ``"qpsolvers"`` or ``"native"``."""
     if interface == "native":
         return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.name))
     if interface == "qpsolvers":

@@ -24,13 +24,13 @@ STEPS = 200
 """Most Newton steps; twenty are usual."""
 
 SHORTEN = 0.99
-"""Share of the way to the nearest row or multiplier of zero that a step may take."""
+"""Share of the way that a Newton step may take, until the first slack or multiplier is zero."""
 
 NOTHING = 1e-200
-"""The same where nothing moves."""
+"""Newton's step in the H norm at which the method is done if nothing moves [(N m s)^0.5]."""
 
 SETTLED = 1e-14
-"""Newton's step over the displacement, in the H norm, at which it is done [-]: rounding."""
+"""Newton's step over the displacement, in the H norm, at which the method is done [-]: rounding."""
 
 
 class Barrier(NamedTuple):

@@ -24,7 +24,7 @@ ENGINES = (CVXPY, NATIVE)
 
 
 def check_solver(name: str, engine: str, cone_name: str) -> None:
-    """Refuse an engine that there is not, or that does not reach a backend and a cone.
+    """Refuse an engine that does not exist, or does not reach a backend and a cone.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def check_solver(name: str, engine: str, cone_name: str) -> None:
 
 
 def default_backend(engine: str | None, cone_name: str, certify: str, entries: int = 0) -> str:
-    """The backend of a simulator that names none: that of a single step, or natively the fastest.
+    """The backend of a simulator that names none: natively the fastest, otherwise DEFAULT.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def default_backend(engine: str | None, cone_name: str, certify: str, entries: i
     cone_name : str
     certify : str
     entries : int
-        Of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0.
+        Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; otherwise 0.
     """
     if engine == CVXPY or not cone(cone_name).polyhedral:
         return DEFAULT
@@ -74,7 +74,7 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     name : str
         Of the backend; with ``qpsolvers:`` it is reached without CVXPY.
     engine : str
-        ``"cvxpy"``, or ``"native"``: the backend's own interface, some ten times faster.
+        ``"cvxpy"``, or ``"native"``: the backend's own interface, which is faster.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     check_solver(name, engine, step.cone)
     if name == NONE:
         return NoSolver(step)
-    # Others are imported when they are used: a short run takes less time than their packages.
+    # The classes are imported where they are used: their packages take longer than a short run.
     if engine == NATIVE:
         if not cone(step.cone).polyhedral:
             from quasistatic_ref.solve.second_order import ConeSolver
@@ -107,7 +107,7 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
 def sparse_from(engine: str, name: str, certify: str, cone_name: str) -> int:
     """Entries of J, 4 n_c n_v, from which steps are handed over in blocks; 0 if they never are.
 
-    They are natively, where a cone has rows and nothing is certified exactly.
+    They can be natively, where the cone is polyhedral and nothing is certified exactly.
     """
     may = engine == NATIVE and certify != "full" and cone(cone_name).polyhedral
     return BACKENDS[name].sparse if may and name in BACKENDS else 0

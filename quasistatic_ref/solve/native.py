@@ -1,8 +1,8 @@
 """The native engine: a step handed to a backend's own interface, without CVXPY.
 
 What CVXPY would make of a step is its standard form (a test holds them equal); the matrices are
-written into arrays that are kept, in natural units, and the backend is updated in place. Between
-the steps of a simulator it starts from the answer before, where it can.
+written into arrays that are kept, in natural units, and the backend is updated in place. Where it
+can, it starts from its answer to the step before.
 """
 
 from dataclasses import dataclass
@@ -66,12 +66,12 @@ class NativeSolver(Solver):
     name : str
         Of a backend with an adapter.
     warm : bool
-        Whether to start from the answer before, where the backend can.
+        Whether to start from the answer to the step before, where the backend can.
 
     Attributes
     ----------
     written : Units or None
-        Of a step whose g, A and b compiled code has written into the arrays.
+        Natural units of the step whose g, A and b compiled code has written into the arrays.
 
     Raises
     ------
@@ -107,7 +107,7 @@ class NativeSolver(Solver):
 
     def takes(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
-        # Steps whose rows are laid out alike share that layout, which takes no time to see.
+        # Steps of one run share their layout of rows: an identity test, which takes no time.
         alike = step.layout is self.like.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
@@ -130,7 +130,7 @@ class NativeSolver(Solver):
             np.multiply(form.b, 1 / (rho * ell), out=program.b)
         self.written = None
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
-            if self.adapter.ORDER == "C":  # which no cones are made of
+            if self.adapter.ORDER == "C":  # no program with cones is in C order
                 scaled.written = program
             return None
         reach = -reach_of_rows(scaled.step, units)
@@ -138,13 +138,13 @@ class NativeSolver(Solver):
         return np.asarray(program.b == reach)
 
     def reply(self, attempt: Attempt, scaled: Any) -> Reply:
-        """One attempt: from the answer before, where there is one, and else or then cold."""
+        """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
-        if isinstance(program, Program) and not program.b.size:  # which not every backend takes
+        if isinstance(program, Program) and not program.b.size:  # not every backend takes that
             x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
             return Reply(x, np.zeros(0), True, "optimal", 0)
         held: _Held | None = attempt.held
-        attempt.held = None  # one that raises is set up again
+        attempt.held = None  # an adapter that raises is set up again
         if held is None:
             held = _Held(self.adapter(program, attempt.options), self.metric)
         warm = self.warm and held.warm

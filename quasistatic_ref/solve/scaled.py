@@ -55,7 +55,8 @@ class DenseStep:
     Attributes
     ----------
     written : Program or None
-        In natural units, row by row: that of a solver, until it is asked the next step.
+        The solver's program in natural units, stored row by row; valid until the solver writes the
+        next step.
 
     Raises
     ------

@@ -29,7 +29,7 @@ class ConeSolver(NativeSolver):
     name : str
         Of a backend with an adapter that takes cones.
     warm : bool
-        Whether to start from the answer before, where the backend can.
+        Whether to start from the answer to the step before, where the backend can.
     """
 
     def empty(self) -> Program:

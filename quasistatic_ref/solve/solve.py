@@ -84,15 +84,16 @@ def solve_step(
     StepInfeasible
         With ``"full"``, if no displacement satisfies the rows; with the proof.
     StepIllPosed
-        With ``"full"``, if the exact optimum is more than 1e6 times longer than what the step asks
-        for; see :func:`~quasistatic_ref.certify.exact_step.relative_length`.
+        With ``"full"``, if the exact optimum is more than 1e6 times longer than any step that its
+        loads or its penetration ask for alone; see
+        :func:`~quasistatic_ref.certify.exact_step.relative_length`.
     StepNotSolved
         Otherwise, if the backend claims anything but a full solution, or fails the judge.
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
-        If a solver object does not fit the step, `certify` is no such word, or `accuracy` not
-        greater than 0.
+        If a solver object does not fit the step, if `certify` is none of these words, or if
+        `accuracy` is not greater than 0.
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)

@@ -49,7 +49,7 @@ KIND: dict[str, Callable[[StepData], Any]] = {
 
 @dataclass(eq=False)
 class Answer:
-    """What a solver says to a step: claimed to be solved, and finite.
+    """A solver's answer to a step: the solver claims to have solved it, and all numbers are finite.
 
     Parameters
     ----------
@@ -101,9 +101,9 @@ class Solver(ABC):
     hessian : BallHessian or None
         Of the step that was certified last, for those of the same H.
     prover : Prover or None
-        The same in compiled code.
+        Proofs in compiled code for steps of the same kind.
     bound : FloatBound or None
-        Of the step whose error was bounded last, likewise.
+        Of the step whose error was bounded last, for those of the same H and units.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -111,7 +111,7 @@ class Solver(ABC):
     certifies : bool
         Whether its answers can be the start of an exact certificate.
     remembers : bool
-        Whether its answer to a step depends on the steps before.
+        Whether its answer to a step may depend on the steps before.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
     """

@@ -1,7 +1,7 @@
 """Large steps: the sparse standard form handed to a backend's own interface.
 
-As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the entries that are
-there. Nothing here is certified exactly: residuals, and a bound of the error
+As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the number of entries
+that are not zero. Nothing here is certified exactly: residuals, and a bound of the error
 (:mod:`~quasistatic_ref.certify.sparse_bound`), are what can be computed at this size.
 """
 
@@ -30,12 +30,12 @@ GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_re
 
 
 MOST_ITERATIONS = 100
-"""Of an interior point: one that has a gap to reach and does not in 40 stalls. It is then tried
-with other options, for which it would be late after 500."""
+"""Limit of the iterations of an interior-point method: one that has not reached its duality gap
+after 40 mostly stalls, and is tried with other options sooner than after its usual 500."""
 
 
 def reachable(options: Options, rows: int) -> Options:
-    """The same options, with a duality gap that rounding does not hide, or without iterations lost.
+    """Options whose duality gap can be reached, in fewer iterations; the same if they have no gap.
 
     The gap is a difference of sums over all rows, of terms near one in natural units: rounding
     leaves some 2^-52 of each. With a smaller gap Clarabel takes 20 to 30 more steps in search of a
@@ -57,7 +57,7 @@ class SparseSolver(NativeSolver):
     name : str
         Of a backend whose adapter takes sparse matrices.
     warm : bool
-        Whether to start from the answer before, where the backend can.
+        Whether to start from the answer to the step before, where the backend can.
 
     Raises
     ------

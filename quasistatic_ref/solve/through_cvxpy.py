@@ -24,7 +24,7 @@ CANON = cp.CPP_CANON_BACKEND
 another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
 
 KEPT = 2
-"""Compiled programs that are kept: one program in raw and in natural units."""
+"""Most compiled programs that are kept: one problem in raw and in natural units."""
 
 
 class CvxpySolver(Solver):
@@ -128,7 +128,7 @@ class PlainProgram:
         self.problem.get_problem_data(name.upper(), canon_backend=CANON, solver_opts={})
 
     def primal(self) -> Array:
-        """X of the last solve, shape (n,)."""
+        """The x of the last solve, shape (n,)."""
         return np.array(self.x.value, dtype=np.float64)
 
     def dual(self) -> Array | None:

@@ -9,7 +9,7 @@ the diagonal of H becomes about one; ell is one length, such that the rows becom
 rho is the size of the step. The matrices do not depend on rho, because the problem is positively
 homogeneous in (g, phi). With x dimensionless, rho S is in m or rad, rho ell in m and rho / ell in
 N s; rho itself is in the unit of ||v||_H, (N m s)^0.5. All units are powers of two, so the
-conversion loses nothing (short of underflow).
+conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
@@ -74,7 +74,7 @@ class Metric:
 
 
 def metric(H: Array) -> Metric:
-    """Units in which the diagonal of H is about one, and how long a step is."""
+    """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     inverse: Array = np.linalg.inv(H).astype(np.float64)

@@ -1,4 +1,4 @@
-"""OSQP, operator splitting: every entry of A and of H's blocks is kept, zeros included."""
+"""OSQP, operator splitting: dense A and H keep every entry in their pattern, zeros included."""
 
 from typing import Any
 

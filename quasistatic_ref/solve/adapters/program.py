@@ -54,7 +54,7 @@ class Program:
 
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
         """H's upper triangle and A in compressed columns of a fixed pattern, zeros included."""
-        from scipy.sparse import csc_matrix  # not all adapters ask for it
+        from scipy.sparse import csc_matrix  # not all adapters need it
 
         m, n = self.A.shape
         rows, _ = self.upper
@@ -66,7 +66,7 @@ class Program:
 
 @dataclass(frozen=True, eq=False)
 class SparseProgram:
-    """The same program with as many numbers as there are entries.
+    """The same program in compressed columns, without entries that are always zero.
 
     Parameters
     ----------
@@ -147,10 +147,11 @@ class Adapter(Protocol):
     ORDER : str
         ``"C"`` or ``"F"``: the memory order in which it takes A and H.
     WARM : bool
-        Whether its start from the answer before differs from a cold one.
+        Whether it can start from its answer to the step before.
     NEAR : bool
-        Whether it loses digits where gaps of 1e6 stand with numbers of size one. An active-set
-        method does not: rows that are far are never in its set.
+        Whether far contacts have to be written nearer, because it loses digits where gaps of 1e6
+        stand with numbers of size one. An active-set method does not lose any: rows that are far
+        are never in its set.
     """
 
     ORDER: Literal["C", "F"] = "F"
@@ -158,7 +159,7 @@ class Adapter(Protocol):
     NEAR: bool = True
 
     def __init__(self, program: Any, options: dict[str, Any]) -> None:
-        """Set up with the program as it stands: a Program, or a SparseProgram where it takes it."""
+        """Set up with the program as it stands, a SparseProgram only if the backend takes one."""
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands now, from the answer before if `warm`."""
