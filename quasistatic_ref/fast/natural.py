@@ -52,7 +52,7 @@ class NaturalProgram:
                 "inverse": metric.inverse,
                 "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
                 "f": program.f, "natural_b": program.b,
-                # In either order of memory, of which C is told:
+                # In either order of memory; C is given which:
                 "natural_A": program.A.ravel(order="K"),
             }
         )  # fmt: skip

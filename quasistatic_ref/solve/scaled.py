@@ -55,7 +55,7 @@ class DenseStep:
     Attributes
     ----------
     written : Program or None
-        In natural units, row by row: that of a solver, until it is asked the next step.
+        In natural units, row by row: that of a solver, until it solves the next step.
 
     Raises
     ------
