@@ -130,10 +130,7 @@ def command_parser(named: Container[str | None]) -> Parser:
 
 
 def parsers_of(
-    parser: argparse.ArgumentParser,
-    dest: str,
-    actions: Mapping[str, str],
-    metavar: str = "ACTION",
+    parser: argparse.ArgumentParser, dest: str, actions: Mapping[str, str], metavar: str = "ACTION"
 ) -> dict[str, argparse.ArgumentParser]:
     """A parser for each action of a command, by name.
 
