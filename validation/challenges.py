@@ -37,7 +37,7 @@ def piece(runner: str, seed: int, work: Path, jobs: int) -> Json:
         found = challenge(program, cases=PIECE, seed=seed, jobs=jobs)
         for finding in found.findings:
             finding.written(work / f"{runner}_{seed}", COMMANDS[runner])
-        verdicts = {layer: {} for layer in LAYERS if found.asked[layer]}
+        verdicts = {layer: {} for layer in LAYERS if found.sent[layer]}
         for (layer, verdict), count in sorted(found.verdicts.items()):
             verdicts[layer][verdict] = count
         record = {

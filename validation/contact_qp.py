@@ -157,7 +157,7 @@ def figure(lines: Sequence[dict[str, Any]], families: dict[str, Any], path: Path
         for ax in list(axes.flat)[len(shown) :]:
             ax.axis("off")
         handles, labels = axes.flat[0].get_legend_handles_labels()
-        fig.legend(handles, labels, loc="lower right", title="asked for 1e-9")
+        fig.legend(handles, labels, loc="lower right", title="at 1e-9")
         fig.savefig(path, dpi=160)
         plt.close(fig)
 
@@ -187,7 +187,7 @@ def _axes(ax: Axes, family: str, dial: dict[str, Any]) -> None:
 
 
 def main() -> int:
-    """Ask, or with ``--drawn`` only draw what was measured."""
+    """Measure, or with ``--drawn`` only draw what was measured."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--set", type=Path, default=problem_set_folder())
     parser.add_argument("--drawn", action="store_true", help="of the committed rows")

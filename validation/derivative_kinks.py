@@ -167,16 +167,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--kinks", type=int, default=22 * len(FAMILIES))
     parser.add_argument("--log", type=Path)
     parser.add_argument("--out", type=Path)
-    asked = parser.parse_args(arguments)
-    found = list(map(logged(record, asked.log), range(asked.kinks)))
+    options = parser.parse_args(arguments)
+    found = list(map(logged(record, options.log), range(options.kinks)))
     bad = [(one, said) for one in found if (said := faults(one))]
     for one, said in bad:
         print(f"kink {one['i']}, {one['what']} ({one['kind']}): {said}", file=sys.stderr)
     text = page(found)
-    if asked.out is None:
+    if options.out is None:
         print(text, end="")
     else:
-        text_written(asked.out, text)
+        text_written(options.out, text)
     return int(bool(bad))
 
 

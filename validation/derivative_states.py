@@ -180,8 +180,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--states", type=int, default=3000)
     parser.add_argument("--log", type=Path)
     parser.add_argument("--out", type=Path)
-    asked = parser.parse_args(arguments)
-    every = list(records(asked.states, asked.log))
+    options = parser.parse_args(arguments)
+    every = list(records(options.states, options.log))
     found = [one for one in every if "none" not in one]
     missing: dict[str, int] = defaultdict(int)
     for one in every:
@@ -193,10 +193,10 @@ def main(arguments: list[str] | None = None) -> int:
         if error(one) > WITHIN or one["kinks"]:
             print(f"state {one['i']}: {one}", file=sys.stderr)
     text = page(found, missing)
-    if asked.out is None:
+    if options.out is None:
         print(text, end="")
     else:
-        text_written(asked.out, text)
+        text_written(options.out, text)
     return int(any(map(faulty, found)))
 
 

@@ -140,10 +140,10 @@ def main():
     parser.add_argument("--per-couple", type=int, default=6)
     parser.add_argument("--states", type=int, default=12)
     parser.add_argument("--out", type=Path)
-    asked = parser.parse_args()
-    rows = [row("pushes of all couples of shapes", list(pushes(asked.per_couple)))]
+    options = parser.parse_args()
+    rows = [row("pushes of all couples of shapes", list(pushes(options.per_couple)))]
     for name in scenario_names():
-        rows.append(row(f"`{name}`", list(states(name, asked.states))))
+        rows.append(row(f"`{name}`", list(states(name, options.states))))
     spent = milliseconds()
     lines = [
         "# Derivatives of steps against differences",
@@ -159,10 +159,10 @@ def main():
         f"processor time in the median, of {MILLISECONDS:g} ms promised.",
     ]
     text = "\n".join(lines) + "\n"
-    if asked.out is None:
+    if options.out is None:
         print(text, end="")
     else:
-        text_written(asked.out, text)
+        text_written(options.out, text)
     return int(not (all(good for _, good in rows) and spent <= MILLISECONDS))
 
 

@@ -43,8 +43,8 @@ def main() -> int:
     for case, own in CASES.items():
         truth = load_scenario("bunny_grasp", [*own, *settings, "solver.engine=cvxpy"]).run(False)
         for backend in installed("native"):
-            asked = [f"solver.backend={backend}", "solver.engine=native"]
-            run = load_scenario("bunny_grasp", [*own, *settings, *asked]).run(False)
+            solver = [f"solver.backend={backend}", "solver.engine=native"]
+            run = load_scenario("bunny_grasp", [*own, *settings, *solver]).run(False)
             found = differences(truth, run)
             said = f"differs in {', '.join(found[:5])}" if found else "equal bits"
             kinds = sorted(set(run["certificate"].tolist()))

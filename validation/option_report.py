@@ -1,6 +1,6 @@
 """What the log of searched options says, solver by solver, as docs/solver_study.md shows it.
 
-``report(spaces, log)`` is the text; :mod:`validation.option_search` writes it beside the log, from
+``report(spaces, log)`` is the text; :mod:`validation.option_search` writes it next to the log, from
 which every number and every option in it is taken. A solver appears once the log has its search.
 """
 
@@ -81,7 +81,7 @@ def _repeated(solvers: Sequence[str], log: Log) -> Iterator[str]:
 
 
 def _bullet(solver: str, log: Log) -> str:
-    """What to set; what that delivers, beside the defaults; which changes alone do what."""
+    """What to set; what that delivers, and what the defaults do; which changes alone do what."""
     plain, start, best = of(log, solver, "judging")
     words = (
         f"- **{solver}** at `{options_words(best['options'])}` delivers 6 digits on "

@@ -2,10 +2,10 @@
 
 For each solver of ``option_search.toml`` the search is on one half of 200 problems (split by run);
 its best setting and the solver's defaults are judged on the other. The single changes that the
-documentation tells are measured on all problems. Every setting that was tried is a line of
-``validation/results/option_search.jsonl``; what the log says is written beside it. The times are of
-this machine; the digits are not. The log is written after each solver: ``--missing`` goes on with
-those that it does not have.
+documentation names are measured on all problems. Every setting that was tried is a line of
+``validation/results/option_search.jsonl``; what the log says is written next to it. The times are
+of this machine; the digits are not. The log is written after each solver: ``--missing`` goes on
+with those that it does not have.
 """
 
 import argparse
@@ -59,7 +59,7 @@ def lines(solver: str, space: dict[str, Any], every: Sequence[Problem]) -> Itera
 
 
 def written(out: Path, spaces: Spaces, log: list[dict[str, Any]]) -> None:
-    """The log, in the order of the spaces, and beside it what it says."""
+    """The log, in the order of the spaces, and next to it what it says."""
     log.sort(key=lambda one: list(spaces).index(one["solver"]))
     text_written(out, "".join(json_text(one) + "\n" for one in log))
     text_written(out.with_suffix(".md"), report(spaces, log))
@@ -77,11 +77,11 @@ def main(arguments: Sequence[str]) -> None:
     out = options.out
     old = out.read_text("utf-8").splitlines() if out.exists() else []
     kept = [one for one in map(json.loads, old) if one["solver"] in spaces]
-    asked = [s for s in options.solvers or spaces if not (options.missing and is_searched(kept, s))]
+    names = [s for s in options.solvers or spaces if not (options.missing and is_searched(kept, s))]
     failed = []
     with tempfile.TemporaryDirectory() as temporary:
         every = problems(options.problems or temporary)
-        for solver in asked:
+        for solver in names:
             begin = perf_counter()
             try:
                 own = list(lines(solver, spaces[solver], every))

@@ -16,6 +16,7 @@ from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
 from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
 from quasistatic_ref.lab.study.comparison import Comparison, comparison_of
+from quasistatic_ref.lab.study.environment import UNKNOWN
 from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
 from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
 from quasistatic_ref.lab.study.report_words import old_times
@@ -202,4 +203,4 @@ def _trust(first: Columns, rows: list[dict], study: dict) -> Iterator[str]:
     yield f"{most} took the most, {spent[most]:.0f} s of its budget of {study['budget']:g} s."
     yield f"The time limit of {study['time_limit']:g} s ended {late:,} calls,"
     yield f"and {cut:,} calls were not made because a budget was used up."
-    yield f"The processor was {study['machine'].get('processor', 'unknown')}."
+    yield f"The processor was {study['machine'].get('processor', UNKNOWN)}."

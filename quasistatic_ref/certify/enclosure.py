@@ -86,15 +86,17 @@ class Guess:
 
     Parameters
     ----------
-    pair : Pair
-        In the units of the form.
+    x : arb_mat
+    y : list of list of arb
+        By block, both in the units of the form.
     loaded, held : list of bool
         Which blocks seem to bear load, and which to be at their apex.
     reserve : arb
         What is claimed beyond the gap of the pair, where the unconstrained step has length one.
     """
 
-    pair: Pair
+    x: arb_mat
+    y: list[Vector]
     loaded: list[bool]
     held: list[bool]
     reserve: arb
@@ -154,7 +156,7 @@ def _enclosed(
     step: StepData, form: ExactForm, balls: BallForm, frame: ScaledBlocks, guess: Guess
 ) -> Enclosure | None:
     """Return what a guess proves; None if that is too little."""
-    found = _checked(form, balls, frame, guess.pair)
+    found = _checked(form, balls, frame, guess.x, guess.y)
     if found is None:
         return None
     reserve = guess.reserve * frame.size * frame.size  # in the form's units of energy
@@ -190,7 +192,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     with ctx.workprec(bits):
         frame = scaled_blocks(step, form, balls)
         pair = interior_point(frame.problem, gap)
-        return None if pair is None else _checked(form, balls, frame, frame.pair(pair))
+        return None if pair is None else _checked(form, balls, frame, *frame.pair(pair))
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
@@ -229,31 +231,34 @@ def _by_newton(frame: ScaledBlocks, x: arb_mat, y: list[Vector]) -> Iterator[Gue
     pair = newton_pair(frame.problem, x, y, states)
     if pair is not None:
         loaded, held = [state != OPEN for state in states], [state == STICKS for state in states]
-        yield Guess(frame.pair(pair), loaded, held, RESERVE)
+        yield Guess(*frame.pair(pair), loaded, held, RESERVE)
 
 
 def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
     """Return what the interior point found, in the units of the form."""
-    held, pair = [s_j[0] < IDLE for s_j in pair.s], frame.pair(pair)
-    most = largest([v for y_j in pair.y for v in y_j])
-    return Guess(pair, [y_j[0] > IDLE * most for y_j in pair.y], held, arb(0))
+    x, y = frame.pair(pair)
+    most = largest([v for y_j in y for v in y_j])
+    loaded, held = [y_j[0] > IDLE * most for y_j in y], [s_j[0] < IDLE for s_j in pair.s]
+    return Guess(x, y, loaded, held, arb(0))
 
 
-def _checked(form: ExactForm, balls: BallForm, frame: ScaledBlocks, pair: Pair) -> Checked | None:
-    """Return the pair with its gap, if it surely lies inside of all cones."""
-    motion, mu = (balls.A * pair.x - balls.b).entries(), frame.mu
+def _checked(
+    form: ExactForm, balls: BallForm, frame: ScaledBlocks, x: arb_mat, y: list[Vector]
+) -> Checked | None:
+    """Return x and lam with their gap, if both surely lie inside of all cones."""
+    motion, mu = (balls.A * x - balls.b).entries(), frame.mu
     s = [[mu[i] * motion[i] for i in block] for block in frame.blocks]
-    for one in (*s, *pair.y):
+    for one in (*s, *y):
         if not (one[0] > 0 and one[0] * one[0] > sum((v * v for v in one[1:]), arb(0))):
             return None
-    lam = [mu_i * y_i for mu_i, y_i in zip(mu, [v for y in pair.y for v in y], strict=True)]
+    lam = [mu_i * y_i for mu_i, y_i in zip(mu, [v for y_j in y for v in y_j], strict=True)]
     push = balls.A.transpose() * arb_mat(len(lam), 1, lam)
-    off, H = pair.x - balls.x_free - balls.H_inv * push, arb_mat(form.H)
-    work = sum((u * v for a, b in zip(s, pair.y, strict=True) for u, v in zip(a, b, strict=True)),
+    off, H = x - balls.x_free - balls.H_inv * push, arb_mat(form.H)
+    work = sum((u * v for a, b in zip(s, y, strict=True) for u, v in zip(a, b, strict=True)),
                arb(0))  # fmt: skip
     gap = (off.transpose() * (H * off))[0, 0] / 2 + work
     free = (balls.x_free.transpose() * (H * balls.x_free))[0, 0]
-    return Checked(pair.x, lam, gap, square_root(free))
+    return Checked(x, lam, gap, square_root(free))
 
 
 def _impulses(

@@ -6,7 +6,7 @@ from flint import arb, arb_mat
 
 from quasistatic_ref.certify.balls import BallForm, square_root
 from quasistatic_ref.certify.impulses import ONE, cone_blocks
-from quasistatic_ref.certify.interior import Blocks, Pair
+from quasistatic_ref.certify.interior import Blocks, Pair, Vector
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.step.data import Array, StepData
 
@@ -38,18 +38,14 @@ class ScaledBlocks:
     length: list[arb]
     size: arb
 
-    def pair(self, found: Pair) -> Pair:
-        """The same pair in the units of the form: `found` is one of the program."""
+    def pair(self, found: Pair) -> tuple[arb_mat, list[Vector]]:
+        """The x and y of a pair of the program in the units of the form, x without radius."""
         scaled = [self.size * r * v for r, v in zip(self.root, found.x.entries(), strict=True)]
-        s = [
-            [self.size * ell * v for v in s_j]
-            for ell, s_j in zip(self.length, found.s, strict=True)
-        ]
         along = zip(self.length, found.y, strict=True)
         y = [[(self.size / ell * v).mid() for v in y_j] for ell, y_j in along]
-        return Pair(arb_mat(len(scaled), 1, scaled).mid(), s, y)
+        return arb_mat(len(scaled), 1, scaled).mid(), y
 
-    def start(self, form: ExactForm, delta_q: Array, lam: Array) -> tuple[arb_mat, list[list[arb]]]:
+    def start(self, form: ExactForm, delta_q: Array, lam: Array) -> tuple[arb_mat, list[Vector]]:
         """An answer in SI units as x and y of the program, shapes (n_v,) and (m,)."""
         coordinates = zip(self.root, delta_q.tolist(), strict=True)
         x = [(arb(v) / (form.x_unit * self.size * r)).mid() for r, v in coordinates]

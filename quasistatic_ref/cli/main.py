@@ -8,7 +8,7 @@ import io
 import os
 import re
 import sys
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -121,9 +121,7 @@ def command_parser(named: Container[str | None]) -> Parser:
         description="Convex quasi-dynamic simulation with torsional friction: the reference.",
     )
     parser.add_argument("--version", action="version", version=__version__)
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, summary in COMMANDS.items():
-        command = commands.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+    for name, command in parsers_of(parser, "command", COMMANDS, "COMMAND").items():
         if name in named:
             _module(name).add_options(command)
             for last in _actions(command):
@@ -131,7 +129,30 @@ def command_parser(named: Container[str | None]) -> Parser:
     return parser
 
 
-def _actions(command: Parser) -> list[Parser]:
+def parsers_of(
+    parser: argparse.ArgumentParser, dest: str, actions: Mapping[str, str], metavar: str = "ACTION"
+) -> dict[str, argparse.ArgumentParser]:
+    """A parser for each action of a command, by name.
+
+    Parameters
+    ----------
+    parser : ArgumentParser
+        Of the command.
+    dest : str
+        The attribute of the options that is to hold the action's name.
+    actions : mapping of str to str
+        What each does, in words that begin with a small letter.
+    metavar : str
+        What stands for the action in the usage.
+    """
+    below = parser.add_subparsers(dest=dest, metavar=metavar, required=True)
+    return {
+        name: below.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        for name, words in actions.items()
+    }
+
+
+def _actions(command: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
     """The parsers of a command's actions; its own, if it has none."""
     below = (a for a in command._actions if isinstance(a, argparse._SubParsersAction))
     inner = [own for choice in below for one in choice.choices.values() for own in _actions(one)]

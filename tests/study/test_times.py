@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.grade import exam
+from quasistatic_ref.lab.study.grade import prepared
 from quasistatic_ref.lab.study.keeper import Keeper
 from quasistatic_ref.lab.study.measure import Limits, measured
 from quasistatic_ref.lab.study.problems import problem_of
@@ -29,7 +29,7 @@ def in_turns(problems):
     """Median time of each solver over problems, calls of the two following each other [s]."""
     found = {name: [] for name in PAIR}
     for problem in problems:
-        form, own = exam(problem).forms["natural"], {name: [] for name in PAIR}
+        form, own = prepared(problem).forms["natural"], {name: [] for name in PAIR}
         for _ in range(ROUNDS):
             for name in PAIR:
                 options = plain_solver(name).settings_of(TUNED, 1.0) if name == "daqp" else {}

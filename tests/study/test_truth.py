@@ -7,7 +7,7 @@ from quasistatic_ref.certify.bound import enclosed_answer
 from quasistatic_ref.lab.scenes.slabs import tower_step
 from quasistatic_ref.lab.study import truth
 from quasistatic_ref.lab.study.calls import NEAR, neighbour
-from quasistatic_ref.lab.study.grade import exam, grades
+from quasistatic_ref.lab.study.grade import grades, prepared
 from quasistatic_ref.lab.study.qp import condition, step_of, units_of
 from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
 from quasistatic_ref.solve.adapters.program import Reply
@@ -86,16 +86,16 @@ def lam_of(form, x):
 @pytest.mark.parametrize("exponent", [3, 6, 9])
 def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     """X = x* + 10^-e ||H^-1 g||_H v with ||v||_H = 1 has an error of 10^-e, whatever the units."""
-    paper = exam(problem)
+    ready = prepared(problem)
     H, g = problem.form.H, problem.form.g
     v = np.linalg.solve(H, g) / np.sqrt(g @ np.linalg.solve(H, g))
     free = np.sqrt(g @ np.linalg.solve(H, g))
     x = problem.answer.delta_q + 10.0**-exponent * free * v
     lam = lam_of(problem.form, x)  # H x - g = A' lam: the net impulse is off by H (x - x*)
     if units == "natural":
-        x = x / (paper.units.size * paper.units.coordinate)
-        lam = lam * (paper.units.length / paper.units.size)
-    row = grades(paper, units, reply_of(x, lam), promised=4.5)
+        x = x / (ready.units.size * ready.units.coordinate)
+        lam = lam * (ready.units.length / ready.units.size)
+    row = grades(ready, units, reply_of(x, lam), promised=4.5)
     assert row["digits"]["delta_q"] == pytest.approx(exponent, abs=1e-3)
     assert row["digits"]["net_wrench"] == pytest.approx(exponent, abs=1e-3)
     assert row["wrong"] == (exponent < 4.5)
@@ -112,20 +112,20 @@ def test_residuals_are_those_of_qpbenchmark(problem):
     primal = max(max(0.0, sum(G[i] * x) - h[i]) for i in range(len(h)))
     dual = max(abs(sum(P[v] * x) + q[v] + sum(G[:, v] * z)) for v in range(len(q)))
     gap = abs(sum(x[v] * sum(P[v] * x) for v in range(len(q))) + sum(q * x) + sum(h * z))
-    row = grades(exam(problem), "raw", reply_of(x, z), 3.0)
+    row = grades(prepared(problem), "raw", reply_of(x, z), 3.0)
     found = [row["residuals"][name] for name in ("primal", "dual", "gap")]
     np.testing.assert_allclose(found, [primal, dual, gap], rtol=1e-10, atol=1e-16)
 
 
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
-    row = grades(exam(problem), "raw", reply_of(problem.answer.delta_q, None, False), 3.0)
+    row = grades(prepared(problem), "raw", reply_of(problem.answer.delta_q, None, False), 3.0)
     assert (row["outcome"], row["wrong"]) == ("failed", False)
     assert row["digits"] == {"delta_q": 16.0, "net_wrench": None, "multipliers": None}
 
 
 def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):
     x = np.full(len(problem.form.g), np.nan)
-    row = grades(exam(problem), "raw", reply_of(x, None, False), 3.0)
+    row = grades(prepared(problem), "raw", reply_of(x, None, False), 3.0)
     assert (row["outcome"], row["wrong"], row["digits"]["delta_q"]) == ("failed", False, None)
 
 

@@ -33,8 +33,8 @@ def numpy_runner(name, case):
 def test_a_right_function_is_found_right_in_every_layer():
     found = challenge(numpy_runner, cases=66)
     assert found.findings == []
-    assert sum(found.verdicts.values()) == found.asked.total() == 66
-    assert set(found.asked) == set(LAYERS)
+    assert sum(found.verdicts.values()) == found.sent.total() == 66
+    assert set(found.sent) == set(LAYERS)
 
 
 def without_spin(name, case):

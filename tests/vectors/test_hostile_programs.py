@@ -30,7 +30,7 @@ def kinds(found):
 def test_a_program_that_is_right_is_left_alone(name, tmp_path):
     found = outcome(name, tmp_path)
     assert (found.findings, found.status) == ([], 0)
-    assert found.asked == {"selection": 12}
+    assert found.sent == {"selection": 12}
     assert found.implementation == ("mine 3" if name == "declares" else "")
 
 
@@ -66,7 +66,7 @@ def test_after_a_crash_the_other_cases_are_still_judged(tmp_path):
     found = outcome("is killed", tmp_path)
     # Each fourth line kills it: three cases, and some by which the first of them is made smaller.
     assert found.verdicts["selection", "crash"] == GIVEN_UP
-    assert found.verdicts["selection", "passed"] == found.asked["selection"] - GIVEN_UP >= 4
+    assert found.verdicts["selection", "passed"] == found.sent["selection"] - GIVEN_UP >= 4
     assert any("was started" in remark for remark in found.remarks)
 
 
@@ -84,7 +84,7 @@ def test_a_program_that_is_late_goes_on_and_its_other_answers_are_judged(tmp_pat
 def test_a_layer_that_does_not_come_back_is_given_up(tmp_path):
     found = outcome("does not read", tmp_path)
     assert kinds(found) == {"hang"}
-    assert found.asked["selection"] == GIVEN_UP
+    assert found.sent["selection"] == GIVEN_UP
     assert "selection got no further cases: 3 cases came to no answer in time" in found.remarks
 
 
@@ -104,14 +104,14 @@ def test_a_line_without_end_is_garbage(tmp_path, monkeypatch):
 def test_a_program_that_supports_nothing_is_asked_no_further(tmp_path):
     found = outcome("supports nothing", tmp_path)
     assert found.remarks == ["selection is not supported"]
-    assert found.asked["selection"] < 12
+    assert found.sent["selection"] < 12
     assert found.status == 0
 
 
 def test_layers_that_a_program_does_not_declare_are_unsupported(tmp_path):
     program = Program(command("declares another layer", tmp_path))
     found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
-    assert (found.findings, +found.asked) == ([], {"selection": 12})
+    assert (found.findings, +found.sent) == ([], {"selection": 12})
     assert found.remarks == ["rows is not supported", "wrench is not supported"]
 
 

@@ -205,8 +205,8 @@ def step(case):
     AB = rows({"cone": case["cone"], "contacts": contacts})
     A, b = np.array(AB["A"]).reshape(-1, n_v), np.array(AB["b"])
     found = qp_answer(H, g, A, b)
-    told = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
-    shown = [{key: contact[key] for key in told} for contact in contacts]
+    keys = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
+    shown = [{key: contact[key] for key in keys} for contact in contacts]
     output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
     if "farkas" in found:
         return {**output, **found}

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
@@ -29,7 +30,7 @@ ACTIONS = {
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below this one, and their options."""
-    parsers = study_problems.parsers_of(parser, "action", ACTIONS)
+    parsers = parsers_of(parser, "action", ACTIONS)
     run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
     study_sequences.add_options(parsers["sequences"])

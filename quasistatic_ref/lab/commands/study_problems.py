@@ -3,10 +3,10 @@
 import argparse
 import sys
 from collections import Counter
-from collections.abc import Mapping
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.resources import problem_set_folder
 
@@ -44,17 +44,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.add(parsers["make"], "--out", default=Path("contact-qp-1"))
     for name in ("list", "check"):
         shared.add(parsers[name], "--json")
-
-
-def parsers_of(
-    parser: argparse.ArgumentParser, dest: str, actions: Mapping[str, str]
-) -> dict[str, argparse.ArgumentParser]:
-    """A parser for each action of a command, whose name is kept as `dest`."""
-    below = parser.add_subparsers(dest=dest, metavar="ACTION", required=True)
-    return {
-        name: below.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
-        for name, words in actions.items()
-    }
 
 
 def run_problems(options: argparse.Namespace) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.lab.commands.vectors_report import run_pack, run_report, vectors_given
 
 ACTIONS = {
@@ -24,9 +25,7 @@ OUT = {"own": "answers", "report": "conformance", "pack": "."}
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the actions of this command and their options."""
-    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
-    for name, summary in ACTIONS.items():
-        action = actions.add_parser(name, help=summary, description=f"{summary.capitalize()}.")
+    for name, action in parsers_of(parser, "action", ACTIONS).items():
         if name == "challenge":
             _add_challenge(action)
             continue

@@ -30,7 +30,7 @@ SLACK = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
-class Exam:
+class Prepared:
     """A problem prepared for calls and their grading.
 
     Parameters
@@ -54,7 +54,7 @@ class Exam:
 
 
 @lru_cache(maxsize=8)  # of the problem at which all solvers are
-def exam(problem: Problem) -> Exam:
+def prepared(problem: Problem) -> Prepared:
     """A problem prepared: its natural units, and the norm that errors are measured in."""
     units = units_of(problem.form)
     natural = natural_form(problem.form, units)
@@ -63,15 +63,15 @@ def exam(problem: Problem) -> Exam:
     if isinstance(answer, Truth):
         answer = Truth(answer.delta_q / (rho * S), answer.net * S / rho, answer.bound)
     free = float(norm.impulses(natural.g[None])[0])
-    return Exam({"raw": problem.form, "natural": natural}, units, answer, norm, free)
+    return Prepared({"raw": problem.form, "natural": natural}, units, answer, norm, free)
 
 
-def grades(paper: Exam, units: str, reply: Reply, promised: float) -> dict[str, Any]:
+def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[str, Any]:
     """Outcome, claims, digits, residuals of one reply, as fields of a row.
 
     Parameters
     ----------
-    paper : Exam
+    ready : Prepared
     units : str
         ``"raw"`` or ``"natural"``.
     reply : Reply
@@ -82,16 +82,16 @@ def grades(paper: Exam, units: str, reply: Reply, promised: float) -> dict[str, 
     -------
     dict
     """
-    outcome, x, lam = _usable(paper.forms[units], reply)
-    row = ungraded(outcome, reply.status, reply.call_seconds, isinstance(paper.answer, Truth))
+    outcome, x, lam = _usable(ready.forms[units], reply)
+    row = ungraded(outcome, reply.status, reply.call_seconds, isinstance(ready.answer, Truth))
     with np.errstate(all="ignore"):
         if x is not None:
-            row["residuals"] = _residuals(paper.forms[units], x, lam)
+            row["residuals"] = _residuals(ready.forms[units], x, lam)
             if units == "raw":
-                x = x / (paper.units.size * paper.units.coordinate)
-                lam = None if lam is None else lam * (paper.units.length / paper.units.size)
-            if isinstance(paper.answer, Truth):
-                row["digits"] = _digits(paper, paper.answer, x, lam)
+                x = x / (ready.units.size * ready.units.coordinate)
+                lam = None if lam is None else lam * (ready.units.length / ready.units.size)
+            if isinstance(ready.answer, Truth):
+                row["digits"] = _digits(ready, ready.answer, x, lam)
     said = row["said_infeasible"] = not reply.solved and says_infeasible(reply.status)
     found, dual = (row["digits"][name] for name in ("delta_q", "multipliers"))
     if row["feasible"]:
@@ -138,33 +138,33 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
 
 
-def _digits(paper: Exam, answer: Truth, x: Array, lam: Array | None) -> dict[str, float | None]:
+def _digits(of: Prepared, answer: Truth, x: Array, lam: Array | None) -> dict[str, float | None]:
     digits: dict[str, float | None] = {
-        "delta_q": _digits_of(paper.norm.displacement(x - answer.delta_q), paper, answer.bound),
+        "delta_q": _digits_of(of.norm.displacement(x - answer.delta_q), of, answer.bound),
         "net_wrench": None,
         "multipliers": None,
     }
     if lam is not None:
-        form = paper.forms["natural"]
+        form = of.forms["natural"]
         A, bound = form.A, answer.bound
         net, negative = A.T @ lam - answer.net, A.T @ np.minimum(lam, 0.0)
-        off, below = paper.norm.impulses(np.array([net, negative]))
-        digits["net_wrench"] = _digits_of(float(off), paper, bound)
+        off, below = of.norm.impulses(np.array([net, negative]))
+        digits["net_wrench"] = _digits_of(float(off), of, bound)
         # Slacks of the exact answer that rounding alone may have made are none. What multipliers
         # of others add to the dual's gap bounds an error by strong convexity, as a gap does.
         slack = A @ answer.delta_q - form.b
         slack[slack < SLACK * (abs(A) @ abs(answer.delta_q) + abs(form.b))] = 0.0
         gap = float(np.maximum(lam, 0.0) @ slack)
         worst = max(float(off), float(below), float(np.sqrt(2 * gap)))
-        digits["multipliers"] = _digits_of(worst, paper, bound)
+        digits["multipliers"] = _digits_of(worst, of, bound)
     return digits
 
 
-def _digits_of(size: float, paper: Exam, bound: float) -> float:
-    if paper.free == 0:
+def _digits_of(size: float, of: Prepared, bound: float) -> float:
+    if of.free == 0:
         return MOST if size == 0 else 0.0
     # Of an enclosure no more digits are reported than are known.
-    return digits_of_error(max(size / paper.free, bound))
+    return digits_of_error(max(size / of.free, bound))
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from quasistatic_ref.lab.study import processes
 from quasistatic_ref.lab.study.calls import neighbour
-from quasistatic_ref.lab.study.grade import CRASHED, TIMEOUT, Exam, exam, grades, ungraded
+from quasistatic_ref.lab.study.grade import CRASHED, TIMEOUT, Prepared, grades, prepared, ungraded
 from quasistatic_ref.lab.study.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.qp import Problem, Truth
@@ -78,8 +78,8 @@ def measured(
     begin = perf_counter()
     keeper.start()
     seconds: dict[str, float | None] = {"start": perf_counter() - begin, "warm_up": None}
-    paper = exam(problem)
-    form = paper.forms[units]
+    ready = prepared(problem)
+    form = ready.forms[units]
     other = neighbour(form, problem.id).g
     start = other if warm else None
     assert keeper.pid is not None  # it was started
@@ -93,7 +93,7 @@ def measured(
             keeper.seen.add(shape)
             seconds["warm_up"] = perf_counter() - begin
         begin = perf_counter()
-        row = _graded(keeper, paper, Request(setting, limits.call, start=start), units, limits)
+        row = _graded(keeper, ready, Request(setting, limits.call, start=start), units, limits)
         memory = None if keeper.pid is None else processes.peak(keeper.pid)
     except Ended as end:
         if seconds["warm_up"] is None and shape not in keeper.seen:
@@ -106,22 +106,22 @@ def measured(
 
 
 def _graded(
-    keeper: Keeper, paper: Exam, request: Request, units: str, limits: Limits
+    keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits
 ) -> dict[str, Any]:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
-    form, promised = paper.forms[units], request.setting.promised
+    form, promised = ready.forms[units], request.setting.promised
     response, outside = keeper.answer(form, request)
     if response.ended:
         outcome = TIMEOUT if response.ended == TIMEOUT else CRASHED
         raise Ended(outcome, response.reply.status, response.times[-1])
-    row = grades(paper, units, response.reply, promised)
+    row = grades(ready, units, response.reply, promised)
     row["seconds"]["first"] = response.times[0]
     if not response.reply.solved and not says_infeasible(response.reply.status):
         return row | {"calls": 1}
     again, times, agrees = _timed(keeper, form, request, outside, limits)
     if again.ended:
         raise Ended(CRASHED, again.reply.status, again.times[-1])
-    other = grades(paper, units, again.reply, promised)
+    other = grades(ready, units, again.reply, promised)
     row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
     low, call, high = np.percentile(times, [25, 50, 75]).tolist()
     clocks = {"first": response.times[0], "low": low, "call": call, "high": high}

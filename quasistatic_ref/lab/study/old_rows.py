@@ -1,8 +1,8 @@
-"""Stores of version 1, read as those of today: what they did not measure is null.
+"""Stores of earlier versions, read as those of today.
 
-Their rows name the interface ``road``, their times are of one call each, cold, in one fixed order;
-and a false claim that there is no solution, which their own status still shows, counted as a
-failure.
+Those of version 1 have null for what they did not measure. Their rows name the interface ``road``,
+their times are of one call each, cold, in one fixed order; and a false claim that there is no
+solution, which their own status still shows, counted as a failure.
 """
 
 from typing import Any
@@ -22,7 +22,7 @@ def today_row(row: dict[str, Any]) -> dict[str, Any]:
     """
     if "road" not in row or "interface" in row:
         return row
-    named = {"interface" if name == "road" else name: value for name, value in row.items()}
+    named = _renamed(row)
     seconds: Any = named.get("seconds")
     digits: Any = named.get("digits")
     claimed: Any = named.get("claimed")
@@ -51,9 +51,10 @@ def today_study(study: dict[str, Any]) -> dict[str, Any]:
 
 
 def _known(value: Any) -> Any:
-    """A fact of a machine; what the system did not report was once called "not told"."""
+    """A fact of a machine, with today's word for one that the system did not report."""
     return UNKNOWN if value == "not told" else value
 
 
-def _renamed(solver: dict[str, Any]) -> dict[str, Any]:
-    return {"interface" if name == "road" else name: value for name, value in solver.items()}
+def _renamed(table: dict[str, Any]) -> dict[str, Any]:
+    """A row or a solver with today's name of the interface."""
+    return {"interface" if name == "road" else name: value for name, value in table.items()}

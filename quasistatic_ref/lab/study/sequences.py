@@ -169,12 +169,12 @@ def modes_of(solver: str, folder: str | Path = ".") -> tuple[str, ...]:
 def checked(
     solvers: Sequence[str], modes: Sequence[str] | None, folder: str | Path = "."
 ) -> dict[str, tuple[str, ...]]:
-    """The modes of each solver; those that are asked for, if all can do them.
+    """The modes of each solver; those that are named, if all can do them.
 
     Raises
     ------
     InputError
-        If a mode is unknown, or asked for and not possible.
+        If a mode is unknown, or named and not possible.
     """
     found = {solver: modes_of(solver, folder) for solver in solvers}
     for mode in modes or ():
@@ -234,7 +234,7 @@ def sequence_rows(
                     reply, outcome, _, found = min(own, key=lambda one: (one[0].solved, one[3]))
                     cost = float(np.median([seconds for _, _, seconds, _ in own]))
                     yield SequenceRow(name, place, solver, mode, outcome, reply.status, found,
-                                reply.iterations, cost)  # fmt: skip
+                                      reply.iterations, cost)  # fmt: skip
 
 
 def in_one_unit(members: Sequence[Member]) -> tuple[list[StandardForm], list[Array]]:

@@ -48,8 +48,7 @@ def test_the_gap_of_a_pair_is_the_difference_of_both_objectives():
     _, form, balls, frame = posed()
     x, lam = np.array([3e-3, 1e-3, 5e-3]), np.array([0.02, -3e-3, 4e-3, 0.0])
     y = units(lam / [1, MU, MU, 1], form.lam_unit)
-    pair = Pair(checked(form, x).x, [], [y])
-    found = _checked(form, balls, frame, pair)
+    found = _checked(form, balls, frame, checked(form, x).x, [y])
     impulse = H_STEP * FORCE + lam[[1, 2, 0]]
     f = M / H_STEP / 2 * x @ x - H_STEP * FORCE @ x
     d = -H_STEP / M / 2 * impulse @ impulse - PHI * lam[0]
@@ -61,7 +60,7 @@ def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
     _, form, balls, frame = posed()
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
         y = [arb(1), *(arb(share if i == k else 0.0) for i in (1, 2, 3))]
-        found = _checked(form, balls, frame, Pair(checked(form, np.zeros(3)).x, [], [y]))
+        found = _checked(form, balls, frame, checked(form, np.zeros(3)).x, [y])
         assert (found is not None) == inside
 
 
@@ -70,7 +69,7 @@ def test_a_slip_beyond_the_gap_over_mu_is_refused(k):
     _, form, balls, frame = posed()
     for share, inside in ((0.99, True), (1.01, False)):
         x = checked(form, share * PHI / MU * np.eye(3)[k]).x
-        found = _checked(form, balls, frame, Pair(x, [], [[arb(1), arb(0), arb(0), arb(0)]]))
+        found = _checked(form, balls, frame, x, [[arb(1), arb(0), arb(0), arb(0)]])
         assert (found is not None) == inside
 
 
@@ -117,13 +116,14 @@ def test_the_scaled_program_has_the_point_and_the_impulse_that_it_is_given():
     lam = np.array([0.02, -3e-3, 4e-3, 1e-4])
     x, y = frame.start(form, delta_q, lam)
     (A,), (b,) = frame.problem.A, frame.problem.b
-    found = frame.pair(Pair(x, [(A * x - b).entries()], y))
+    found_x, found_y = frame.pair(Pair(x, [], y))
+    found_s = [frame.size * frame.length[0] * v for v in (A * x - b).entries()]
     moved = delta_q[:3] + np.cross(delta_q[3:], [0, 0, -radius])
     s = mu * [PHI + moved[2], moved[0], moved[1], delta_q[5]]
     for unit, values, expected in (
-        (form.x_unit, found.x.entries(), delta_q),
-        (form.slack_unit, found.s[0], s),
-        (form.lam_unit, found.y[0], lam / mu),
+        (form.x_unit, found_x.entries(), delta_q),
+        (form.slack_unit, found_s, s),
+        (form.lam_unit, found_y[0], lam / mu),
     ):
         actual = [float(v * unit) for v in values]
         np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)

@@ -270,7 +270,7 @@ def test_what_an_interior_point_shows_is_read_by_shares_of_the_largest():
     pushes = [2.0**-30, 2.0**-80, 2.0**-70, np.nextafter(2.0**-70, 1)]
     s = [[arb(v), arb(0)] for v in slacks]
     y = [[arb(v), -arb(v) / 2] for v in pushes]
-    frame = SimpleNamespace(pair=lambda pair: pair)
+    frame = SimpleNamespace(pair=lambda pair: (pair.x, pair.y))
     guess = _of_interior(frame, Pair(arb_mat(0, 1), s, y))
     assert guess.held == [True, False, False, True]
     assert guess.loaded == [True, False, False, True]

@@ -16,11 +16,16 @@ from tests.unit.model.urdf_texts import inertial, joint, link, robot, written
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(capsys, command):
+def test_every_command_has_help(capsys, monkeypatch, command):
+    """Its first sentence is the command's line of the list, names such as URDF as they are."""
+    monkeypatch.setenv("COLUMNS", "200")  # no line of it is wrapped
+    words = COMMANDS[command]
     with pytest.raises(SystemExit) as caught:
         main([command, "--help"])
     assert caught.value.code == 0
-    assert f"usage: quasistatic-ref {command}" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert f"usage: quasistatic-ref {command}" in said
+    assert f"\n{words[0].upper()}{words[1:]}.\n" in said
 
 
 HEAVY = ("cvxpy", "pinocchio", "coal", "matplotlib", "scipy", "qpsolvers")

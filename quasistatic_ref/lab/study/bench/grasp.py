@@ -176,7 +176,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
                 except StepNotSolved:
                     failed[key] += 1
                     continue
-                # Told apart by selecting once more.
+                # Selecting once more shows its share of the time.
                 lap["selection"] = _selection(simulator, q)
                 lap["distances"] -= lap["selection"]
                 row = np.array([lap[part] for part in PARTS])

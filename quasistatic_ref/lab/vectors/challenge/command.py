@@ -65,7 +65,7 @@ def _shown(outcome: Outcome, options: argparse.Namespace) -> None:
     if options.json:
         record = {
             "implementation": outcome.implementation,
-            "asked": dict(outcome.asked),
+            "asked": dict(outcome.sent),
             "findings": [finding.record for finding in outcome.findings],
         }
         shared.print_json(record | {"remarks": outcome.remarks})

@@ -71,7 +71,7 @@ class Hunt:
 
     def goes_on(self, layer: str) -> bool:
         """Whether a layer gets further cases."""
-        answered = self.outcome.verdicts[layer, "unsupported"] < self.outcome.asked[layer]
+        answered = self.outcome.verdicts[layer, "unsupported"] < self.outcome.sent[layer]
         known = layer in self.program.layers
         return known and answered and self._troubles[layer] < GIVEN_UP
 
@@ -113,7 +113,7 @@ class Hunt:
         for (layer, seed, level), case, record in self._made(tasks):
             if self._troubles[layer] >= GIVEN_UP or layer not in self.program.layers:
                 continue
-            self.outcome.asked[layer] += 1
+            self.outcome.sent[layer] += 1
             id = "/".join((layer, ("easy", "plain", "hard")[level], "-".join(map(str, seed))))
             self.ask(id, layer, case, record)
 
@@ -121,7 +121,7 @@ class Hunt:
         """Ask one case, and keep what came of it."""
         reply = self.program.ask(id, layer, case)
         if layer not in self.program.layers:  # as it declared before its first answer
-            self.outcome.asked[layer] -= 1
+            self.outcome.sent[layer] -= 1
             return
         for said in reply.strays:
             self._trouble("stray", layer, id, said, case)

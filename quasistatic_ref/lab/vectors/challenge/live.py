@@ -82,13 +82,13 @@ def challenge(
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
         while names and not hunt.full:
-            left = None if limit is None else limit - hunt.outcome.asked.total()
+            left = None if limit is None else limit - hunt.outcome.sent.total()
             late = seconds is not None and time.monotonic() - began >= seconds
             if late or (left is not None and left <= 0):
                 break
             tasks = _round(names, seed, number)
             hunt.play(tasks if left is None else tasks[:left])
-            say(f"round {number}: {hunt.outcome.asked.total()} cases, "
+            say(f"round {number}: {hunt.outcome.sent.total()} cases, "
                 f"{len(hunt.outcome.findings)} findings")  # fmt: skip
             names = [name for name in names if hunt.goes_on(name)]
             number += 1
@@ -134,7 +134,7 @@ def sent_again(program: Program, finding: Json, digits: float | None = None) -> 
     if record is None:
         raise InputError("is no input of the layer that has one answer", field="case")
     with program:
-        hunt.outcome.asked[layer] += 1
+        hunt.outcome.sent[layer] += 1
         hunt.ask("again", layer, case, record)
     hunt.as_before(layer, tuple(finding["mistakes"]), tuple(finding["sentences"]))
     return hunt.ended()

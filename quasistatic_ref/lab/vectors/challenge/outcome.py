@@ -17,8 +17,8 @@ class Outcome:
     ----------
     implementation : str
         As the program names itself.
-    asked : Counter
-        Cases by layer.
+    sent : Counter
+        How many cases, by layer.
     verdicts : Counter
         Answers by (layer, verdict); ``unsupported``, ``error``, ``crash``, ... are verdicts too.
     findings : list of Finding
@@ -31,7 +31,7 @@ class Outcome:
     """
 
     implementation: str = ""
-    asked: Counter[str] = field(default_factory=Counter)
+    sent: Counter[str] = field(default_factory=Counter)
     verdicts: Counter[tuple[str, str]] = field(default_factory=Counter)
     findings: list[Finding] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
@@ -45,7 +45,7 @@ class Outcome:
         counts = [
             (layer, *(str(self.verdicts[layer, kind]) for kind in kinds))
             for layer in LAYERS
-            if self.asked[layer]
+            if self.sent[layer]
         ]
         return [("layer", *kinds), *counts]
 

@@ -31,7 +31,7 @@ def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
         Of which each row without slack bears load in some optimal lam.
     found : iterable of Quotient
         Along single coordinates and parameters. A contact that another candidate replaces
-        beside the configuration is compared with nothing.
+        in a step nearby is compared with nothing.
     """
     tight = [i for i, sign in enumerate(one.step.optimum.slack_signs) if sign == 0]
     if not tight:
@@ -77,25 +77,25 @@ def _blocks(one: Base, contacts: Sequence[Contact], table: Rows) -> list[Matrix]
 
 
 def _rates(
-    one: Base, own: list[Matrix], contacts: Sequence[Contact], beside: list[Matrix]
+    one: Base, own: list[Matrix], contacts: Sequence[Contact], nearby: list[Matrix]
 ) -> Matrix:
-    """How fast each row of the step changes towards a step beside it, but for the sign."""
+    """How fast each row of the step changes towards a step nearby, but for the sign."""
     places = {(c.near.pair, c.near.index): k for k, c in enumerate(contacts)}
     found: Matrix = []
     for contact, block in zip(one.contacts, own, strict=True):
         k = places.get((contact.near.pair, contact.near.index))
-        others = block if k is None else _matched(one, contact, block, contacts[k], beside[k])
+        others = block if k is None else _matched(one, contact, block, contacts[k], nearby[k])
         found += [scaled(subtract(y, x), 1 / STEP) for x, y in zip(block, others, strict=True)]
     return found
 
 
-def _matched(one: Base, contact: Contact, block: Matrix, other: Contact, beside: Matrix) -> Matrix:
-    """The rows of a contact beside, in the order of its own; turned to its tangents if they jump.
+def _matched(one: Base, contact: Contact, block: Matrix, other: Contact, nearby: Matrix) -> Matrix:
+    """The rows of a contact nearby, in the order of its own; turned to its tangents if they jump.
 
     Where tangents jump and q+ does not notice, the contact sticks, and its rows span as much in
     whatever tangents; or they are the same rows again.
     """
-    found = [nearest(row, beside) for row in block]
+    found = [nearest(row, nearby) for row in block]
     far = (abs(x - y) for row, near in zip(block, found, strict=True)
            for x, y in zip(row, near, strict=True))  # fmt: skip
     if all(x <= CLOSE for x in far):
@@ -104,13 +104,13 @@ def _matched(one: Base, contact: Contact, block: Matrix, other: Contact, beside:
 
 
 def turned(contact: Contact, other: Contact) -> Contact:
-    """A contact beside, with tangents that differ from a contact's own by no more than n does.
+    """A contact nearby, with tangents that differ from a contact's own by no more than n does.
 
     Parameters
     ----------
     contact : Contact
     other : Contact
-        The same candidate beside.
+        The same candidate in a step nearby.
     """
     c, s = dot(contact.d1, other.d1), dot(contact.d1, other.d2)
     n, first, second, spin = other.motion

@@ -2,8 +2,8 @@
 
 One more quotient is taken along a direction in which everything changes at once, with another eps.
 Where q+ has a derivative it is the sum of the columns: whatever a column were wrong by would show.
-Columns along which q+ is smooth need not add up where rows depend on each other: that is asked of
-the rows.
+Columns along which q+ is smooth need not add up where rows depend on each other; the rows decide
+that.
 """
 
 from collections.abc import Callable, Sequence

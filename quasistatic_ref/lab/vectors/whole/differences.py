@@ -66,7 +66,7 @@ class Base:
         moved : bool
             Whether q is another; the contacts stay where they are if not.
         """
-        at = world(case) if moved else self.at.beside(case)
+        at = world(case) if moved else self.at.with_case(case)
         contacts = self.contacts_at(at) if moved else self.contacts
         same = not moved and case["pairs"] is self.at.case["pairs"]
         found = solved(at, contacts, self.warm, self.step.rows if same else None)

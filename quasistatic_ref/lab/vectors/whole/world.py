@@ -41,7 +41,7 @@ class World:
         with working():
             return loads_of(self.tree, self.at, self.case)
 
-    def beside(self, case: Json) -> "World":
+    def with_case(self, case: Json) -> "World":
         """Another case at the same configuration, with what it has in common with this one."""
         if case["mechanism"] is self.case["mechanism"]:
             return World(case, self.tree, self.at, self.loads)
