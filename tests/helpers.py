@@ -32,7 +32,7 @@ def changed(contacts, **changes):
 def always_in_blocks(patch):
     """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
     where = "quasistatic_ref.simulate.simulator.sparse_from"  # which needs more than steps do
-    patch.setattr(where, lambda *asked: min(sparse_from(*asked), 1))
+    patch.setattr(where, lambda *arguments: min(sparse_from(*arguments), 1))
 
 
 def in_blocks(step):

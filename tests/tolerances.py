@@ -76,6 +76,10 @@ system behind a derivative is solved by iteration."""
 CLOSED_FORM: Final = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
 
+OF_DIFFERENCE: Final = 1e-15
+"""Error of coordinates of decimetres [m], a few roundings of them: over the distance of two points
+[m], that of the direction from one to the other [-]."""
+
 CURVED_PAIR: Final = 1e-12
 """Convex pairs, whatever way leads to their answer [m], [-]: Newton's method and the closed forms
 end at rounding, 1e-15 of the sizes, which are below 1 m."""
@@ -102,7 +106,8 @@ FIRST_ORDER: Final = 1e-3
 """Steady motions whose closed form holds to first order in h, or at the start of a slow turn."""
 
 FOUR_ULP: Final = 4 * 2.220446049250313e-16
-"""The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side."""
+"""The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side. And
+sums of a convergent series whose entries are at most 1, in an order of their own."""
 
 INTEGRAL: Final = 1e-11
 """Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""

@@ -96,12 +96,12 @@ def test_the_report_of_the_demo_is_that_of_the_trajectories(demo, scenario, runs
     report = json.loads(demo.output)["cases"]
     bunny = scenario.system.joint("bunny/base").q.start
     for case, run in runs.items():
-        told = report[case.replace("_", " ")]
+        said = report[case.replace("_", " ")]
         turn = largest_turn(scenario, run)
-        np.testing.assert_allclose(told["rotation_deg"], turn, rtol=ROUNDING)
+        np.testing.assert_allclose(said["rotation_deg"], turn, rtol=ROUNDING)
         lift = 1e3 * (run["q"][TOP, bunny + 2] - run["q"][CLOSED, bunny + 2])
-        np.testing.assert_allclose(told["lift_mm"], lift, rtol=ROUNDING)
-        assert (told["variables"], told["rows"], told["steps"]) == (13, 80, 300)
+        np.testing.assert_allclose(said["lift_mm"], lift, rtol=ROUNDING)
+        assert (said["variables"], said["rows"], said["steps"]) == (13, 80, 300)
 
 
 def test_nothing_but_mu_omega_differs_between_the_runs(runs):

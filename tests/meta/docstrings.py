@@ -77,30 +77,30 @@ def public(body, owner=""):
 def of_class(where, node, said, symbols):
     """Fields that are arrays or numbers are documented, with shapes and units."""
     parts = sections(said)
-    told = entries(parts.get("Parameters", "")) | entries(parts.get("Attributes", ""))
+    listed = entries(parts.get("Parameters", "")) | entries(parts.get("Attributes", ""))
     fields = [n for n in node.body if isinstance(n, ast.AnnAssign) and n.simple]
     for field in fields:
         if not field.target.id.startswith("_"):
             yield from of_value(
-                where, field.target.id, ast.unparse(field.annotation), told, parts[""], symbols
+                where, field.target.id, ast.unparse(field.annotation), listed, parts[""], symbols
             )
     constructors = [n for n in node.body if isinstance(n, ast.FunctionDef) and n.name == "__init__"]
     for constructor in constructors:
         for name, annotation in arguments(constructor):
-            yield from of_value(where, name, annotation, told, parts[""], symbols)
+            yield from of_value(where, name, annotation, listed, parts[""], symbols)
 
 
 def of_function(where, node, said, symbols):
     """Arguments, the result and what is raised."""
     parts = sections(said)
-    told = entries(parts.get("Parameters", ""))
+    listed = entries(parts.get("Parameters", ""))
     named = arguments(node)
-    if told and (missing := [name for name, _ in named if name not in told]):
+    if listed and (missing := [name for name, _ in named if name not in listed]):
         yield f"{where}: Parameters lacks {', '.join(missing)}"
-    if gone := [name for name in told if name not in dict(named)]:
+    if gone := [name for name in listed if name not in dict(named)]:
         yield f"{where}: {', '.join(gone)} is no argument"
     for name, annotation in named:
-        yield from of_value(where, name, annotation, told, parts[""], symbols)
+        yield from of_value(where, name, annotation, listed, parts[""], symbols)
     returned = ast.unparse(node.returns) if node.returns else "None"
     result = "\n".join([parts[""], parts.get("Returns", ""), parts.get("Yields", "")])
     if ARRAYS.search(returned) and not SHAPE.search(result):
@@ -111,7 +111,7 @@ def of_function(where, node, said, symbols):
         yield f"{where}: does not say when it raises {error}"
 
 
-def of_value(where, name, annotation, told, prose, symbols):
+def of_value(where, name, annotation, listed, prose, symbols):
     """An array states its shape and a number its unit, unless the notation does for its name.
 
     It says so in its entry under Parameters or, where there is none, in the prose that names it.
@@ -120,7 +120,7 @@ def of_value(where, name, annotation, told, prose, symbols):
     counts = re.search(r"np\.(int64|bool)", annotation)
     if not (array or number) or "Callable" in annotation or name in symbols:
         return
-    text = told.get(name, prose if re.search(rf"\b{name}\b", prose) else None)
+    text = listed.get(name, prose if re.search(rf"\b{name}\b", prose) else None)
     if text is None:
         yield f"{where}: {name} is not documented"
         return

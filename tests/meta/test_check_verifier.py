@@ -37,9 +37,9 @@ def test_what_one_proves_and_the_other_refuses_is_a_disagreement(
 def test_the_second_checker_is_short_and_needs_nothing():
     text = VERIFIER.read_text()
     assert len(text.splitlines()) <= MOST_LINES
-    asked = [line for line in text.splitlines() if "require(" in line or "import" in line]
-    assert len(asked) == 1  # the command line, which reads two files
-    assert 'require("fs")' in asked[0]
+    found = [line for line in text.splitlines() if "require(" in line or "import" in line]
+    assert len(found) == 1  # the command line, which reads two files
+    assert 'require("fs")' in found[0]
 
 
 def test_faults_are_planted_for_every_refusal_and_every_change():

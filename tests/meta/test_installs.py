@@ -28,12 +28,12 @@ BY_OTHERS = {"ipykernel"}  # the kernel that nbclient starts
 
 def test_no_package_is_asked_for_that_nothing_uses():
     lists = [PROJECT["dependencies"], *EXTRAS.values()]
-    asked = {re.match(r"[\w-]+", line)[0] for one in lists for line in one}
+    required = {re.match(r"[\w-]+", line)[0] for one in lists for line in one}
     folders = ("quasistatic_ref", "tests", "validation", "docs")
     paths = [path for folder in folders for path in (ROOT / folder).rglob("*.py")]
     paths += [*(ROOT / "models").rglob("*.toml"), ROOT / ".ci" / "run"]
     code = "\n".join(path.read_text("utf-8") for path in paths if path.name != Path(__file__).name)
-    words = {name: CALLED.get(name, name) for name in asked - BY_OTHERS - {PROJECT["name"]}}
+    words = {name: CALLED.get(name, name) for name in required - BY_OTHERS - {PROJECT["name"]}}
     assert {name for name, word in words.items() if not re.search(rf"\b{word}\b", code)} == set()
     assert len(words) > 30
 

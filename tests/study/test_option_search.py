@@ -19,6 +19,8 @@ from validation.option_report import report
 VALIDATION = Path(__file__).parents[2] / "validation"
 NOT_SEARCHED: set[str] = set()
 """Solvers whose entry is new, and whose search was not run yet."""
+FEWEST = 8
+"""Values of options that are worth the name of a search."""
 HALVES = ("training", "judging", "all")
 NOTHING = Score(2, 1.0, 0.0, 0.0, 0.0, 0, 0, 0)
 
@@ -48,7 +50,10 @@ def test_every_solver_with_options_has_a_space_with_a_source(spaces):
     assert set(spaces) == set(BACKENDS) - {"quadprog"}
     for space in spaces.values():
         assert space["source"].startswith("https://")
-        assert 8 <= sum(map(len, space["options"].values())) <= 20
+        values = sum(map(len, space["options"].values()))
+        # The start, each value alone, and each together with the best so far.
+        assert values >= FEWEST
+        assert 1 + 2 * values <= MOST_SETTINGS
         for finding in space["findings"]:
             assert finding["base"] in ({}, space["start"])
 
@@ -150,10 +155,10 @@ def command(tmp_path, monkeypatch):
                   "{ a = [2], b = [1] }, findings = [{ base = { a = 1 }, change = { b = 1 } }] }"
                   for name in ("broken", "good"))
     )  # fmt: skip
-    asked = []
+    called = []
 
     def scored(solver, options, problems, function):
-        asked.append(solver)
+        called.append(solver)
         if solver == "broken":
             raise RuntimeError("this solver is broken")
         return replace(NOTHING, time_to_6=0.5 if options.get("a") == 2 else 1.0)
@@ -163,7 +168,7 @@ def command(tmp_path, monkeypatch):
     every = [SimpleNamespace(id=f"contacts/{k}/0") for k in range(8)]
     monkeypatch.setattr(option_search, "problems", lambda folder: every)
     out = tmp_path / "log.jsonl"
-    return lambda *names: (option_search.main([*names, "--out", str(out)]), asked), out
+    return lambda *names: (option_search.main([*names, "--out", str(out)]), called), out
 
 
 def test_a_solver_that_fails_stops_no_other_and_is_named(command, capsys):

@@ -69,6 +69,8 @@ def on_a_terminal(words, until, seconds=120.0):
         warnings.simplefilter("ignore", RuntimeWarning)
         process, terminal = pty.fork()
     if process == 0:
+        # As a shell gives a terminal: a job in the background inherits that Ctrl-C is ignored.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.execv(words[0], words)
     printed, end, pressed = "", time.monotonic() + seconds, False
     while time.monotonic() < end:

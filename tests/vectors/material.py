@@ -50,9 +50,9 @@ def small_cases(layer):
 
 def report_on(layer, outputs, **declared):
     """The report on answers that are given by id, of these cases alone."""
-    asked = [case for case in cases(layer) if case.id in outputs]
-    known = {case.id: expected(layer)[case.id] for case in asked}
-    return layer_report(layer, asked, known, Answers(outputs, "test", **declared))
+    given = [case for case in cases(layer) if case.id in outputs]
+    known = {case.id: expected(layer)[case.id] for case in given}
+    return layer_report(layer, given, known, Answers(outputs, "test", **declared))
 
 
 @functools.cache

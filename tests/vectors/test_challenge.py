@@ -119,18 +119,18 @@ def test_shrinking_ends_where_no_single_move_fails_any_more():
 
 
 def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
-    out, asked = tmp_path / "found", command("wrong", tmp_path)
-    given = ["vectors", "challenge", "--command", asked, "--layer", "selection", "--cases", "6"]
+    out, program = tmp_path / "found", command("wrong", tmp_path)
+    given = ["vectors", "challenge", "--command", program, "--layer", "selection", "--cases", "6"]
     assert main([*given, "--out", str(out), "--quiet"]) == 1
     printed = capsys.readouterr()
     (folder,) = out.iterdir()
     assert printed.out.splitlines()[-1] == str(folder)
     page = (folder / "README.md").read_text()
     (line,) = (line for line in page.splitlines() if "--again" in line)
-    wanted = ["--command", asked, "--again", str(folder / "counterexample.json")]
+    wanted = ["--command", program, "--again", str(folder / "counterexample.json")]
     assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
     again = ["--again", str(folder / "counterexample.json")]
-    assert main(["vectors", "challenge", "--command", asked, *again, "--json"]) == 1
+    assert main(["vectors", "challenge", "--command", program, *again, "--json"]) == 1
     (record,) = json.loads(capsys.readouterr().out)["findings"]
     assert record["case"] == json.loads((folder / "counterexample.json").read_text())["case"]
     right = command("right", tmp_path)
@@ -230,8 +230,8 @@ def test_the_committed_challenges_of_20_000_cases_found_nothing():
     rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.count(" | ") == 7]
     for name in planted_bugs.COMMANDS:
         counts = [[int(n.replace(",", "")) for n in row[2:]] for row in rows if row[0] == name]
-        asked, passed, acceptable, failed, unsupported, other = map(sum, zip(*counts, strict=True))
+        given, passed, acceptable, failed, unsupported, other = map(sum, zip(*counts, strict=True))
         assert (failed, other) == (0, 0)
-        assert passed + acceptable == asked - unsupported >= challenges.ANSWERS
+        assert passed + acceptable == given - unsupported >= challenges.ANSWERS
         assert {row[1] for row in rows if row[0] == name} == set(ANSWERED[name])
         assert re.search(rf"{name}: seeds 1 to \d+, [\d,]+ answers judged, no findings.", page)

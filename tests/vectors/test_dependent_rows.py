@@ -135,8 +135,8 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
 def test_tangents_that_jump_are_turned_back_to_a_contact_s_own():
     one = step_of(stuck("facets-6"))
     found = along(one, way(Y), [fmpq(0)] * 6)
-    for _, beside in found.sides:
-        for own, other in zip(one.contacts, beside, strict=True):
+    for _, others in found.sides:
+        for own, other in zip(one.contacts, others, strict=True):
             assert abs(dot(own.d1, other.d1)) < CLOSE
             back = turned(own, other).motion
             for row, was in zip(back, own.motion, strict=True):
@@ -147,7 +147,7 @@ def test_a_contact_that_is_replaced_is_compared_with_nothing():
     one = step_of(squeezed(0.25, 0.5, 1.0))
     found = along(one, way(Y), [fmpq(0)] * 6)
     assert dependence_breaks(one, [found])
-    sides = [(step, [_another(contact) for contact in beside]) for step, beside in found.sides]
+    sides = [(step, [_another(contact) for contact in others]) for step, others in found.sides]
     assert not dependence_breaks(one, [replace(found, sides=tuple(sides))])
 
 

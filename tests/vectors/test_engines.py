@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation.engines import phenomena as asked
+from validation.engines import phenomena
 from validation.engines.judge import ENGINES, HERE
 from validation.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
 from validation.engines.tables import layers_page, phenomena_page
@@ -27,7 +27,7 @@ SETTLED = 1e-9
 
 
 def loads(name, body):
-    runs = asked.PHENOMENA[name]["runs"]
+    runs = phenomena.PHENOMENA[name]["runs"]
     return [(run["x"], load) for run in runs for load in run["loads"] if load["body"] == body]
 
 
@@ -50,7 +50,7 @@ def test_the_grips_lie_about_the_limits_of_the_three_cones():
     # (R21) to (R23): u = m g / (2 mu_v), w = m g d / (2 mu_omega).
     u, w = 0.2 * G / (2 * 0.6), 0.2 * G * 0.03 / (2 * 0.005)
     limits = [max(u, w), math.hypot(u, w), u + w]
-    pinch = asked.PHENOMENA["pinch"]
+    pinch = phenomena.PHENOMENA["pinch"]
     assert np.allclose(pinch["expected"], limits, atol=SETTLED, rtol=0)
     grips = [run["x"] for run in pinch["runs"][:-1]]
     assert np.allclose(grips, [k * N for N in limits for k in (0.99, 1.01)], rtol=2e-4)
@@ -81,7 +81,7 @@ def one_body(scene):
 
 
 def test_coulomb_s_law_itself_holds_in_every_cell():
-    found = {cell.phenomenon: cell for cell in asked.cells(one_body, 1e-3)}
+    found = {cell.phenomenon: cell for cell in phenomena.cells(one_body, 1e-3)}
     assert [name for name, cell in found.items() if not cell.holds] == ["pinch"]
     assert "not asked" in found["pinch"].words
 
@@ -95,12 +95,12 @@ def test_an_engine_that_creeps_lifts_and_bounces_differs():
                 poses[k][2] += 5e-5 * math.sin(300 * time) ** 2
         return answer
 
-    differs = {cell.phenomenon for cell in asked.cells(wrong, 1e-3) if not cell.holds}
+    differs = {cell.phenomenon for cell in phenomena.cells(wrong, 1e-3) if not cell.holds}
     assert {"sticks_on_slope", "no_lift_off", "no_rebound", "comes_to_rest"} <= differs
 
 
 def test_poses_that_are_no_numbers_are_no_answer():
-    cell = next(asked.cells(lambda _: {"poses": {"sled": [[math.nan] * 7] * 26}}, 1e-3))
+    cell = next(phenomena.cells(lambda _: {"poses": {"sled": [[math.nan] * 7] * 26}}, 1e-3))
     assert not cell.holds
     assert cell.words.startswith("no answer")
 
@@ -141,9 +141,9 @@ def test_every_setting_of_the_table_is_one_that_is_asked():
 
 def test_every_cause_that_is_blamed_was_tried_on_a_cell_of_the_table():
     for name, record in RECORDS.items():
-        asked = [{**one, "words": None} for one in ENGINES[name].get("tried", ())]
-        assert [{**one, "words": None} for one in record.get("tried", ())] == asked
-        for one in asked:
+        planned = [{**one, "words": None} for one in ENGINES[name].get("tried", ())]
+        assert [{**one, "words": None} for one in record.get("tried", ())] == planned
+        for one in planned:
             setting = {**ENGINES[name]["settings"][one["setting"]]}
             assert one["phenomenon"] in asked_of(record, one["setting"])
             assert any(setting.get(key) != value for key, value in one["values"].items())

@@ -42,20 +42,20 @@ def test_certificate_is_what_the_optimum_says(step, optimum):
 def test_words_count_all_rows_and_name_the_margins(step, optimum):
     """10 contacts of six rows, 5 of four, and two of the user's own: 82."""
     claims = exact_certificate(step, optimum)
-    told = in_words(step, claims)
-    assert told.startswith("exact: the optimum of the step, correctly rounded; ")
-    assert f"{len(claims.active)} of 82 rows; " in told
-    assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in told
-    assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in told
+    words = in_words(step, claims)
+    assert words.startswith("exact: the optimum of the step, correctly rounded; ")
+    assert f"{len(claims.active)} of 82 rows; " in words
+    assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in words
+    assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in words
     bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
     assert "smallest" not in in_words(step, bare)
 
 
 def test_words_for_what_is_not_exact(step):
     known = Certificate("residual", {"primal": 2e-9, "dual": 1e-9}, error_bound=3e-8)
-    told = in_words(step, known)
-    assert told.startswith("not exact: worst residual 2.0e-09 in natural units")
-    assert told.endswith("error of delta_q in the norm of H is at most 3.0e-08")
+    words = in_words(step, known)
+    assert words.startswith("not exact: worst residual 2.0e-09 in natural units")
+    assert words.endswith("error of delta_q in the norm of H is at most 3.0e-08")
     assert in_words(step, replace(known, error_bound=None)).endswith("no error bound")
     read = Certificate("residual", error_bound=3e-8)
     assert (

@@ -57,6 +57,7 @@ def test_the_gap_of_a_pair_is_the_difference_of_both_objectives():
 
 @pytest.mark.parametrize("k", [1, 2, 3])
 def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
+    """The cone is y_0 >= |(y_1, y_2, y_3)|, here with y_0 = 1."""
     _, form, balls, frame = posed()
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
         y = [arb(1), *(arb(share if i == k else 0.0) for i in (1, 2, 3))]
@@ -82,7 +83,7 @@ def test_entries_that_the_gap_leaves_undecided_are_zero():
     np.testing.assert_allclose(_rounded(form, balls, found), expected, rtol=EXACT, atol=EXACT)
 
 
-def test_net_is_what_the_contact_exerts_without_a_sign_of_zero():
+def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
     _, form, _, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
     x = np.array([3e-3, 0.0, 5e-3])

@@ -44,7 +44,7 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
 
 
 def refused(*_):
-    raise AssertionError("the method that decides everything was asked, or prepared")
+    raise AssertionError("the method that decides everything was called, or prepared")
 
 
 @pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
@@ -113,15 +113,15 @@ def test_a_row_without_coefficients_that_is_violated_has_no_end():
 
 
 def test_a_guess_is_given_up_after_some_walks():
-    asked = []
+    guesses = []
 
     def never(rows):
-        asked.append(rows.tolist())
-        return Violated(len(asked), rows, np.ones(len(rows)), np.zeros(1))
+        guesses.append(rows.tolist())
+        return Violated(len(guesses), rows, np.ones(len(rows)), np.zeros(1))
 
     assert (
         proved_nearby(never, np.zeros(0, np.int64), line(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.eye(1))
         is None
     )
-    assert 2 <= len(asked) <= 5
+    assert 2 <= len(guesses) <= 5
     assert proved_nearby(lambda rows: None, np.zeros(0, np.int64), line(1.0), np.eye(1)) is None

@@ -76,8 +76,8 @@ def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
     assert float(_centrality([balls(inverse)], [balls(y)])) == pytest.approx(1, rel=ROUNDING)
     path = [balls(inverse), balls([1.0])], [balls(y), balls([3.0])]
     assert float(_centrality(*path)) == pytest.approx(1, rel=ROUNDING)
-    beside = [balls([2.0, 1.0])], [balls([2.0, 1.0])]
-    assert float(_centrality(*beside)) == pytest.approx(1 / 5, rel=ROUNDING)
+    alike = [balls([2.0, 1.0])], [balls([2.0, 1.0])]
+    assert float(_centrality(*alike)) == pytest.approx(1 / 5, rel=ROUNDING)
     uneven = [balls([1.0]), balls([1.0])], [balls([1.0]), balls([3.0])]
     assert float(_centrality(*uneven)) == pytest.approx(1 / 2, rel=ROUNDING)
     for outside in ([1.0, 2.0, 0.0], [-3.0, 1.0, 0.0], [1.0, 1.0, 0.0]):

@@ -43,7 +43,7 @@ def bound_of(step, delta_q, lam):
 
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
     rng = np.random.default_rng(5)
-    told = 0
+    bounded = 0
     for _ in range(FUZZED):
         sizes = (int(v) for v in rng.integers((0, 1, 1), (3, 5, 4)))
         step = any_step(rng, *sizes, mass_ratio=rng.choice([1.0, 1e4, 1e9]))
@@ -57,8 +57,8 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
             delta_q, lam = made_up(rng, step, exact, **RIGHT_OR_WRONG)
             bound = bound_of(step, delta_q, lam)
             assert within(step, exact, delta_q, bound, lam)
-            told += bound < 1
-    assert told > FUZZED
+            bounded += bound < 1
+    assert bounded > FUZZED
 
 
 def test_free_motion_is_bounded_by_its_own_rounding():

@@ -89,9 +89,10 @@ def rates(normals, load=None, motion=None, terms=0.0, turns=None):
 
 
 def test_growth_presses_rows_opens_others_and_leaves_the_rest():
-    """Along (1, 0, -1): against z a wall and one behind, whose gap it closes, are clamped.
+    """The load is along (1, 0, -1), and the rows are y, z, x, -z and y >= 0, of any length.
 
-    x >= 0 opens; y >= 0 stays as it is, twice. Long and short rows say the same.
+    z >= 0 bears load; with -z >= 0 it keeps z, so that this one bears load in some optimal lam.
+    x >= 0 opens. y >= 0, which stands twice, does neither, and stays idle.
     """
     big, small = 2.0**38, 2.0**-38
     normals = [[0, small, 0], [0, 0, big], [30, 0, 0], [0, 0, -3], [0, 3 * small, 0]]
@@ -132,8 +133,8 @@ def test_walls_that_are_one_contradict_each_other_if_they_move_apart():
         assert all(contacts == {0, 1} for contacts, _ in found)
 
 
-def test_pushes_that_nothing_asks_for_or_nothing_grants_are_zero():
-    """A row that moves nothing cannot be opened; x >= 1 by x, of length 2, is pushed by 1/4."""
+def test_pushes_are_zero_where_none_is_needed_or_none_moves_anything():
+    """Of slack + rows rows'p >= 0 with p >= 0: -1 + 2 * 2 p = 0 at p = 1/4."""
     assert _complementary(np.zeros((1, 1)), np.array([-1.0])).tolist() == [0.0]
     assert _complementary(np.array([[2.0]]), np.array([-1.0])) == pytest.approx([0.25])
     assert _complementary(np.array([[2.0]]), np.array([1.0])).tolist() == [0.0]

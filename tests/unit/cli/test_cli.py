@@ -23,22 +23,22 @@ def swing(tmp_path):
 
 def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert main(["run", scene, "--out", str(out)]) == 0
-    told = capsys.readouterr().out
-    assert told.startswith(
+    printed = capsys.readouterr().out
+    assert printed.startswith(
         "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend daqp (native), "
     )
-    assert told.endswith(f"wrote {out / 'scene.npz'}\n")
+    assert printed.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
 
 
 def test_run_prints_one_json_object(scene, out, capsys):
     assert main(["run", scene, "--out", str(out), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["trajectory"] == str(out / "scene.npz")
-    assert (told["steps"], told["variables"], told["rows"]) == (5, 8, 10)
-    assert told["backend"] == "daqp"
-    assert 0 <= told["worst_residual"] < MULTIPLIERS
-    assert set(told["milliseconds_per_step"]) == {"distances", "rows", "solve", "integrate"}
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["trajectory"] == str(out / "scene.npz")
+    assert (printed["steps"], printed["variables"], printed["rows"]) == (5, 8, 10)
+    assert printed["backend"] == "daqp"
+    assert 0 <= printed["worst_residual"] < MULTIPLIERS
+    assert set(printed["milliseconds_per_step"]) == {"distances", "rows", "solve", "integrate"}
 
 
 def test_run_finds_the_scenarios_that_come_along(out, capsys):
@@ -50,8 +50,8 @@ def test_run_finds_the_scenarios_that_come_along(out, capsys):
 def test_options_change_the_scenario(scene, out, capsys):
     options = ["--backend", "osqp", "--certify", "off", "--set", "steps=2", "--set", "h=0.02"]
     assert main(["run", scene, "--out", str(out), "--json", *options]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["backend"], told["steps"], told["worst_residual"]) == ("osqp", 2, None)
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["backend"], printed["steps"], printed["worst_residual"]) == ("osqp", 2, None)
     np.testing.assert_allclose(trajectory_read(out / "scene.npz")["t"], [0.02, 0.04], rtol=EXACT)
 
 
@@ -119,8 +119,8 @@ def test_a_step_taken_from_a_run_solves_to_what_the_run_did(scene, out, capsys):
     step, solution = out / "step.json", out / "solution.json"
     assert main(["extract", str(out / "scene.npz"), "--step", "4", "-o", str(step)]) == 0
     assert main(["solve", str(step), "-o", str(solution)]) == 0
-    told = capsys.readouterr()
-    assert told.err.startswith("exact: the optimum of the step, correctly rounded; ")
+    printed = capsys.readouterr()
+    assert printed.err.startswith("exact: the optimum of the step, correctly rounded; ")
     read, run = json.loads(solution.read_text()), trajectory_read(out / "scene.npz")
     np.testing.assert_allclose(read["delta_q"], run["delta_q"][4], rtol=EXACT, atol=EXACT)
     # lam itself is not unique; A'lam is.
@@ -231,9 +231,9 @@ def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
 
 def test_backends_lists_what_is_installed(capsys):
     assert main(["backends", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["default"], told["default_of_solve"]) == ("daqp", "clarabel")
-    assert {"clarabel", "osqp", "piqp", "daqp"} <= set(told["installed"])
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["default"], printed["default_of_solve"]) == ("daqp", "clarabel")
+    assert {"clarabel", "osqp", "piqp", "daqp"} <= set(printed["installed"])
     assert main(["backends"]) == 0
     page = capsys.readouterr().out
     assert "daqp (default of run)" in page
@@ -242,13 +242,13 @@ def test_backends_lists_what_is_installed(capsys):
 
 def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
     assert demo.status == 0
-    told = json.loads(demo.output)
-    assert set(told["cases"]) == {"with torsion", "without torsion"}
+    printed = json.loads(demo.output)
+    assert set(printed["cases"]) == {"with torsion", "without torsion"}
     names = {path.name for path in demo.folder.iterdir()}
     assert names == {
-        *told["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
+        *printed["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
     }  # fmt: skip
-    for name in told["figures"]:
+    for name in printed["figures"]:
         assert (demo.folder / name).stat().st_size > 1000
 
 

@@ -94,5 +94,5 @@ def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsy
 
     monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
     assert main(["backends"]) == 2
-    told = capsys.readouterr().err
-    assert told == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"
+    printed = capsys.readouterr().err
+    assert printed == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"

@@ -27,12 +27,12 @@ def scene(tmp_path):
 @pytest.mark.parametrize("name", NAMES)
 def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, capsys):
     assert main(["run", scene, "--cone", name, "--out", str(tmp_path), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
+    said = json.loads(capsys.readouterr().out)
     trajectory = trajectory_read(tmp_path / "scene.npz")
     assert trajectory.header["cone"] == name
     step = trajectory.step_data(3)
     assert step.cone == name
-    assert told["rows"] == int(step.offsets[-1]) == trajectory["lam"].shape[1]
+    assert said["rows"] == int(step.offsets[-1]) == trajectory["lam"].shape[1]
     again = solve_step(step, "none")
     np.testing.assert_allclose(again.delta_q, trajectory["delta_q"][3], rtol=EXACT, atol=EXACT)
     out = tmp_path / "step.json"
@@ -72,12 +72,12 @@ def test_an_unknown_cone_is_refused_in_a_sentence(scene, tmp_path, capsys):
 
 def test_inspect_counts_the_rows_of_the_scenario_s_cone(scene, capsys):
     assert main(["inspect", scene, "--set", "cone=product", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["cone"] == "product"
+    said = json.loads(capsys.readouterr().out)
+    assert said["cone"] == "product"
     expected = {6: 8, 4: 4}
     assert main(["inspect", scene, "--json"]) == 0
     pyramid = json.loads(capsys.readouterr().out)
-    for one, two in zip(told["pairs"], pyramid["pairs"], strict=True):
+    for one, two in zip(said["pairs"], pyramid["pairs"], strict=True):
         assert one["rows"] == expected[two["rows"]]
 
 

@@ -67,6 +67,7 @@ def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
             there = closest_points(
                 [pair], system.kinematics(system.integrate(system.q_start, t * e))
             )
+            # Contacts come by distance: these are put in the order of `points`, by their numbers.
             order = np.argsort(there.point)[np.argsort(np.argsort(points.point))]
             return np.stack([there.alpha[order], there.beta[order]])
 
@@ -119,7 +120,7 @@ def test_a_level_rim_whose_body_turns_has_no_lowest_point():
 
 @pytest.mark.parametrize("away", [0.0, 5.0])
 def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
-    # Tilts between rounding and 1e-5 blur the lowest point of a rim, wherever the body is.
+    # Of a tilt between rounding and LEVEL, 1e-5, the lowest point of a rim is not well known.
     slight, much = (0.0, 3e-6, 0.0), (0.0, 1e-3, 0.0)
     for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
         system = body((away, away, 0.06), rpy)

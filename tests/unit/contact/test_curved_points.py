@@ -24,7 +24,7 @@ BY_CONE = {
 
 
 @pytest.mark.parametrize(("foot", "distance", "normal"), BY_CONE.values(), ids=BY_CONE)
-def test_a_point_beside_a_feature_of_a_cone_is_as_far_as_put(foot, distance, normal) -> None:
+def test_a_point_put_off_a_feature_of_a_cone_has_that_distance(foot, distance, normal) -> None:
     r, z = np.add(foot, np.multiply(distance, normal))
     for x, y in ((1.0, 0.0), (-0.6, 0.8)):  # half-planes about the axis
         phi, n = signed_distance(CONE, np.array([[r * x, r * y, z]]))

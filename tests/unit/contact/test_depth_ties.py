@@ -1,4 +1,4 @@
-"""Bodies in penetration with two ways out that are equally short, and the same just beside."""
+"""Bodies in penetration with two ways out that are equally short, and the same a little apart."""
 
 import numpy as np
 import pytest
@@ -97,9 +97,10 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name, body) -> None:
     assert inside(solid, p, body, pose)
     for sign in (1, -1):
         assert not inside(solid, p + sign * AWAY * np.array(way), body, pose)
-    # What counts as equal is a share of the solid's size, which is below a metre here.
-    beside = 0.9 * TIED / solid.extent
-    assert not inside(solid, p + beside * np.array(way), body, pose)
+    # Equal is what differs by at most TIED * size. The sizes are below 1 m: this is more than that,
+    # and less than TIED / size.
+    off = 0.9 * TIED / solid.extent
+    assert not inside(solid, p + off * np.array(way), body, pose)
 
 
 @pytest.mark.parametrize("name", NO_TIES)
@@ -127,24 +128,22 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
     a, b, t = PAIRS[name]
     size = max(a.extent, b.extent)
     ways = np.eye(3) if t[2] < 0.2 else np.eye(3)[[0, 2]]
+    between = (TIED / size + TIED * size) / 2  # more than TIED * size, which is equal
     assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ np.array(t) + AT))
     for way in ways[:2]:
-        for off in (AWAY, -AWAY, (TIED / size + TIED * size) / 2, -(TIED / size + TIED * size) / 2):
+        for off in (AWAY, -AWAY, between, -between):
             moved = TURNED @ (np.array(t) + off * way) + AT
             assert not tied(a, b, (TURNED, AT), (TURNED, moved))
 
 
 def test_capsules_are_tied_where_their_axes_cross() -> None:
+    # The capsules are apart where their axes are by more than 0.05 + 0.03. Equal is what differs by
+    # at most TIED * extent; the extent is 0.5.
     a, b = Capsule(0.05, 0.2), Capsule(0.03, 0.2)
     across = TURNED @ Rotation.from_euler("x", 1.0).as_matrix()
-    for off, expected in (
-        (0.0, True),
-        (AWAY, False),
-        (1.5e-10, False),
-        (0.07, False),
-        (0.09, False),
-    ):
-        assert tied(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off)) == expected
+    for off in (0.0, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
+        found = tied(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off))
+        assert found == (off == 0.0)
 
 
 def test_solids_that_touch_along_an_edge_are_not_in_penetration() -> None:

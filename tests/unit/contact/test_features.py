@@ -1,4 +1,4 @@
-"""What each shape is about points of its surface, against closed forms, and just beside rims."""
+"""What each shape is about points of its surface, on rims and next to them: closed forms."""
 
 import numpy as np
 import pytest
@@ -25,6 +25,8 @@ TETRAHEDRON = convex_hull([[0, 0, 0], [0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]])
 EDGE = (np.ones(3) / np.sqrt(3) - Z) / np.linalg.norm(np.ones(3) / np.sqrt(3) - Z)
 NO = np.zeros((3, 3))
 TOP = 0.01 * Z  # of the segment of PILL
+# Of a ball of radius r the farthest point along n is r n / |n|, and its derivative r (I - n n').
+BALL = 0.01 * (np.eye(3) - np.outer(TILTED, TILTED))
 FREE = {
     "a half-space": (HalfSpace(TILTED, 0.0), 0 * X, TILTED, NO, "normal"),
     "a face of a box": (BOX, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
@@ -34,7 +36,7 @@ FREE = {
     "a blunt edge of a mesh": (TETRAHEDRON, 0.01 * (X + Y), EDGE, NO, [(X - Y) / np.sqrt(2)]),
     "a corner of a mesh": (MESH, np.array([0.01, 0.02, 0.03]), TILTED, NO, []),
     "the side of a capsule": (PILL, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
-    "an end of a capsule": (PILL, TOP + 0.01 * TILTED, TILTED, ball(0.01, TILTED).bend, []),
+    "an end of a capsule": (PILL, TOP + 0.01 * TILTED, TILTED, BALL, []),
     "the side of a cylinder": (LOG, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
     "a side of a cylinder along y": (LOG, 0.01 * Y, Y, 0.01 * np.outer(X, X), [Z]),
     "the top of a cylinder": (LOG, np.array([0.0, 0.005, 0.02]), Z, NO, "normal"),
@@ -71,7 +73,7 @@ def test_a_feature_bends_and_is_straight_as_its_shape_is(name) -> None:
 
 
 def test_a_ball_bends_alike_across_its_normal_and_not_along_it() -> None:
-    like(ball(0.3, TILTED).bend, 0.3 * (np.eye(3) - np.outer(TILTED, TILTED)))
+    like(ball(0.01, TILTED).bend, BALL)
 
 
 def test_an_ellipsoid_bends_as_its_farthest_point_moves() -> None:
@@ -105,7 +107,7 @@ def test_a_feature_ends_where_another_begins(name) -> None:
     like(span(found.ends), span(ends))
 
 
-BESIDE = {
+RIMS = {
     "a face of a box": (BOX, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
     "a face of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
     "the side of a capsule": (PILL, TOP + 0.01 * U, U, Z, 0.02),
@@ -114,16 +116,19 @@ BESIDE = {
     "the side of a cone": (CONE, 0.03 * U - 0.02 * Z, SIDE, -GENERATOR, 0.05),
     "the base of a cone": (CONE, 0.03 * U - 0.02 * Z, -Z, U, 0.05),
 }
-"""Shape, point of a rim, normal, the way off from the side's or face's middle, a size [m]."""
+"""Shape, point of a rim, normal, the way to the rim from inside of the face, the shape's size [m].
+
+Of a capsule, a cylinder and a cone the size is radius + half_length, of a box its longest side.
+"""
 
 
-@pytest.mark.parametrize("name", BESIDE)
+@pytest.mark.parametrize("name", RIMS)
 def test_near_a_rim_is_on_it_and_a_share_of_the_size_away_is_not(name) -> None:
-    shape, x, n, way, size = BESIDE[name]
-    near, beside = (feature(shape, x - share * ON_RIM * size * way, n) for share in (0.3, 3.0))
+    shape, x, n, way, size = RIMS[name]
+    near, away = (feature(shape, x - share * ON_RIM * size * way, n) for share in (0.3, 3.0))
     assert len(near.ends) > 0
-    assert not len(beside.ends)
-    assert len(beside.free) > len(near.free)
+    assert not len(away.ends)
+    assert len(away.free) > len(near.free)
 
 
 def test_a_rim_is_as_curved_as_its_normal_leans_outwards() -> None:

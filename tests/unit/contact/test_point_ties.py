@@ -1,4 +1,4 @@
-"""Points that are as near as the farthest that a pair keeps, and the same points just beside."""
+"""Points that are as near as the farthest that a pair keeps, and the same a little apart."""
 
 import numpy as np
 import pytest
@@ -67,15 +67,16 @@ def test_two_that_are_kept_are_tied_with_one_that_is_not(solid) -> None:
 
 @pytest.mark.parametrize("solid", [FLOOR, BALL])
 def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
-    # The size is at most 0.3 m here.
+    # Equal is what differs by at most TIED * size, and the size is between 0.01 and 1 m here.
     for off, expected in ((TIED, False), (-TIED, False), (TIED * 0.01, True), (-TIED * 0.01, True)):
         near = cloud(solid, HEIGHTS + np.array([off, 0.0, 0.0, 0.0, 0.0]))
         assert (both(solid, near, 3) != ([], [])) == expected
-        pushed = cloud(solid, [0.03, 0.01, 0.03 + off, 0.03 + off, 0.04])
-        kept, out = both(solid, pushed, 3 if off > 0 else 1)
-        if off > 0:
-            assert out in ([2], [3])
-            assert (0 in kept) == expected
+    # Points 0 and 1 are kept, and one of 2 and 3, which are higher by `off`; the other is left out.
+    for off, with_0 in ((TIED, False), (TIED * 0.01, True)):
+        higher = cloud(solid, [0.03, 0.01, 0.03 + off, 0.03 + off, 0.04])
+        kept, out = both(solid, higher, 3)
+        assert out in ([2], [3])
+        assert kept == [0] * with_0 + [5 - out[0]]
 
 
 def test_of_many_points_the_one_left_out_is_found() -> None:

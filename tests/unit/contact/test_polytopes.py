@@ -12,7 +12,7 @@ from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
-from tests.tolerances import CLOSED_FORM, EXACT
+from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE
 
 SCALES = [1e-5, 1.0, 1e3]
 X, Y, Z = np.eye(3)
@@ -20,8 +20,6 @@ HALF = np.array([0.1, 0.3, 0.2])
 CORNERS = HALF * [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 ROOF = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
 """A tip at the origin, and what is above it."""
-OF_DIFFERENCE = 1e-15
-"""Error of coordinates of decimetres [m]: over a distance [m], that of its direction [-]."""
 
 
 def turned(x: float, y: float, z: float) -> np.ndarray:

@@ -172,17 +172,17 @@ def test_a_pose_that_is_not_finite_is_refused() -> None:
         closest_points([], still)
 
 
-@pytest.mark.parametrize("beside", [1e-6, 1e-8, 1e-10])
-def test_just_beside_a_face_the_normal_leans_away_from_its_edge(beside: float) -> None:
+@pytest.mark.parametrize("off", [1e-6, 1e-8, 1e-10])
+def test_just_beyond_a_face_the_normal_leans_away_from_its_edge(off: float) -> None:
     # The edge is at x = 0.1, z = 0.2: a point 1e-5 above the face and a little beyond the edge.
     up = 1e-5
-    lean = np.array([beside, 0.0, up]) / np.hypot(beside, up)
+    lean = np.array([off, 0.0, up]) / np.hypot(off, up)
     corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.3, 0.3) for z in (-0.2, 0.2)])
-    point = np.array([0.1 + beside, 0.05, 0.2 + up])
+    point = np.array([0.1 + off, 0.05, 0.2 + up])
     for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
         phi, n = signed_distance(shape, point[None])
         np.testing.assert_allclose(n[0], lean, rtol=0, atol=NORMAL_BESIDE)
-        np.testing.assert_allclose(phi[0], np.hypot(beside, up), rtol=0, atol=CLOSED_FORM)
+        np.testing.assert_allclose(phi[0], np.hypot(off, up), rtol=0, atol=CLOSED_FORM)
 
 
 @pytest.mark.parametrize("beyond", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])

@@ -25,7 +25,7 @@ KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-spac
 CONES = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "frictionless")
 
 # The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows; CI has one.
-needs_compiler = pytest.mark.skipif(
+needs_compiler = pytest.mark.skipif(  # a compiler is optional: NumPy takes the same steps
     why_not() is not None, reason=f"no compiled code here: {why_not()}"
 )
 STONE = robot(link("stone", "", inertial("0.3", ("3e-4",) * 3)))

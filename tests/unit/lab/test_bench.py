@@ -36,8 +36,8 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
         "step, native", "DAQP alone", "step, through CVXPY", "step, CVXPY rebuilt each time",
         "hand-written qpsolvers loop", "all distances, brute force",
     }  # fmt: skip
-    asked = {(row["engine"], row["backend"]) for row in found["parts"]}
-    assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= asked
+    measured = {(row["engine"], row["backend"]) for row in found["parts"]}
+    assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= measured
     assert found["mujoco"].get("finite", True)
     assert [row["points"] for row in found["clouds"]] == [992, 2000]
     assert [row["bodies"] for row in found["chains"] + found["heaps"]] == [2, 4, 4]

@@ -135,10 +135,10 @@ def test_results_are_numbered_once_over_all_pages_without_a_gap():
 
 def test_the_command_prints_a_table_and_writes_the_page(tmp_path, capsys):
     assert main(["validate", "approach", "flat_patch", "--out", str(tmp_path)]) == 0
-    told = capsys.readouterr()
-    assert re.search(r"^approach +holds +162 ", told.out, re.MULTILINE)
-    assert "2 holds" in told.out
-    assert "[2/2] flat_patch ... holds" in told.err
+    printed = capsys.readouterr()
+    assert re.search(r"^approach +holds +162 ", printed.out, re.MULTILINE)
+    assert "2 holds" in printed.out
+    assert "[2/2] flat_patch ... holds" in printed.err
     page = (tmp_path / "claims.md").read_text()
     assert "2 of 2 claims hold" in page
     assert "(figures/flat_patch.png)" in page
@@ -148,9 +148,9 @@ def test_the_command_prints_a_table_and_writes_the_page(tmp_path, capsys):
 
 def test_the_command_prints_one_json_object(tmp_path, capsys):
     assert main(["validate", "approach", "--json", "--out", str(tmp_path)]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["failed"] == []
-    assert told["claims"][0]["comparisons"][0]["holds"] is True
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["failed"] == []
+    assert printed["claims"][0]["comparisons"][0]["holds"] is True
 
 
 def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys, monkeypatch):
@@ -158,8 +158,8 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys
     monkeypatch.setattr(command, "BY_NAME", {"planted": bad})
     monkeypatch.setattr(command, "CLAIMS", {"Planted": {"planted": bad}})
     assert main(["validate", "--out", str(tmp_path)]) == 1
-    told = capsys.readouterr()
-    assert "quasistatic-ref: planted fails: weight [N] is None, not 2.0" in told.err
+    printed = capsys.readouterr()
+    assert "quasistatic-ref: planted fails: weight [N] is None, not 2.0" in printed.err
     assert "FAILS" in (tmp_path / "claims.md").read_text()
     assert main(["validate", "--json", "--out", str(tmp_path)]) == 1
     assert json.loads(capsys.readouterr().out)["failed"] == ["planted"]

@@ -13,12 +13,14 @@ JOINTS = (
     Joint("arm/swing", "revolute", False, slice(13, 14), slice(10, 11)),
 )
 UNITS = {"quaternion": slice(3, 7), "heading": slice(9, 11), "turn": slice(11, 13)}
-# Lengths whose squares add up in whole numbers: 1 + 4 + 4 + 16 = 25, 9 + 16 = 25, 64 + 225 = 289.
-Q = np.array([5, 6, 7, 1, 2, 2, 4, 8, 9, 3, 4, 8, 15, 0.5], dtype=np.float64)
+# Lengths that are whole numbers, entry by entry: (3, 4) has 5, (5, 12) has 13, (13, 84) has 85, and
+# (8, 15) has 17. So nothing is rounded, whichever library computes them.
+Q = np.array([5, 6, 7, 3, 4, 12, 84, 8, 9, 3, 4, 8, 15, 0.5], dtype=np.float64)
 
 
 def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths() -> None:
-    expected = [5, 6, 7, 1 / 5, 2 / 5, 2 / 5, 4 / 5, 8, 9, 3 / 5, 4 / 5, 8 / 17, 15 / 17, 0.5]
+    quaternion = [3 / 85, 4 / 85, 12 / 85, 84 / 85]
+    expected = [5, 6, 7, *quaternion, 8, 9, 3 / 5, 4 / 5, 8 / 17, 15 / 17, 0.5]
     q = Q.copy()
     assert normalised(JOINTS, q).tolist() == expected
     assert np.array_equal(q, Q)

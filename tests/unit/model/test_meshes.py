@@ -189,21 +189,24 @@ def test_an_unreadable_mesh_is_named_without_places_in_a_library(tmp_path: Path)
     assert "function" not in str(caught.value)
 
 
-def test_a_mesh_library_s_reason_is_the_line_before_its_hint(tmp_path: Path) -> None:
-    path = written(tmp_path, "", "a.stl")
-    with pytest.raises(ModelError, match=r"a\.stl: cannot be read as a mesh: File is empty$"):
-        mesh_hull(path, np.ones(3))
+LIBRARY = {
+    "places, reason, hint": "From file: /a.cpp\nat line: 9\nFile is empty\nHint: look elsewhere\n",
+    "reason and hint": "File is empty\nHint: look elsewhere",
+    "one line": "File is empty",
+    "one line and an empty one": "File is empty\n\n",
+}
+"""What a mesh library says of an empty file; coal's own words have the form of the first."""
 
 
-@pytest.mark.parametrize("said", ["one line", "one line\n\n"])
-def test_a_reason_of_one_line_is_given_whole(
+@pytest.mark.parametrize("said", LIBRARY.values(), ids=LIBRARY)
+def test_the_reason_of_a_mesh_library_is_the_line_before_its_hint(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: str
 ) -> None:
     def load(*_: object) -> None:
         raise RuntimeError(said)
 
     monkeypatch.setattr(coal, "MeshLoader", lambda: SimpleNamespace(load=load))
-    with pytest.raises(ModelError, match=r"cannot be read as a mesh: one line$"):
+    with pytest.raises(ModelError, match=r"a\.stl: cannot be read as a mesh: File is empty$"):
         mesh_hull(tmp_path / "a.stl", np.ones(3))
 
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf_file import urdf_file
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
-from tests.unit.model.urdf_texts import BOX, joint, link, robot, written
+from tests.unit.model.urdf_texts import BOX, inertial, joint, link, robot, written
 
 GRAVITY = np.array([1.0, -2.0, -9.81])
 PENDULUM = robot(
@@ -123,10 +123,8 @@ def test_weight_at_the_centre_of_mass_is_gravity(tmp_path: Path) -> None:
 
 CART = robot(
     link("rail", inertial=""),
-    '<link name="cart"><inertial><mass value="2"/>'
-    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
-    '<link name="bob"><inertial><origin xyz="0 0 -0.7"/><mass value="3"/>'
-    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
+    link("cart", inertial=inertial("2", ("0.01",) * 3)),
+    link("bob", inertial=inertial("3", ("0.01",) * 3, '<origin xyz="0 0 -0.7"/>')),
     joint("slide", "rail", "cart", "prismatic", "1 0 0"),
     joint("swing", "cart", "bob", "revolute", "0 1 0"),
 )

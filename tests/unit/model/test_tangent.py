@@ -69,7 +69,7 @@ def test_a_half_turn_about_any_axis_is_named(joint: Joint, axis: int, n: int) ->
     for turn, within, named in (
         (np.pi, 0.0, True),
         (-np.pi, 0.0, True),
-        (3.0, 0.2, True),
+        (3.0, 0.2, True),  # pi - 3 = 0.14
         (3.0, 0.1, False),
     ):
         change = np.zeros(n)

@@ -12,7 +12,7 @@ from quasistatic_ref.model.urdf_file import inertia_defect, urdf_file
 from quasistatic_ref.model.urdf_shapes import same_pose
 from quasistatic_ref.model.urdf_xml import DEEPEST, xml_root
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE, LOADED
-from tests.unit.model.urdf_texts import collision, joint, link, robot
+from tests.unit.model.urdf_texts import collision, inertial, joint, link, robot
 
 
 def test_elements_are_nested_up_to_the_deepest() -> None:
@@ -52,10 +52,7 @@ def test_a_largest_moment_may_exceed_the_sum_of_the_others_by_rounding() -> None
 
 
 def point_mass(centre: str) -> str:
-    return (
-        f'<inertial><origin xyz="{centre}"/><mass value="1"/>'
-        '<inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial>'
-    )
+    return inertial("1", ("0",) * 3, f'<origin xyz="{centre}"/>')
 
 
 def three_points(second: str) -> str:

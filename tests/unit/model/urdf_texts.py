@@ -12,10 +12,12 @@ def link(name: str, collisions: str = "", inertial: str = INERTIAL) -> str:
     return f'<link name="{name}">{inertial}{collisions}</link>'
 
 
-def inertial(mass: str = "2", moments: tuple[str, str, str] = ("0.02", "0.03", "0.04")) -> str:
+def inertial(
+    mass: str = "2", moments: tuple[str, str, str] = ("0.02", "0.03", "0.04"), origin: str = ""
+) -> str:
     ixx, iyy, izz = moments
     return (
-        f'<inertial><mass value="{mass}"/><inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" '
+        f'<inertial>{origin}<mass value="{mass}"/><inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" '
         'ixy="0" ixz="0" iyz="0"/></inertial>'
     )
 

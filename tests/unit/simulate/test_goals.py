@@ -85,15 +85,15 @@ def test_a_spline_is_a_function_of_time(scenario, run):
 
 
 def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
-    asked = []
+    calls = []
 
     def target(t, q):
-        asked.append((t, q.copy()))
+        calls.append((t, q.copy()))
         return q[:3]
 
     done = run(target)
-    np.testing.assert_allclose([t for t, _ in asked], done["t"], rtol=EXACT)
-    np.testing.assert_allclose([q for _, q in asked], done["q"][:STEPS], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose([t for t, _ in calls], done["t"], rtol=EXACT)
+    np.testing.assert_allclose([q for _, q in calls], done["q"][:STEPS], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(done["q_bar_a"], done["q"][:STEPS, :3], rtol=EXACT, atol=EXACT)
 
 

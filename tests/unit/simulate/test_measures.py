@@ -23,13 +23,13 @@ def test_a_run_tells_how_far_a_free_body_turned_and_rose(tmp_path, capsys):
     # The sphere spins about the vertical only: its angle is the sum of the steps' turns, and its
     # rise the height above its start.
     run_of(tmp_path, "sphere_spin", "steps=80")
-    told = json.loads(capsys.readouterr().out)["free_bodies"]["sphere"]
+    said = json.loads(capsys.readouterr().out)["free_bodies"]["sphere"]
     run = trajectory_read(tmp_path / "sphere_spin.npz")
     turned = np.degrees(run["delta_q"][:, 5].sum())
     rise = 1e3 * (run["q"][:, 2] - run["q"][0, 2]).max()
     assert 1.0 < turned < 180.0
-    np.testing.assert_allclose(told["largest_rotation_deg"], turned, rtol=1e3 * ROUNDING, atol=0.0)
-    np.testing.assert_allclose(told["largest_rise_mm"], rise, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(said["largest_rotation_deg"], turned, rtol=1e3 * ROUNDING, atol=0.0)
+    np.testing.assert_allclose(said["largest_rise_mm"], rise, rtol=ROUNDING, atol=0.0)
 
 
 def test_a_body_that_falls_has_not_risen(tmp_path, capsys):

@@ -90,16 +90,16 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
 
 
 def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
-    asked = []
+    calls = []
 
     def force(t, q):
-        asked.append((t, q.copy()))
+        calls.append((t, q.copy()))
         return np.zeros(8)
 
     q = scenario.system.q_start
     run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
-    np.testing.assert_allclose([t for t, _ in asked], [0.01, 0.02, 0.03], rtol=EXACT)
-    np.testing.assert_allclose([q for _, q in asked], run["q"][:3], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose([t for t, _ in calls], [0.01, 0.02, 0.03], rtol=EXACT)
+    np.testing.assert_allclose([q for _, q in calls], run["q"][:3], rtol=EXACT, atol=EXACT)
     expected = [scenario.targets(t) for t in (0.01, 0.02, 0.03)]
     np.testing.assert_allclose(run["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
 

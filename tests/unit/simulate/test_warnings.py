@@ -149,10 +149,10 @@ def test_with_all_points_of_the_faces_the_same_scene_warns_of_no_contact(hostile
 def test_warnings_are_printed_once_and_strict_makes_them_a_failure(hostile, tmp_path, capsys):
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
-    told = capsys.readouterr().err.splitlines()
+    printed = capsys.readouterr().err.splitlines()
     run = trajectory_read(tmp_path / "hostile.npz")
-    assert told == [f"quasistatic-ref: {sentence}" for sentence in run.warnings]
-    assert len(of_contacts(told)) == 1
+    assert printed == [f"quasistatic-ref: {sentence}" for sentence in run.warnings]
+    assert len(of_contacts(printed)) == 1
     assert main([*arguments, "--strict", "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["warnings"] == list(run.warnings)
     assert run.warnings[0][:40] in repr(run)
@@ -161,8 +161,8 @@ def test_warnings_are_printed_once_and_strict_makes_them_a_failure(hostile, tmp_
 def test_strict_is_content_with_a_run_that_warns_of_nothing(tmp_path, capsys):
     arguments = ["run", "sphere_spin", "--set", "steps=20", "--out", str(tmp_path)]
     assert main([*arguments, "--json", "--strict"]) == 0
-    told = capsys.readouterr()
-    assert (json.loads(told.out)["warnings"], told.err) == ([], "")
+    printed = capsys.readouterr()
+    assert (json.loads(printed.out)["warnings"], printed.err) == ([], "")
 
 
 DRAGS = {"block_push", "block_incline", "panda_push"}
@@ -193,11 +193,11 @@ def test_a_run_that_fails_at_once_still_says_that_a_unit_is_wrong(hostile, tmp_p
     arguments = ["run", str(hostile), "--out", str(tmp_path)]
     assert main([*arguments, "--set", f"bodies.cube.cloud={cloud}",
                  "--set", "contacts.floor.beta=cube"]) == 3  # fmt: skip
-    told = capsys.readouterr().err.splitlines()
-    assert told[-1].startswith("quasistatic-ref: step 0: contact ")
-    assert told[-2] == (
+    printed = capsys.readouterr().err.splitlines()
+    assert printed[-1].startswith("quasistatic-ref: step 0: contact ")
+    assert printed[-2] == (
         "quasistatic-ref: check the unit of cube: lengths are in metres, and it is 40 m long; "
         "scale it by 0.001 if that is meant in millimetres"
     )
     run = trajectory_read(tmp_path / "hostile.npz")
-    assert f"quasistatic-ref: {run.warnings[-1]}" == told[-2]
+    assert f"quasistatic-ref: {run.warnings[-1]}" == printed[-2]

@@ -50,15 +50,14 @@ def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeyp
 
 
 def test_a_method_that_rounding_keeps_from_settling_gives_its_best_point(rng, monkeypatch):
-    # H x - g = A'lam with lam = kappa / slack, by the answer that settled.
+    # The minimiser is unique: what is best of steps without an end is the answer that settled.
     step = random_step(rng)
     settled = barrier_step(step, 1e-6)
     monkeypatch.setattr(barrier, "SETTLED", 1e-18)
     monkeypatch.setattr(barrier, "NOTHING", 0.0)
-    nearest = barrier_step(step, 1e-6)
-    far = nearest.x - settled.x
+    off = barrier_step(step, 1e-6).x - settled.x
     energy = settled.x @ hessian(step) @ settled.x
-    assert far @ hessian(step) @ far <= CLOSED_FORM**2 * energy
+    assert off @ hessian(step) @ off <= CLOSED_FORM**2 * energy
 
 
 def test_a_row_that_no_coordinate_moves_keeps_its_gap():
@@ -75,7 +74,7 @@ def test_a_row_that_no_coordinate_moves_keeps_its_gap():
 
 
 def test_rows_that_are_far_push_as_little_as_kappa_says(rng):
-    # lam = kappa / slack: far less than moves anything, and settled all the same.
+    # lam = kappa / slack, of 1e-30 or less: far below the rounding of the loads, and yet known.
     step = random_step(rng)
     found = barrier_step(step.replace(contacts=changed(step.contacts, phi=[1.0, 2.0, 3.0])), 1e-30)
     np.testing.assert_allclose(found.lam, 1e-30 / found.slack, rtol=CLOSED_FORM)

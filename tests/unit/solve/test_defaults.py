@@ -75,10 +75,10 @@ print(default_backend(None, "pyramid", "off"), default_backend(None, "pyramid", 
 
 def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path):
     command = [sys.executable, "-c", WITHOUT_DAQP, str(tmp_path)]
-    told = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert told.stdout == "clarabel exact exact 2\nclarabel clarabel\n"
-    assert "pip install daqp" in told.stderr
-    assert "Traceback" not in told.stderr
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "clarabel exact exact 2\nclarabel clarabel\n"
+    assert "pip install daqp" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("by_code", [True, False])

@@ -15,7 +15,7 @@ from quasistatic_ref.solve.solver import KIND
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import step_solution
 from tests.helpers import pinch, point_on_floor, random_step
-from tests.tolerances import EXACT, ROUNDING
+from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 
 def pushed_point(m=0.3, **changes):
@@ -68,8 +68,8 @@ def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step)
         answer = solve_step(one, solver_for(one, name, "native"))
         assert answer.certificate.kind in ("exact", "enclosure")
         assert max(answer.certificate.residuals.values()) < ROUNDING
-        assert answer.statistics.digits > 5
-        assert DenseStep(one).units.size not in (0.5, 1.0, 2.0)
+        assert answer.statistics.digits > -np.log10(OPTIMUM)
+        assert DenseStep(one).units.size not in (0.5, 1.0, 2.0)  # or other units would do as well
 
 
 def test_without_compiled_code_the_answer_has_the_same_bits(monkeypatch):
@@ -93,12 +93,12 @@ def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkey
     assert solve_step(step, certify="off") is bad
 
 
-def test_friction_and_impulses_are_both_far_from_the_largest_number():
-    """Of LARGE = 2^200 each square counts by itself: 2^100 is as much as both may have."""
+def test_wrenches_are_finite_where_mu_and_lam_are_below_the_largest_by_far():
+    """Each of mu'mu + lam'lam and 1 / h is below LARGE = 2^200; the square of 2^101 is 2^202."""
 
-    def far(mu, lam):
+    def far(mu, lam, h=0.01):
         contacts = SimpleNamespace(mu=np.array([[mu, mu, 0.0]]))
-        step = SimpleNamespace(h=0.01, contacts=contacts)
+        step = SimpleNamespace(h=h, contacts=contacts)
         return _far_from_largest(SimpleNamespace(step=step, lam=np.array([lam, lam])))
 
     assert LARGE == 2.0**200
@@ -106,3 +106,5 @@ def test_friction_and_impulses_are_both_far_from_the_largest_number():
     assert not far(2.0**101, 1.0)
     assert not far(0.5, 2.0**101)
     assert not far(2.0**101, 2.0**101)
+    assert far(0.5, 1.0, h=2.0**-199)
+    assert not far(0.5, 1.0, h=2.0**-200)

@@ -201,7 +201,8 @@ def test_the_typical_length_is_the_median_of_rows_that_are_not_zero(lengths, med
     assert _typical(np.square(np.array(lengths, float))) == median
 
 
-def test_what_has_no_unit_has_none_and_says_so():
+def test_sizes_that_are_no_positive_finite_number_have_no_unit():
+    """Of a step without penetration the size is the power of two nearest to its length, here 3."""
     for x in (0.0, np.inf, np.nan, -1.0):
         assert np.isnan(_power_of_two(x))
     assert _power_of_two(1.7e308) == np.inf  # the nearest power is 2^1024

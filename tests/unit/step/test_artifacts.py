@@ -205,10 +205,10 @@ def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):
     # (tau - mu m g) h / I = 14.7 rad/s and rises by mu_omega h omega = 1.47 mm.
     arguments = ["run", "sphere_spin", "--out", str(tmp_path)]
     assert main([*arguments, "--set", "steps=39"]) == 0
-    told = capsys.readouterr()
+    printed = capsys.readouterr()
     expected = "largest drag 0 of what friction can bear, largest quasi-dynamic number 0, "
-    assert f"{expected}largest boundary layer 0 um" in told.out
-    assert told.err == ""
+    assert f"{expected}largest boundary layer 0 um" in printed.out
+    assert printed.err == ""
     assert main(arguments) == 0
     header = trajectory_read(tmp_path / "sphere_spin.npz").header
     expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5

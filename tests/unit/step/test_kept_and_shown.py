@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from quasistatic_ref.step.contacts import Contacts, friction_coefficients
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.posed import Constants, PosedContacts
 from quasistatic_ref.step.rounded_wrench import _nearest, rounded_wrenches
 from quasistatic_ref.step.show import MOST, MOST_IN_HTML, NAME, html_page, shortened, text_page
@@ -29,9 +29,11 @@ def posed(mu):
 
 
 def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it():
+    """(mu_v, mu_v, mu_omega) of each contact; the second has four rows, and no mu_omega."""
     c = STEP.contacts
     assert posed(c.mu).mu is c.mu
-    expected = friction_coefficients(c.mu_v, c.mu_omega, c.rows)
+    (v, w), omega = c.mu_v, c.mu_omega[0]
+    expected = [[v, v, omega], [w, w, 0.0]]
     np.testing.assert_allclose(posed(None).mu, expected, rtol=EXACT, atol=EXACT)
 
 
@@ -78,7 +80,7 @@ def test_a_name_that_fits_is_not_shortened():
     assert len(shortened("n" * (NAME + 1))) == NAME
 
 
-def test_multipliers_of_own_rows_are_the_last(rng):
+def test_multipliers_of_own_rows_are_the_last():
     lam = np.arange(12.0)
     solution = step_solution(STEP, np.zeros(7), lam, Certificate("none"), SAID)
     assert solution.lam.tolist() == lam[:10].tolist()
@@ -99,6 +101,7 @@ def test_arrays_are_the_same_if_all_of_their_numbers_are():
     ones = np.ones(2)
     assert _same(ones, ones)
     assert _same(ones, np.ones(2))
+    assert not _same(ones, np.array([1.0, 0.0]))
     assert not _same(ones, np.zeros(2))
 
 

@@ -157,7 +157,8 @@ def test_large_things_are_short_too(rng):
     assert repr(many).endswith("... and 28 more")
 
 
-def test_a_system_counts_what_of_each_body_is_actuated():
+def test_a_system_counts_the_actuated_coordinates_of_each_body():
+    """A free body has 6 coordinates and 7 entries of q, one in the plane 3 and 4."""
     free, moved = (Body.of_shape(name, Sphere(0.1), 2.0) for name in ("free", "moved"))
     puck = Body.of_shape("puck", Sphere(0.1), 3.0, base="planar")
     title, _, columns, rows = system_page(System([free, replace(moved, actuated="all"), puck]))
