@@ -61,3 +61,11 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     phi, n = signed_distance(Ellipsoid(np.array([a, b, c])), np.array([[x, 0.0, z]]))
     np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_just_off_a_rim_the_normal_leads_away_from_it() -> None:
+    # A ten thousandth of a billionth of the size away: the direction has its first four digits.
+    cone, off = Cone(0.03, 0.02), 1e-12
+    phi, n = signed_distance(cone, np.array([[0.03 + off, 0.0, -0.02]]))
+    np.testing.assert_allclose(phi, [off], rtol=1e-4)
+    np.testing.assert_allclose(n, [[1.0, 0.0, 0.0]], atol=1e-4)

@@ -58,3 +58,12 @@ def test_a_half_turn_about_any_axis_is_named(joint: Joint, axis: int, n: int) ->
         change = np.zeros(n)
         change[axis] = turn
         assert half_turns([joint], change, within) == ([joint.name] if named else [])
+
+
+def test_a_base_turns_about_its_own_axes() -> None:
+    # q (w, x) times (1, e / 2) is q + (-x e / 2, (w e + x x e) / 2).
+    x, w = np.array([0.1, -0.5, 0.7]), 0.5
+    E = entry_rates([FLOATING], np.array([1, 2, 3, *x, w]))
+    for k, e in enumerate(np.eye(3)):
+        expected = [*((w * e + np.cross(x, e)) / 2), -x @ e / 2]
+        np.testing.assert_allclose(E[3:, 3 + k], expected, rtol=0, atol=ROUNDING)
