@@ -57,8 +57,7 @@ PAIRS = units("contact", "corners", "distance", "pairs", "jacobian")
 SOLIDS = units("contact", "corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
 LARGE = ("unit/certify/test_sparse_bound.py", "unit/certify/test_bound_formulas.py")
 SPARSE = (*units("step", "kept_and_shown", "sparse"), *units("solve", "solver"))
-CLOUDS = units("model", "clouds", "cloud_headers", "meshes", "surfaces")
-DRAWN = units("model", "surfaces")
+CLOUDS = units("model", "clouds", "cloud_headers", "meshes")
 SCENES = (
     "unit/simulate/test_scenario.py",
     "unit/simulate/test_simulator.py",
@@ -89,6 +88,7 @@ SOLVED = (
     "unit/step/test_cones.py",
 )
 CURVED = units("contact", "curved_witness", "curved_pairs", "faces", "distance_guard", "distance")
+DRAWN = "unit/model/test_shapes.py"
 
 DIFFERENTIATED = (
     "unit/certify/test_touching.py",
@@ -186,7 +186,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/body.py": ("unit/model/test_solid.py", "unit/model/test_planar.py", *SCENES),
     "model/clouds.py": CLOUDS,
     "model/configuration.py": (*units("model", "configuration", "system_refusals"), *SCENES),
-    "model/convex_mesh.py": (*CLOUDS, "unit/contact/test_solid_pairs.py"),
+    "model/convex_mesh.py": (*units("model", "meshes", "shapes"), *SOLIDS),
     "model/dae.py": ("unit/model/test_meshes.py",),
     "model/frozen.py": ("unit/model/test_shapes.py", "unit/step/test_plain_data.py", *SYSTEM),
     "model/kinematics.py": ("unit/model/test_system.py", *CONTACT),
@@ -197,18 +197,18 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/point_table.py": CLOUDS,
     "model/screw.py": units("model", "screw", "rotation", "system"),
     "model/shapes.py": (*units("model", "shapes", "solid"), "unit/step/test_words.py"),
-    "model/point_cloud.py": CLOUDS,
-    "model/solids/box.py": SOLIDS,
-    "model/solids/capsule.py": (*DRAWN, *SOLIDS),
-    "model/solids/cone.py": (*DRAWN, "unit/contact/test_curved_points.py", *CURVED),
-    "model/solids/cylinder.py": (*DRAWN, *CURVED),
-    "model/solids/ellipsoid.py": (*DRAWN, "unit/contact/test_curved_points.py", *CURVED),
-    "model/solids/half_space.py": (*DRAWN, "unit/contact/test_cloud.py", *SOLIDS),
+    "model/point_cloud.py": (DRAWN, *CLOUDS),
+    "model/solids/box.py": (DRAWN, *SOLIDS),
+    "model/solids/capsule.py": (DRAWN, *SOLIDS),
+    "model/solids/cone.py": ("unit/contact/test_curved_points.py", DRAWN, *CURVED),
+    "model/solids/cylinder.py": (DRAWN, *CURVED),
+    "model/solids/ellipsoid.py": ("unit/contact/test_curved_points.py", DRAWN, *CURVED),
+    "model/solids/half_space.py": ("unit/contact/test_cloud.py", DRAWN, *SOLIDS),
     "model/solids/hull.py": SOLIDS,
     "model/solids/round.py": SOLIDS,
     "model/solids/rounded.py": ("unit/contact/test_cloud.py", *SOLIDS),
-    "model/solids/shape.py": (*DRAWN, "unit/model/test_a_shape_added.py", *SOLIDS),
-    "model/solids/sphere.py": (*DRAWN, *SOLIDS),
+    "model/solids/shape.py": ("unit/model/test_a_shape_added.py", DRAWN, *SOLIDS),
+    "model/solids/sphere.py": (DRAWN, *SOLIDS),
     "model/solid.py": ("unit/model/test_solid.py", "unit/step/test_plain_data.py"),
     "model/text.py": URDF,
     "model/urdf.py": URDF,

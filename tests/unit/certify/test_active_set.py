@@ -85,14 +85,6 @@ def test_multipliers_that_do_not_fall_never_vanish(order, balls):
     )
 
 
-def test_a_row_whose_multiplier_ends_at_zero_is_none_of_the_working_set():
-    """On x_0 = 1 and x_0 + x_1 = 2 lies x = (1, 1) = A'lam of lam = (0, 1)."""
-    optimum = dual_active_set(program([[1, 0], [1, 1]], [1, 2]), warm=[0])
-    assert isinstance(optimum, Optimum)
-    assert optimum.point.working == (1,)
-    assert list(optimum.point.rational.lam) == [1]
-
-
 def test_combination_without_positive_part_proves_infeasibility():
     """x_0 >= 1, x_1 >= 1 and -2 x_0 - 3 x_1 >= -4: y = (2, 3, 1), b'y = 1."""
     end = dual_active_set(program([[1, 0], [0, 1], [-2, -3]], [1, 1, -4]), [0, 1])
@@ -177,3 +169,11 @@ def test_each_walk_raises_the_dual_objective(monkeypatch):
         assert isinstance(end, Farkas | Optimum)
     assert len(ends) > 50
     assert all(before < after for before, after in ends)
+
+
+def test_rows_whose_multipliers_are_zero_are_left_out_of_the_optimum(balls):
+    # The nearest x to g = (0, 1, 2) with x_0 >= 0 and x_1 >= 2 has the multipliers 0 and 1.
+    form = program([[1, 0, 0], [0, 1, 0]], [0, 2], g=[0.0, 1.0, 2.0])
+    assert active_set._without_zeros(point_on(form, (0, 1), balls)).working == (1,)
+    alone = point_on(form, (1,), balls)
+    assert active_set._without_zeros(alone) is alone

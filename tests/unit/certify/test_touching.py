@@ -15,6 +15,7 @@ def test_a_multiplier_is_nothing_compared_with_the_size_of_the_step():
     size = 1e3
     lam = np.array([100.0, 0.01]) * BEARING * size
     assert bearing(np.eye(2), lam, size).tolist() == [True, False]
+    assert bearing(np.eye(2), np.array([1.0, BEARING]), 1.0).tolist() == [True, False]
 
 
 def test_a_row_in_the_span_of_those_that_bear_load_bears_it_too():

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.contact.distance import ClosestPoints, _towards, late
+from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import (
     Box,
@@ -15,6 +17,7 @@ from quasistatic_ref.model.shapes import (
     PointCloud,
     Shape,
 )
+from quasistatic_ref.tolerances import ON_RIM, REPEATED, UPRIGHT
 from tests.tolerances import CLOSED_FORM, EXACT, ROUNDING
 from tests.unit.contact.still import found_for, placed, standing
 
@@ -91,3 +94,28 @@ def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:
     lower, upper = placed(Box(np.full(3, 0.25))), placed(Box(np.full(3, 0.25)), 1)
     found = found_for(lower, upper, standing((np.eye(3), np.array([0, 0, 0.5]))), k=4)
     assert sorted(found.point.tolist()) == [4, 5, 6, 7]
+
+
+def test_the_first_corner_of_a_rim_is_nearest_unless_the_rim_is_as_level_as_counts() -> None:
+    for tilt, first in ((UPRIGHT, [0.5, 0.0]), (2 * UPRIGHT, [0.0, 0.5])):
+        corners, _ = Cylinder(0.5, 0.25).corners(np.array([0.0, tilt, 1.0]))
+        np.testing.assert_allclose(corners[0, :2], first, atol=ROUNDING)
+
+
+def test_candidates_that_differ_by_as_much_as_counts_are_one() -> None:
+    # The second is the first again; of two that are as near, the closest pair comes last.
+    zero = np.zeros((3, 3))
+    for share, expected in ((1.0, [False, True, True]), (2.0, [False, False, False])):
+        phi = np.array([share * REPEATED, 0.0, 0.0])
+        off = np.array([[0.0, 0, 0], [0, 0, 0], [1, 0, 0]])
+        candidates = ClosestPoints(phi, off, zero, zero, np.arange(3))
+        assert late(candidates, 1 if share == 1.0 else 2).tolist() == expected
+
+
+def test_the_way_to_the_other_body_is_that_of_the_point_on_a_rim_that_is_not_level() -> None:
+    rim, z = Placed(Cylinder(0.5, 0.25), np.eye(3), np.zeros(3)), np.array([0.0, 0.0, 1.0])
+    y = np.array([0.0, 1.0, 0.0])
+    near, off = (0.5 * (1 - share * ON_RIM) * y + 0.25 * z for share in (1.0, 2.0))
+    for point, tilt, own in ((near, 0.1, True), (off, 0.1, False), (near, UPRIGHT, False)):
+        n = z + tilt * y
+        assert np.array_equal(_towards(rim, point, n), point if own else n)

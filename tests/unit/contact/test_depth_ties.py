@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.couples import couples
-from quasistatic_ref.contact.depth_ties import depth_tie
+from quasistatic_ref.contact.depth_ties import _differ, _inside_tie, depth_tie
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, PointCloud, Sphere
@@ -72,12 +72,17 @@ NO_TIES = {
 """A solid and a point with one nearest point, or with none below the surface."""
 
 
-def tied(alpha, beta, a=STILL, b=STILL):
-    """What `depth_tie` says of two shapes at poses (R, t), at their closest points."""
+def couple_of(alpha, beta, a, b):
+    """The contact of two shapes at poses (R, t), at their closest points."""
     p = pair(placed(alpha, 1), placed(beta, 2))
     R, t = (np.array([x, y, z]) for x, y, z in zip(STILL, a, b, strict=True))
-    (couple,) = couples([p], pair_closest_points(p, R, t), R, t)
-    return depth_tie(couple)
+    (found,) = couples([p], pair_closest_points(p, R, t), R, t)
+    return found
+
+
+def tied(alpha, beta, a=STILL, b=STILL):
+    """What `depth_tie` says of them."""
+    return depth_tie(couple_of(alpha, beta, a, b))
 
 
 def inside(solid, p, body, pose):
@@ -153,4 +158,55 @@ def test_solids_that_touch_along_an_edge_are_not_in_penetration() -> None:
 
 def test_a_rim_that_touches_an_edge_has_two_normals() -> None:
     rim, half = Cylinder(0.25, 0.25), Box(np.array([0.25, 0.25, 0.25]))
-    assert tied(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
+    found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
+    assert depth_tie(found)
+    assert depth_tie(found._replace(phi=0.0))
+
+
+# Of a size of 1 / TIED two depths are equal that differ by no more than one metre.
+FAR = 1 / TIED
+BORDERS = {
+    "a box": (Box(np.array([2.0, 2.0, 4.0])), (1.0, 0.0, 0.0)),
+    "a cylinder": (Cylinder(3.0, 2.0), (1.0, 0.0, 1.0)),
+    # Side and base of this cone, of slant 5, are (6 - 3 z) / 5 and 2 + z deep below its axis.
+    "a cone": (Cone(3.0, 2.0), (0.0, 0.0, 1 / 8)),
+    "a mesh": (convex_hull(Box(np.array([2.0, 2.0, 4.0])).corners(AT)[0]), (1.0, 0.0, 0.0)),
+    "an ellipsoid": (Ellipsoid(np.array([8.0, 6.0, 4.0])), (0.0, 0.0, 1.0)),
+    "a long ellipsoid": (Ellipsoid(np.array([8.0, 4.0, 4.0])), (1.0, 0.0, 0.0)),
+}
+"""A solid and a point whose depths differ by one metre, or that is as far from where they tie."""
+
+
+@pytest.mark.parametrize("name", BORDERS)
+def test_depths_that_differ_by_as_much_as_counts_as_equal_are_tied(name) -> None:
+    solid, p = BORDERS[name]
+    assert _inside_tie(solid, np.array(p), FAR)
+    assert not _inside_tie(solid, np.array(p), 0.99 * FAR)
+
+
+@pytest.mark.parametrize(
+    ("solid", "p"),
+    [
+        (Ellipsoid(np.array([8.0, 6.0, 0.5])), (0.0, 0.0, 0.5)),
+        (Cylinder(2.0, 2.0), (1.5, 0.0, 2.0)),
+    ],
+)
+def test_a_point_on_a_surface_is_not_tied_however_near_another_is(solid, p) -> None:
+    assert not _inside_tie(solid, np.array(p), FAR)
+
+
+def test_ways_out_that_differ_by_as_much_as_counts_as_equal_are_tied() -> None:
+    # The cubes are 2 m deep in each other along x and 3 m along y; the axes of the capsules, whose
+    # radii are 3/4 m, are one metre apart.
+    cube, away = Box(np.array([2.0, 2.0, 2.0])), (np.eye(3), np.array([2.0, 1.0, 0.0]))
+    boxes = couple_of(cube, cube, STILL, away)
+    capsules = couple_of(Capsule(0.5, 2.0), Capsule(0.25, 2.0), STILL, away)._replace(phi=0.25)
+    for found in (boxes, capsules):
+        for share, expected in ((1.0, True), (0.99, False)):
+            assert depth_tie(found._replace(extents=(1.0, share * FAR))) == expected
+
+
+def test_normals_that_differ_by_the_root_of_the_tolerance_are_one() -> None:
+    n, off = np.array([0.0, 0.0, 1.0]), np.sqrt(TIED) * np.array([1.0, 0.0, 0.0])
+    assert not _differ((n + off)[None], n)
+    assert _differ((n + 2 * off)[None], n)

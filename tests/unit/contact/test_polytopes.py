@@ -9,10 +9,12 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.polytope_pair import nearest_on_segments
 from quasistatic_ref.contact.solid_pair import solid_pair
 from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import Box, Capsule, Shape
-from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE
+from quasistatic_ref.tolerances import ON_SURFACE
+from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE, ROUNDING
 
 SCALES = [1e-5, 1.0, 1e3]
 X, Y, Z = np.eye(3)
@@ -148,3 +150,12 @@ def test_points_off_an_edge_or_a_corner_of_a_mesh_have_the_way_from_it(off, scal
     phi, n = signed_distance(hull, scale * (feet + off * ways) @ R.T)
     np.testing.assert_allclose(phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, ways @ R.T, rtol=EXACT, atol=OF_DIFFERENCE / off)
+
+
+def test_segments_as_parallel_as_counts_are_met_at_the_first_end() -> None:
+    # Along X, and 1 m above it at a sine s: they cross over the middle. Of parallel ones any will
+    # do, and the nearest to the first's start is taken.
+    for sine, share in ((ON_SURFACE, 0.0), (2 * ON_SURFACE, 0.5)):
+        tail, way = Z - sine / 2 * Y, X + sine * Y
+        s, r = nearest_on_segments((0 * X)[None], X[None], tail[None], way[None])
+        np.testing.assert_allclose([s, r], share, atol=ROUNDING)

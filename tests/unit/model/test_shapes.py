@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.convex_mesh import convex_hull
 from quasistatic_ref.model.shapes import (
     Box,
     Capsule,
+    Cone,
     Cylinder,
+    Ellipsoid,
     HalfSpace,
     PlacedShape,
     PointCloud,
@@ -121,3 +124,47 @@ def test_arrays_are_copied_and_read_only() -> None:
     assert cloud.points[0, 0] == 0.0
     with pytest.raises(ValueError, match="read-only"):
         cloud.points[0, 0] = 2.0
+
+
+# Four points of the unit circle, the first again, and five of each of three levels of the sphere.
+CIRCLE = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0]])
+POLE = np.tile([0.0, 0.0, 1.0], (5, 1))
+BALL = np.concatenate([-POLE, CIRCLE, POLE])
+UP = np.array([0.0, 0.0, 0.4])
+AXES = np.array([0.1, 0.2, 0.3])
+SURFACES = {
+    "sphere": (Sphere(0.1), 0.1 * BALL),
+    "ellipsoid": (Ellipsoid(AXES), BALL * AXES),
+    "capsule": (Capsule(0.1, 0.4), np.concatenate([0.1 * BALL + UP, 0.1 * BALL - UP])),
+    "cylinder": (Cylinder(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, 0.1 * CIRCLE + UP])),
+    "cone": (Cone(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, UP[None]])),
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_the_surface_that_is_drawn_is_that_of_the_solid(name: str) -> None:
+    shape, expected = SURFACES[name]
+    np.testing.assert_allclose(shape.surface(5, 3), expected, rtol=0, atol=ROUNDING)
+
+
+def test_the_corners_of_a_box_are_drawn_each_once() -> None:
+    expected = {(x, y, z) for x in (-0.1, 0.1) for y in (-0.2, 0.2) for z in (-0.3, 0.3)}
+    points = Box(AXES).surface(5, 3)
+    assert len(points) == len(expected)
+    assert {tuple(point) for point in points.tolist()} == expected
+
+
+def test_a_mesh_of_another_size_is_the_hull_of_its_corners() -> None:
+    mesh = convex_hull([[0.5, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 4]])
+    other, expected = mesh.resized(3.0), convex_hull(3.0 * mesh.vertices)
+    np.testing.assert_allclose(other.vertices, expected.vertices, rtol=ROUNDING)
+    np.testing.assert_allclose(other.offsets, expected.offsets, atol=ROUNDING)
+    np.testing.assert_allclose(other.volume, expected.volume, rtol=ROUNDING)
+
+
+def test_words_say_the_box_about_points_and_no_zero_is_negative() -> None:
+    points = np.array([[0.5, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]])
+    assert convex_hull(points).words().endswith("within 2 x 3 x 4 m")
+    assert PointCloud(points).words().endswith("within 2 x 3 x 4 m")
+    floor = HalfSpace(np.array([-0.0, 0.0, 1.0]), 0.0)
+    assert "(0, 0, 1)" in floor.words()

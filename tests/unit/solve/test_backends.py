@@ -6,9 +6,9 @@ import functools
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
-from quasistatic_ref.solve import solve
+from quasistatic_ref.solve import solve, uncertified
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
@@ -279,3 +279,20 @@ def test_a_second_set_of_options_is_tried_where_the_first_does_not_solve(monkeyp
         monkeypatch.setitem(BACKENDS, "piqp", tried)
         gap = error(step, solve_step(step, "piqp").delta_q, delta_q)
         np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)
+
+
+def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatch):
+    step = point_on_floor(force=(0.1, 0.0, -1.0))
+    worst = max(solve_step(step).certificate.residuals.values())
+    assert worst > 0
+    monkeypatch.setattr(uncertified, "RESIDUAL_LIMIT", worst)
+    solve_step(step)
+    monkeypatch.setattr(uncertified, "RESIDUAL_LIMIT", np.nextafter(worst, 0.0))
+    with pytest.raises(StepNotSolved):
+        solve_step(step)
+
+
+def test_impulses_whose_forces_leave_float64_are_refused():
+    """Pushed out by 1 m within h, a force of m / h^2 = 3e309 N."""
+    with pytest.raises(StepDataError, match="leave the range"):
+        solve.solve_step(point_on_floor(m=0.3, phi=-1.0, h=1e-155))

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.solve import extended
 from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.extended import _symbols, extended_solution, with_rows
 from quasistatic_ref.solve.units import natural_units, to_natural
@@ -67,3 +68,16 @@ def test_a_curved_extension_is_judged_with_h_as_it_is(rng):
     loose = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
     answer = extended_solution(step, loose, "clarabel", 1e-10, "residual")
     assert max(answer.certificate.residuals.values()) < OPTIMUM
+
+
+def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatch):
+    step, cost = point_on_floor(), Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
+    found = extended_solution(step, cost, "clarabel", 1e-10, "residual")
+    worst = max(found.certificate.residuals.values())
+    assert worst > 0
+    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", worst)
+    again = extended_solution(step, cost, "clarabel", 1e-10, "residual")
+    assert again.certificate == found.certificate
+    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", 0.0)
+    with pytest.raises(StepNotSolved):
+        extended_solution(step, cost, "clarabel", 1e-10, "residual")
