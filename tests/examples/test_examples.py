@@ -14,6 +14,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.figures import faults
 from quasistatic_ref.lab.examples import (
+    coulomb_against_convex_slip,
     flat_patch,
     grasp,
     grasp_against_mu_omega,
@@ -44,11 +45,13 @@ def runs_of_the_demo(demo, monkeypatch):
     for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
+    monkeypatch.setattr(coulomb_against_convex_slip, "PUSHES", np.linspace(0.0, 3.0, 4))
     monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
-    monkeypatch.setattr(flat_patch, "DRAWN", 0.05)
+    monkeypatch.setattr(flat_patch, "DRAWN", 0.25)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
     monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
+    monkeypatch.setattr(section_of_a_cone, "LOADS", np.linspace(0.0, 1.2, 5))
     monkeypatch.setattr(profile, "STEPS", 20)
 
 

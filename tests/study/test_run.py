@@ -168,12 +168,12 @@ units = ["raw", "natural"]
 
 
 def test_what_a_budget_does_not_reach_is_said_also_after_an_interruption(run, tmp_path):
-    text = PLANTED.format(budget=6.0)
+    text = PLANTED.format(budget=4.0)
     rows = run(text)
     outcomes = {n: [r["outcome"] for r in rows if r["solver"] == n] for n in ("loops", "honest")}
     assert len(outcomes["loops"]) == len(outcomes["honest"]) == 4 * 2
-    # a call that warms it up takes 2 s and more: after three the budget is used up
-    assert 1 <= outcomes["loops"].count("timeout") <= 3
+    # a call that warms it up takes 2 s and more: after two the budget is used up
+    assert 1 <= outcomes["loops"].count("timeout") <= 2
     assert set(outcomes["loops"]) == {"timeout", "not_run_budget"}
     assert outcomes["honest"][0] == "solved"  # one solver's budget is not another's
 

@@ -178,16 +178,16 @@ def test_a_callable_that_raises_costs_itself_only(grasp, own):
     ("dies", "crashed", "ended with status 3"),
 ])  # fmt: skip
 def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(grasp, own, solver, outcome, words):
-    """After each start of its process it is right twice: of 12 steps 8, 4 ended."""
-    bad, one = f"{own}:{solver}", {"stack/0": grasp["stack/0"]}
+    """After each start of its process it is right twice: of 6 steps 4, 2 ended."""
+    bad, one = f"{own}:{solver}", {"stack/0": grasp["stack/0"][:6]}
     wait = 30.0 if solver == "eats" else 0.5
     limits = SolverLimits(repetitions=1, call=wait, warm_up=wait, memory=5e8)
     modes = {bad: ("cold",), "daqp": ("cold",)}
     rows = list(sequence_rows(one, modes, 1e-9, limits))
     assert all(row.solved and row.digits > 12 for row in rows if row.solver == "daqp")
     ends = [row for row in rows if row.solver == bad]
-    assert len(ends) == 12
-    assert [row.outcome for row in ends] == ["solved", "solved", outcome] * 4
+    assert len(ends) == 6
+    assert [row.outcome for row in ends] == ["solved", "solved", outcome] * 2
     for row in ends:
         assert row.digits > 12 if row.solved else (words in row.said and row.digits == 0)
 

@@ -138,6 +138,6 @@ def test_cones_are_refused(members):
 
 
 def test_a_stranger_to_a_store_is_refused(run, tmp_path):
-    run(STUDY)
+    run(STUDY.replace("mass_ratio = 12", "mass_ratio = 1"))
     with pytest.raises(InputError, match="is no solver of the study"):
         question("mass_ratio/1/0", "qpsolvers:daqp", "default", store=tmp_path / "store")

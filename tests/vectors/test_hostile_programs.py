@@ -11,9 +11,11 @@ from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from tests.vectors.programs import command
 
-HANGS = ("hangs", "does not flush", "holds one answer back", "does not read", "starts another")
-"""What waits for an answer that does not come."""
-SECONDS = {**dict.fromkeys(HANGS, 0.2), "answers late": 0.5}
+HANGS = ("hangs", "holds one answer back", "starts another")
+"""What waits for an answer that does not come, after others that did."""
+SILENT = ("does not flush", "does not read")
+"""What never answers, however long one waits."""
+SECONDS = {**dict.fromkeys(HANGS, 0.2), **dict.fromkeys(SILENT, 0.04), "answers late": 0.5}
 """For an answer, ten for others. The late one comes after 0.75, and is a hang after 1."""
 
 

@@ -24,9 +24,7 @@ EVERY = 25
 
 
 @cache
-def records(
-    backends: tuple[str, ...] = BACKENDS, accuracies: tuple[str, ...] = ACCURACIES
-) -> tuple[BackendDigits, ...]:
+def records(backends: tuple[str, ...], accuracies: tuple[str, ...]) -> tuple[BackendDigits, ...]:
     """One for each backend and accuracy."""
     run = grasp("with torsion")[1]
     steps = [run.step_data(k) for k in range(0, run.steps, EVERY)]
@@ -43,7 +41,8 @@ def records(
 
 def main() -> Numbers:
     """The worst step of each."""
-    return {f"worst digits, {r.backend} at {r.accuracy} [-]": r.worst for r in records()}
+    found = records(BACKENDS, ACCURACIES)
+    return {f"worst digits, {r.backend} at {r.accuracy} [-]": r.worst for r in found}
 
 
 def figure(

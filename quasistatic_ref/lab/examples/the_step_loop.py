@@ -6,6 +6,7 @@ and the finger is m v / (h K_q) behind its target, for the drag m v / h of a mod
 When the target stops, so does all else.
 """
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -21,9 +22,8 @@ V, MOVES, TIME = 0.02, 1.2, 1.6
 """Speed of the target [m/s], how long it moves, length of the run [s]."""
 
 
-def followed(
-    K_q: float = K_Q, m: float = M, h: float = H, v: float = V
-) -> tuple[Array, Array, Array, Array]:
+@cache
+def followed(K_q: float, m: float, h: float, v: float) -> tuple[Array, Array, Array, Array]:
     """Times [s], target and both places [m], and the force of each step [N].
 
     Parameters
@@ -53,7 +53,7 @@ def followed(
 
 def main() -> Numbers:
     """Force and lag while the target moves, with their formulas; motion after it has stopped."""
-    t, target, q, N = followed()
+    t, target, q, N = followed(K_Q, M, H, V)
     moving = np.searchsorted(t, MOVES) - 1
     return {
         "force [N]": N[moving],

@@ -92,11 +92,11 @@ def optimum(step, p, warm):
     return [F(int(v), d) for v in solution.x]
 
 
-def moved(step, key, warm):
+def moved(step, key, warm, sides=(-1, 0, 1)):
     """Optima at the parameter less a little, as it is, and plus a little; and that little."""
     p = numbers(step)
     little = TINY * (abs(p[key]) or 1)
-    return [optimum(step, p | {key: p[key] + s * little}, warm) for s in (-1, 0, 1)], little
+    return [optimum(step, p | {key: p[key] + s * little}, warm) for s in sides], little
 
 
 def column(found, key):
@@ -130,7 +130,7 @@ def test_derivatives_agree_with_central_differences_on_500_random_steps(block):
                 assert np.isnan(column(found, key)).all()
                 refused += 1
                 continue
-            (below, _, above), little = moved(step, key, best.working_set)
+            (below, above), little = moved(step, key, best.working_set, (-1, 1))
             expected = [float((a - b) / (2 * little)) for a, b in zip(above, below, strict=True)]
             scale = max(map(abs, expected))
             np.testing.assert_allclose(

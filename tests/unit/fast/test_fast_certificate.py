@@ -3,6 +3,7 @@
 import ctypes
 import subprocess
 from fractions import Fraction
+from functools import cache
 from operator import mul
 
 import numpy as np
@@ -29,13 +30,16 @@ def pointer(array):
     return array.ctypes.data_as(ctypes.c_void_p)
 
 
+@cache
 def matrices():
-    """Regular matrices of sizes 1 to 9, some with rows of very different sizes, and inverses."""
-    rng = np.random.default_rng(3)
+    """Regular matrices, sizes 1 to 9, rows of all sizes; inverses, vectors, defects of these."""
+    rng, found = np.random.default_rng(3), []
     for k in range(MATRICES):
         n = 1 + k % 9
         K = rng.normal(size=(n, n)) * (2.0 ** rng.integers(-20, 21, (n, 1)) if k % 2 else 1.0)
-        yield K, np.ascontiguousarray(np.linalg.inv(K)), rng.normal(size=n)
+        R = np.ascontiguousarray(np.linalg.inv(K))
+        found.append((K, R, rng.normal(size=n), exact_defect(R, K)))
+    return found
 
 
 def exact_product(A, B):
@@ -53,11 +57,10 @@ def exact_defect(R, K):
 
 def holds(library):
     """Whether the bounds of a library are bounds, on all matrices."""
-    for K, R, r in matrices():
+    for K, R, r, exact in matrices():
         n = len(K)
         G, e = np.zeros((n, n)), np.zeros(n)
         library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G))
-        exact = exact_defect(R, K)
         if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
             return False
         for bound in (G, np.full((n, n), 0.55 / n)):  # the second shows no contraction by a half
@@ -95,12 +98,11 @@ def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
 
 
 def made(folder, text, other):
-    """The library with one text of contraction.c replaced."""
+    """The functions of contraction.c, which call no other file, with one text replaced."""
     library = compiled("library")
     changed_sources(folder, "contraction.c", text, other)
-    out = folder / "mutant.so"
-    files = [str(folder / name) for name in library.SOURCES]
-    command = [*library.compiler(), *library.FLAGS, "-o", str(out), *files, "-lm"]
+    out, file = folder / "mutant.so", str(folder / "contraction.c")
+    command = [*library.compiler(), *library.FLAGS, "-o", str(out), file, "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     return ctypes.CDLL(str(out))
 

@@ -31,13 +31,12 @@ int shown(int64_t first, int64_t second, int64_t third, int place, double e, dou
 
 
 def library(folder, text="", other=""):
-    """The function by itself, with one text of rounding.c replaced."""
+    """The function by itself, with one text of rounding.c replaced; it calls no other file."""
     made = compiled("library")
     changed_sources(folder, "rounding.c", text, other)
     (folder / "exposed.c").write_text(EXPOSED)
-    names = ["exposed.c", *(name for name in made.SOURCES if name != "rounding.c")]
-    files, out = [str(folder / name) for name in names], folder / "exposed.so"
-    command = [*made.compiler(), *made.FLAGS, "-O0", "-o", str(out), *files, "-lm"]
+    file, out = str(folder / "exposed.c"), folder / "exposed.so"
+    command = [*made.compiler(), *made.FLAGS, "-O0", "-o", str(out), file, "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     found = ctypes.CDLL(str(out))
     found.shown.argtypes = [*[ctypes.c_int64] * 3, ctypes.c_int, ctypes.c_double, ctypes.c_void_p]
