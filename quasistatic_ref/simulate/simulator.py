@@ -32,7 +32,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, SparseContacts, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.posed import constants, posed_step
+from quasistatic_ref.step.posed import constants
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -215,7 +215,7 @@ class Simulator:
             problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
         constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
-        return posed_step(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+        return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's linear constraints at q, shape (n_q,), and the other extension.

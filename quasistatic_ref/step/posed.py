@@ -50,6 +50,11 @@ class Constants(NamedTuple):
     H: Array
     layout: RowLayout
 
+    @property
+    def kind(self) -> "type[PosedStep]":
+        """The class of the steps, which keep M_u as it is kept here."""
+        return PosedStep if self.M_u.ndim == 2 else BlockStep
+
     def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
         if M_u is self.M_u:
@@ -169,18 +174,6 @@ class BlockStep(PosedStep):
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
         blocks = self.kept_M_u
         return (blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)).ravel()
-
-
-def posed_step(
-    constant: Constants,
-    tau_a: Array,
-    tau_u: Array,
-    delta_q_bar_a: Array,
-    contacts: Contacts | SparseContacts,
-) -> PosedStep:
-    """A step of a simulator, as :class:`PosedStep`; M_u is kept as the constants keep it."""
-    kind = PosedStep if constant.M_u.ndim == 2 else BlockStep
-    return kind(constant, tau_a, tau_u, delta_q_bar_a, contacts)
 
 
 NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")
