@@ -33,7 +33,7 @@ class Plain:
         return hash(bits(self))
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        values = field_values(self)
+        values = {f.name: vars(self)[f.name] for f in _declared(self)}  # as they are kept
         arrays = {name: a for name, a in values.items() if isinstance(a, np.ndarray)}
         return values, [name for name, array in arrays.items() if not array.flags.writeable]
 

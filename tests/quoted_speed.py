@@ -115,7 +115,7 @@ HELD = [
     ("at most {:.1e} in all of these scenes with PIQP", bounds),
     ("Clarabel takes {:.1f} times as long for a row of 8 boxes if its arrays are dense",
      clarabel_dense),
-    ("They take {:.1f} MB each for 100 free bodies, {:.0f} MB each for 300",
+    ("Whole they take {:.1f} MB each for 100 free bodies, {:.0f} MB each for 300",
      lambda: [8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)]),
     ("13 x 80 step takes {:.1f} times the bare DAQP call",
      lambda: [promise("step over the bare solver")]),

@@ -20,6 +20,7 @@ from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.environment import machine
 from quasistatic_ref.lab.study.large import CHAINS
+from quasistatic_ref.step.posed import constants
 
 Shape = tuple[int, int, int]
 ROWS: tuple[Shape, ...] = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
@@ -81,6 +82,9 @@ def cost(shape: Shape, way: str, steps: int = STEPS, k: int = 4, certify: str = 
     simulator.fast = None  # compiled rows are dense ones'
     geometry = BlockGeometry if form == "sparse" else ContactGeometry
     simulator.geometry = geometry(simulator.layout, simulator.system.motion)
+    system = simulator.system
+    M_u = system.mass_blocks if form == "sparse" else system.M_u(some.q)
+    simulator.constant = constants(simulator.h, simulator.K_q, 0, M_u, simulator.layout.rows)
     q, times, bounds, unsolved = some.q, [], [], 0
     for _ in range(1 + steps):
         begin = time.process_time()

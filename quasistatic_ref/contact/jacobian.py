@@ -25,7 +25,14 @@ class ContactGeometry:
         Which links the points belong to; 0 is the world.
     motion : Motion
         How the links move.
+
+    Attributes
+    ----------
+    in_blocks : bool
+        Whether J is in blocks.
     """
+
+    in_blocks = False
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout, self.motion = layout, motion

@@ -23,6 +23,15 @@ def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:
     return not any(model.getJointId(joint_key(joint.name)) in parents for joint in free)
 
 
+def regular(M: Array) -> bool:
+    """Whether each matrix M, shape (..., n, n) [any unit], has a Cholesky factor in float64."""
+    try:
+        np.linalg.cholesky(M)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
 def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) -> None:
     """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite.
 
@@ -40,12 +49,10 @@ def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) ->
     """
     for body in bodies:
         own = [k for k, c in enumerate(free) if c.name.startswith(f"{body}/")]
-        try:
-            np.linalg.cholesky(M_u[np.ix_(own, own)])
-        except np.linalg.LinAlgError:
+        if not regular(M_u[np.ix_(own, own)]):
             problem = (
                 "its mass matrix M_u is singular in float64 at the start: an un-actuated "
                 "coordinate moves next to no mass"
             )
             names = [free[k].name for k in own]
-            raise ModelError(problem, field=body, value=names) from None
+            raise ModelError(problem, field=body, value=names)

@@ -18,13 +18,14 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mass import check_mass, constant_mass
+from quasistatic_ref.model.mass import check_mass, constant_mass, regular
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.quoting import suggestion
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.blocks import whole
 from quasistatic_ref.step.show import shown
 
 __all__ = ["Body", "Kinematics", "System"]
@@ -62,6 +63,10 @@ class System:
         About each link's centre of mass, along the axes of its frame [kg m^2].
     motion : Motion
         How links move with the coordinates.
+    constant_mass_matrix : bool
+        Whether M_u is the same array at every q: un-actuated joints are those of rigid bodies.
+    mass_blocks : ndarray, shape (n_u / 6, 6, 6)
+        If so, the diagonal blocks of M_u [kg, kg m, kg m^2]; else none.
     texts : tuple of str
         The URDF of each body.
     shapes : tuple of PlacedShape
@@ -104,7 +109,7 @@ class System:
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
-        self._M_u: Array | None = None  # kept where it is the same at every q
+        self._M_u: Array | None = None  # kept where it is the same at every q, from when it is read
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.texts = world.texts
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
@@ -122,19 +127,16 @@ class System:
         self.n_a = sum(coordinate.actuated for coordinate in self.coordinates)
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
-        self.q_start = self._order.paper_q(world.start)
-        self.q_start.setflags(write=False)
+        self.q_start = read_only(self._order.paper_q(world.start))
         u = self._order.v[self.n_a :]
         self._un_actuated = np.ix_(u, u)
         self.motion = Motion(self._model, world.frames, self._order)
-        self._M_u = self.M_u(self.q_start) if constant_mass(self._model, self.joints) else None
-        free = [coordinate for coordinate in self.coordinates if not coordinate.actuated]
-        check_mass(self.M_u(self.q_start), free, self._roots)
-
-    @property
-    def constant_mass_matrix(self) -> bool:
-        """Whether M_u is the same array at every q."""
-        return self._M_u is not None
+        self.constant_mass_matrix = constant_mass(self._model, self.joints)
+        rigid = u.reshape(-1, 6) if self.constant_mass_matrix else np.zeros((0, 6), np.int64)
+        blocks = self._workspace.mass_blocks(world.start, rigid)
+        self.mass_blocks = read_only(blocks + 0.0)  # never -0.0
+        if not (self.constant_mass_matrix and regular(self.mass_blocks)):
+            check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 
     def workspace(self) -> Workspace:
         """A workspace of the caller's own."""
@@ -226,12 +228,12 @@ class System:
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        if self._M_u is None and self.constant_mass_matrix:
+            self._M_u = whole(self.mass_blocks)
         if self._M_u is not None:
             return self._M_u
         M = self._workspace.mass(self._order.model_q(q))
-        M_u: Array = M[self._un_actuated] + 0.0  # never -0.0
-        M_u.setflags(write=False)
-        return M_u
+        return read_only(M[self._un_actuated] + 0.0)  # never -0.0
 
     def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
         """Generalised force of gravity at q, shape (n_v,) [N, N m].

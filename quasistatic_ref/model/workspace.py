@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
 PART = 48
 """Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""
@@ -103,6 +103,18 @@ class Workspace:
             # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
             M[part.v, part.v] = pin.crba(part.model, part.data, q[part.q])
         return M
+
+    def mass_blocks(self, q: Array, v: Indices) -> Array:
+        """The same rows and columns of it, shape (k, s, s), for each of k lists of entries of v.
+
+        The entries of a list, shape (k, s), are of one body.
+        """
+        blocks = np.zeros((*v.shape, v.shape[1]))
+        for part in self.parts:
+            own = (part.v.start <= v[:, 0]) & (v[:, 0] < part.v.stop)
+            at = v[own] - part.v.start
+            blocks[own] = pin.crba(part.model, part.data, q[part.q])[at[:, :, None], at[:, None]]
+        return blocks
 
     def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].

@@ -35,7 +35,7 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
         Of the body that has the largest share; None where nothing floats, or neither rubs nor
         weighs, or where float64 has no number for it.
     """
-    momentum = step.M_u @ solution.delta_q[step.n_a :]
+    momentum = step.momentum(solution.delta_q)
     friction = _friction(step, solution)
     shares = []
     for base in _free_bases(system):

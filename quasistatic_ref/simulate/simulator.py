@@ -32,7 +32,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, SparseContacts, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.posed import PosedStep, constants
+from quasistatic_ref.step.posed import constants
 from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -115,9 +115,6 @@ class Simulator:
         limits: Limits | None = None,
     ) -> None:
         self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
-        M_u = system.M_u(system.q_start)
-        self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
-        self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
         self.gravity_acts = np.ones(system.n_v)
         self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
@@ -135,6 +132,9 @@ class Simulator:
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
         self.geometry = contact_geometry(self.layout, system.motion, least)
+        M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
+        self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
+        self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
         fast = compiled("step")
         self.fast: CompiledStep | None = None if fast is None else fast.compiled_step(self)
 
@@ -220,8 +220,8 @@ class Simulator:
             problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
         tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
-        constant = self.constant.at(system.M_u(q))  # h, K_q, M_u, H
-        return PosedStep(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+        constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
+        return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's own rows at q, shape (n_q,); and the extension or None.

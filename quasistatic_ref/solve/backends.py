@@ -145,7 +145,7 @@ def _piqp(accuracy: float) -> Attempts:
     return (common | gap, common | rounded, common | rounded | own)
 
 
-def _tolerances(*names: str, **others: Any) -> Callable[[float], Options]:
+def at_accuracy(*names: str, **others: Any) -> Callable[[float], Options]:
     """Options of which some are the accuracy, and others are what they are."""
     return lambda accuracy: dict.fromkeys(names, accuracy) | others
 
@@ -154,17 +154,17 @@ def _once(options: Callable[[float], Options]) -> Callable[[float], Attempts]:
     return lambda accuracy: (options(accuracy),)
 
 
-_plain_clarabel = _tolerances("tol_feas", "tol_gap_abs", "tol_gap_rel")
-_plain_osqp = _tolerances("eps_abs", eps_rel=0.0, max_iter=20_000)
+_plain_clarabel = at_accuracy("tol_feas", "tol_gap_abs", "tol_gap_rel")
+_plain_osqp = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 # ProxQP has no time limit. Each of its outer iterations may take 1,500 inner ones of 20 us each, a
 # limit that CVXPY does not pass on. The steps of bunny_grasp that it solves take at most 23 outer
 # iterations.
-_proxqp = _tolerances("eps_abs", eps_rel=0.0, max_iter=100)
-_plain_scs = _tolerances("eps_abs", eps_rel=0.0, max_iters=20_000)
-_scs = _tolerances("eps_abs", "eps_rel", max_iters=200_000)
-_daqp = _tolerances("primal_tol", "dual_tol")
+_proxqp = at_accuracy("eps_abs", eps_rel=0.0, max_iter=100)
+_plain_scs = at_accuracy("eps_abs", eps_rel=0.0, max_iters=20_000)
+_scs = at_accuracy("eps_abs", "eps_rel", max_iters=200_000)
+_daqp = at_accuracy("primal_tol", "dual_tol")
 _gap = {"check_duality_gap": True, "eps_duality_gap_rel": 0.0}
-_plain_proximal = _tolerances("eps_abs", "eps_duality_gap_abs", eps_rel=0.0, **_gap)
+_plain_proximal = at_accuracy("eps_abs", "eps_duality_gap_abs", eps_rel=0.0, **_gap)
 
 
 def _highs(accuracy: float) -> Attempts:

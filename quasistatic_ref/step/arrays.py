@@ -127,7 +127,7 @@ def definite(name: str, matrix: Any, n: int) -> Array:
 
 
 def positive_definite(key: str, S: Array) -> Array:
-    """Return S, of shape (n, n) [any unit], made exactly symmetric from its lower triangle.
+    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
 
     Raises
     ------
@@ -135,15 +135,15 @@ def positive_definite(key: str, S: Array) -> Array:
         About the field `key`, if S is not symmetric or not positive definite.
     """
     scale = np.abs(S).max(initial=0.0)
-    if np.abs(S - S.T).max(initial=0.0) > SYMMETRIC * scale:
+    if np.abs(S - S.mT).max(initial=0.0) > SYMMETRIC * scale:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())
-    S = np.tril(S) + np.tril(S, -1).T
+    S = np.tril(S) + np.tril(S, -1).mT
     try:
-        pivots = np.diag(np.linalg.cholesky(S)) ** 2
+        pivots = np.linalg.diagonal(np.linalg.cholesky(S)) ** 2
     except np.linalg.LinAlgError:
-        pivots = np.full(len(S), -np.inf)
+        pivots = np.full(S.shape[:-1], -np.inf)
     # A pivot and its diagonal entry have the same unit, so units do not change this comparison.
-    if (pivots <= DEFINITE * np.diag(S)).any():
+    if (pivots <= DEFINITE * np.linalg.diagonal(S)).any():
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())
     return read_only(S)

@@ -178,6 +178,16 @@ class StepData(Plain):
             object.__setattr__(self, key, value)
 
     @property
+    def kept_M_u(self) -> Array:
+        """M_u, or its diagonal blocks, shape (n_u / 6, 6, 6), if these are what the step keeps."""
+        kept: Array = vars(self)["M_u"]
+        return kept
+
+    def momentum(self, delta_q: Array) -> Array:
+        """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
+        return self.M_u @ delta_q[self.n_a :]
+
+    @property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
         return int(self.tau_a.size)
@@ -229,14 +239,22 @@ def hessian(h: float, K_q: Array, M_u: Array) -> Array:
     """
     n_a, n_v = len(K_q), len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
+    H[:n_a, :n_a], H[n_a:, n_a:] = hessian_blocks(h, K_q, M_u)
+    return read_only(H)
+
+
+def hessian_blocks(h: float, K_q: Array, M_u: Array) -> tuple[Array, Array]:
+    """The blocks h K_q and M_u / h of H, of the shapes of K_q and M_u.
+
+    StepDataError if an entry leaves the range of float64.
+    """
     with np.errstate(over="ignore"):
-        H[:n_a, :n_a] = h * K_q
-        H[n_a:, n_a:] = M_u / h
-    if not np.isfinite(H).all():
+        blocks = h * K_q, M_u / h
+    if not all(np.isfinite(block).all() for block in blocks):
         raise StepDataError(
             "takes h K_q or M_u / h out of the range of float64", field="h", value=h
         )
-    return read_only(H)
+    return blocks
 
 
 def seconds(h: Any) -> float:

@@ -4,9 +4,12 @@ They are read like any other :class:`~quasistatic_ref.step.data.StepData`, and a
 the same numbers. A step that a user makes of their parts, also through ``replace``, is checked.
 """
 
+import math
 from typing import NamedTuple
 
-from quasistatic_ref.step.arrays import Array, Indices, definite
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.arrays import Array, Indices, definite, frozen, positive_definite
+from quasistatic_ref.step.blocks import whole
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.contacts import Contacts, SparseContacts
 from quasistatic_ref.step.data import (
@@ -14,6 +17,7 @@ from quasistatic_ref.step.data import (
     RowLayout,
     StepData,
     hessian,
+    hessian_blocks,
     no_rows,
     row_layout,
     seconds,
@@ -29,11 +33,12 @@ class Constants(NamedTuple):
         Time step [s].
     cone : str
     K_q, M_u : ndarray, shapes (n_a, n_a) and (n_u, n_u)
-        As in :class:`~quasistatic_ref.step.data.StepData`.
+        As in :class:`~quasistatic_ref.step.data.StepData`; of many bodies M_u is kept in diagonal
+        blocks, shape (n_u / 6, 6, 6).
     extra : Extra
         No rows of a user's own.
     H : ndarray, shape (n_v, n_v)
-        Of Eq. :eq:`eq-13`.
+        Of Eq. :eq:`eq-13`; M_u / h in blocks where M_u is.
     layout : RowLayout
     """
 
@@ -45,6 +50,11 @@ class Constants(NamedTuple):
     H: Array
     layout: RowLayout
 
+    @property
+    def kind(self) -> "type[PosedStep]":
+        """The class of the steps, which keep M_u as it is kept here."""
+        return PosedStep if self.M_u.ndim == 2 else BlockStep
+
     def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
         if M_u is self.M_u:
@@ -55,18 +65,22 @@ class Constants(NamedTuple):
 def constants(
     h: float, K_q: Array, n_a: int, M_u: Array, rows: Indices, cone: str = PYRAMID
 ) -> Constants:
-    """The constants of steps of n_c contacts with `rows`, shape (n_c,).
+    """The constants of steps of n_c contacts with `rows`, shape (n_c,); M_u whole or in blocks.
 
     Raises
     ------
     StepDataError
         If h is not positive, or K_q or M_u not symmetric positive definite.
     """
-    n_v, n_u = n_a + len(M_u), len(M_u)
+    n_u = math.prod(M_u.shape[:-1])
     h, K_q = seconds(h), definite("K_q", K_q, n_a)
-    definite("M_u", M_u, n_u)
+    try:
+        positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
+    except StepDataError:
+        definite("M_u", whole(M_u), n_u)  # whose sentence shows all of M_u
     layout = row_layout(cone, rows.tobytes())
-    return Constants(h, cone, K_q, M_u, no_rows(n_v), hessian(h, K_q, M_u), layout)
+    H = hessian(h, K_q, M_u) if M_u.ndim == 2 else hessian_blocks(h, K_q, M_u)[1]
+    return Constants(h, cone, K_q, M_u, no_rows(n_a + n_u), H, layout)
 
 
 class PosedContacts(Contacts):
@@ -133,6 +147,31 @@ class PosedStep(StepData):
     def compared_as(cls) -> type:
         """It is compared as :class:`~quasistatic_ref.step.data.StepData`."""
         return StepData
+
+
+class BlockStep(PosedStep):
+    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks.
+
+    Parameters
+    ----------
+    constant, tau_a, tau_u, delta_q_bar_a, contacts
+        As in :class:`PosedStep`.
+    """
+
+    @property
+    def M_u(self) -> Array:
+        """All of M_u, shape (n_u, n_u): formed whenever it is read, and not kept."""
+        return whole(self.kept_M_u)
+
+    @property
+    def H(self) -> Array:
+        """All of H of Eq. :eq:`eq-13`, shape (n_v, n_v): formed whenever it is read, too."""
+        return hessian(self.h, self.K_q, self.M_u)
+
+    def momentum(self, delta_q: Array) -> Array:
+        """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
+        blocks = self.kept_M_u
+        return (blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)).ravel()
 
 
 NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")

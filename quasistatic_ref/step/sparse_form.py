@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
+from scipy.sparse import block_diag, bsr_matrix, csc_matrix
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, StepData, hessian_blocks
 from quasistatic_ref.step.friction import row_gaps, rows_along
 
 
@@ -40,7 +40,7 @@ class Pattern:
         self.entry = real[counted.data.astype(np.int64) - 1]
         self.A = csc_matrix((np.zeros(len(real)), counted.indices, counted.indptr), shape=(m, n_v))
         self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
-        self.P = csc_matrix(np.triu(step.H))
+        self.P = upper_triangle(step)
         self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
         self.like, self.blocks = step, blocks
 
@@ -52,8 +52,8 @@ class Pattern:
         return (
             _same(blocks.column, self.blocks.column)
             and _same(step.contacts.rows, like.contacts.rows)
-            and _same(step.M_u, like.M_u)
             and _same(step.K_q, like.K_q)
+            and (_same(step.kept_M_u, like.kept_M_u) or _same(step.M_u, like.M_u))
         )
 
 
@@ -92,6 +92,18 @@ def in_blocks(step: StepData) -> Blocks:
     if step.contacts.blocks is None or step.extra.names:
         raise StepDataError("must be in blocks, without rows of the user's own", field="contacts")
     return step.contacts.blocks
+
+
+def upper_triangle(step: StepData) -> csc_matrix:
+    """Of H of Eq. :eq:`eq-13`, shape (n_v, n_v), from M_u as the step keeps it."""
+    if step.kept_M_u.ndim == 2:
+        return csc_matrix(np.triu(step.H))
+    of_a, of_u = hessian_blocks(step.h, step.K_q, step.kept_M_u)
+    at = np.arange(len(of_u) + 1)
+    diagonal = bsr_matrix((np.triu(of_u), at[:-1], at), shape=(step.n_u, step.n_u))
+    P = block_diag([np.triu(of_a), diagonal], format="csc")
+    P.eliminate_zeros()  # of the blocks
+    return P
 
 
 def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:

@@ -18,7 +18,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS, Backend, Options, installed
+from quasistatic_ref.solve.backends import BACKENDS, Backend, Options, at_accuracy, installed
 from quasistatic_ref.step.standard_form import StandardForm
 
 Native = Callable[[StandardForm, Options], Reply]
@@ -136,11 +136,6 @@ def _mpax() -> Native:
     return native
 
 
-def _options(*names: str, **others: Any) -> Callable[[float], Options]:
-    """Options of which some are the accuracy, and others are what they are."""
-    return lambda accuracy: dict.fromkeys(names, accuracy) | others
-
-
 def _as_plain(plain: Callable[[float], Options], **others: Any) -> dict[str, Any]:
     """The options of a setting, also for ``tuned``: no step was ever tuned for a guest."""
     return {"plain": plain, "attempts": lambda accuracy: (plain(accuracy) | others,)}
@@ -154,23 +149,23 @@ GUESTS: dict[str, Guest] = {
         Line("exact", "active set, exact", lambda _: ({},), None, interfaces=("native",),
              native=_exact, package="quasistatic_ref"),
         # abstol, reltol: of residuals and gap. https://qoco-org.github.io/qoco/api/settings.html
-        Line("qoco", "interior point", **_as_plain(_options("abstol", "reltol")),
+        Line("qoco", "interior point", **_as_plain(at_accuracy("abstol", "reltol")),
              interfaces=("cvxpy", "native"), native=_qoco),
         # feastol: of residuals; abstol, reltol: of the gap.
         # https://cvxopt.org/userguide/coneprog.html#algorithm-parameters
-        Line("cvxopt", "interior point", **_as_plain(_options("feastol", "abstol", "reltol")),
+        Line("cvxopt", "interior point", **_as_plain(at_accuracy("feastol", "abstol", "reltol")),
              interfaces=("qpsolvers", "cvxpy")),
         # As CVXOPT's. https://github.com/embotech/ecos-python#calling-ecos-from-python
-        Line("ecos", "interior point", **_as_plain(_options("feastol", "abstol", "reltol")),
+        Line("ecos", "interior point", **_as_plain(at_accuracy("feastol", "abstol", "reltol")),
              interfaces=("qpsolvers", "cvxpy")),
         # solver_tol: of residuals and of each product s_i z_i. https://github.com/kevin-tracy/qpax
         # Its "explicit" method keeps s and z above 1.5e-8, and so reports no convergence at 1e-9;
         # its "implicit" one does.
-        Line("qpax", "interior point", **_as_plain(_options("solver_tol"), backend="i"),
+        Line("qpax", "interior point", **_as_plain(at_accuracy("solver_tol"), backend="i"),
              interfaces=("native",), native=_qpax),
         # Both of residuals and gap; eps_rel = 0 divides by zero. https://github.com/MIT-Lu-Lab/MPAX
         Line("mpax", "primal-dual gradients",
-             **_as_plain(_options("eps_abs", "eps_rel", iteration_limit=ITERATIONS)),
+             **_as_plain(at_accuracy("eps_abs", "eps_rel", iteration_limit=ITERATIONS)),
              interfaces=("native",), native=_mpax),
     )
 }  # fmt: skip
