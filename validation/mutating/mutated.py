@@ -56,7 +56,7 @@ ENCLOSED = (
 PAIRS = units("contact", "corners", "distance", "pairs", "jacobian")
 SOLIDS = units("contact", "corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
 LARGE = ("unit/certify/test_sparse_bound.py", "unit/certify/test_bound_formulas.py")
-SPARSE = (*units("step", "kept_and_shown", "sparse"), *units("solve", "solver"))
+SPARSE = (*units("step", "kept_and_shown", "mass_in_blocks", "sparse"), *units("solve", "solver"))
 CLOUDS = units("model", "clouds", "cloud_headers", "meshes")
 SCENES = (
     "unit/simulate/test_scenario.py",
@@ -68,6 +68,7 @@ URDF = (
     "errors/test_bad_urdfs.py",
 )
 DATA = units("step", "arrays", "kept_and_shown", "data", "plain_data", "step_files")
+MASSES = (*SYSTEM, "unit/step/test_mass_in_blocks.py")
 SOLVERS = units(
     "solve",
     "adapters",
@@ -157,7 +158,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/digits.py": ("unit/certify/test_digits.py",),
     "model/coordinates.py": ("unit/model/test_system.py",),
     "model/rotation.py": ("unit/model/test_rotation.py",),
-    "model/system.py": SYSTEM,
+    "model/system.py": MASSES,
     "contact/jacobian.py": ("unit/contact/test_jacobian.py", *CONTACT),
     "contact/cloud.py": ("unit/contact/test_cloud.py",),
     "contact/pairs.py": ("unit/contact/test_pairs.py", "unit/contact/test_jacobian.py"),
@@ -218,7 +219,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/urdf_tree.py": URDF,
     "model/urdf_xml.py": URDF,
     "model/words.py": ("unit/step/test_words.py", "unit/step/test_plain_data.py"),
-    "model/workspace.py": (*units("model", "world", "system"), "unit/simulate/test_memory.py"),
+    "model/workspace.py": (*units("model", "world"), *MASSES, "unit/simulate/test_memory.py"),
     "model/world.py": (
         *units("model", "world", "planar", "system"),
         "unit/step/test_sparse.py",
@@ -244,7 +245,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/through_qpsolvers.py": SOLVED,
     "solve/uncertified.py": (*SOLVED, "unit/certify/test_rounded_bound.py"),
     "solve/units.py": ("unit/solve/test_units.py", *SOLVERS),
-    "step/arrays.py": DATA,
+    "step/arrays.py": (*MASSES, *DATA),
     "step/blocks.py": SPARSE,
     "step/cones.py": ("unit/step/test_cones.py", "unit/cli/test_completion.py"),
     "step/contacts.py": ("unit/step/test_artifacts.py", *DATA),
@@ -255,7 +256,7 @@ TESTS: dict[str, tuple[str, ...]] = {
         "unit/step/test_solution_files.py",
         "errors/test_bad_steps.py",
     ),
-    "step/posed.py": DATA,
+    "step/posed.py": (*MASSES, *DATA),
     "step/rounded_wrench.py": (
         "unit/step/test_kept_and_shown.py",
         "unit/simulate/test_wrenches.py",
@@ -287,7 +288,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/point_ties.py": ("unit/contact/test_point_ties.py", *DIFFERENTIATED),
     "contact/spare_pairs.py": ("unit/contact/test_spare_pairs.py", *DIFFERENTIATED),
     "contact/witness_rates.py": ("unit/contact/test_sliding.py", *DIFFERENTIATED),
-    "model/mass.py": SYSTEM,
+    "model/mass.py": MASSES,
     "model/mass_rates.py": DIFFERENTIATED,
     "model/motion_rates.py": ("unit/model/test_motion_rates.py", *DIFFERENTIATED),
     "model/tangent.py": (*units("model", "tangent"), *units("simulate", "step_jax", "smoothed")),
