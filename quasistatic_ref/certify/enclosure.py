@@ -6,8 +6,7 @@ By strong convexity any x strictly inside of the cones, and any y inside of them
           = \tfrac12\|x - H^{-1}(g + A^T y)\|_H^2 + y^T (A x - b).
 
 The pair comes from Newton's method if a backend's answer is a good start, and otherwise from a cold
-interior point in 640 bits. Membership and gap are then computed in balls: a comparison that
-these decide is true.
+interior point in 640 bits. Membership and gap are then proved in balls.
 """
 
 from collections.abc import Iterator
@@ -63,13 +62,12 @@ class Enclosure:
     net : ndarray, shape (n_v,)
         H delta_q - g [N s, N m s].
     working_set : tuple of int or None
-        Independent rows that delta_q follows from exactly, where every contact that bears load is
-        at its apex; None where the answer is not rational.
+        Independent rows that determine delta_q if every loaded contact is at its apex, else None.
     error : float
-        ||delta_q - delta_q*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where delta_q is exact but
-        for the correct rounding of each entry.
+        Upper bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 where delta_q is delta_q*
+        correctly rounded.
     gap : float
-        f(delta_q*) - d(lam) is at most that [N m s].
+        Upper bound of f(delta_q*) - d(lam) [N m s].
     """
 
     delta_q: Array
@@ -86,13 +84,12 @@ class Guess:
 
     Parameters
     ----------
-    x : arb_mat
-    y : list of list of arb
-        By block, both in the units of the form.
+    x, y : arb_mat, list of list of arb
+        In the units of the form, y by block.
     loaded, held : list of bool
         Which blocks seem to bear load, and which to be at their apex.
     reserve : arb
-        What is claimed beyond the gap of the pair, where the unconstrained step has length one.
+        Claimed beyond the pair's gap, where the unconstrained step has length one.
     """
 
     x: arb_mat
@@ -112,10 +109,8 @@ class Checked:
         Without radius.
     lam : list of arb
         Impulses.
-    gap : arb
-        1/2 ||x - x*||_H^2 is at most that.
-    free : arb
-        ||H^-1 g||_H.
+    gap, free : arb
+        An upper bound of 1/2 ||x - x*||_H^2, and ||H^-1 g||_H.
     """
 
     x: arb_mat

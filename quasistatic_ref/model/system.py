@@ -34,10 +34,9 @@ __all__ = ["Body", "Kinematics", "System"]
 class System:
     """Bodies in one world.
 
-    Methods that take q do not check it; :meth:`checked` checks a q that comes from outside. The
-    methods share a workspace: one System must not be used from two threads at once; a copy has a
-    workspace of its own. Copies and pickles hold the texts of the URDFs, and read no file. Two
-    systems are equal if their bodies and the files that were read are equal.
+    Methods that take q do not check it; :meth:`checked` checks a q that comes from outside. They
+    share a workspace: one System must not be used from two threads at once, but a copy may. Copies
+    and pickles hold the URDFs' texts, and read no file. Equal systems have equal bodies and files.
 
     Parameters
     ----------

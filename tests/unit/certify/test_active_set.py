@@ -171,7 +171,7 @@ def test_each_walk_raises_the_dual_objective(monkeypatch):
     assert all(before < after for before, after in ends)
 
 
-def test_rows_whose_multipliers_are_zero_are_left_out_of_the_optimum(balls):
+def test_rows_whose_multipliers_are_zero_are_left_out(balls):
     # The nearest x to g = (0, 1, 2) with x_0 >= 0 and x_1 >= 2 has the multipliers 0 and 1.
     form = program([[1, 0, 0], [0, 1, 0]], [0, 2], g=[0.0, 1.0, 2.0])
     assert active_set._without_zeros(point_on(form, (0, 1), balls)).working == (1,)

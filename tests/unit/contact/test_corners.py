@@ -96,7 +96,7 @@ def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:
     assert sorted(found.point.tolist()) == [4, 5, 6, 7]
 
 
-def test_the_first_corner_of_a_rim_is_nearest_unless_the_rim_is_as_level_as_counts() -> None:
+def test_the_first_corner_of_a_rim_is_nearest_unless_it_is_level() -> None:
     for tilt, first in ((UPRIGHT, [0.5, 0.0]), (2 * UPRIGHT, [0.0, 0.5])):
         corners, _ = Cylinder(0.5, 0.25).corners(np.array([0.0, tilt, 1.0]))
         np.testing.assert_allclose(corners[0, :2], first, atol=ROUNDING)
@@ -112,7 +112,7 @@ def test_candidates_that_differ_by_as_much_as_counts_are_one() -> None:
         assert late(candidates, 1 if share == 1.0 else 2).tolist() == expected
 
 
-def test_the_way_to_the_other_body_is_that_of_the_point_on_a_rim_that_is_not_level() -> None:
+def test_a_point_on_a_rim_that_is_not_level_is_the_way_to_the_other() -> None:
     rim, z = Placed(Cylinder(0.5, 0.25), np.eye(3), np.zeros(3)), np.array([0.0, 0.0, 1.0])
     y = np.array([0.0, 1.0, 0.0])
     near, off = (0.5 * (1 - share * ON_RIM) * y + 0.25 * z for share in (1.0, 2.0))

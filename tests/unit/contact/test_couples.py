@@ -149,7 +149,7 @@ def test_merged_features_are_those_of_either_side_with_their_ends_free():
     assert second is other
 
 
-def test_a_rim_is_nearly_level_up_to_the_tilt_that_counts_and_within_its_share():
+def test_a_rim_is_nearly_level_up_to_the_tolerances():
     x, z, tall = np.array([0.04, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]), Cylinder(0.04, 0.06)
     _, (couple,) = kept(still := body((0.0, 0.0, 0.0)), pair_of(still, FLOOR, tall, "fixed", 1))
     ways = ((SPLIT, False), (2 * SPLIT, True), (LEVEL, True), (2 * LEVEL, False))
@@ -161,7 +161,7 @@ def test_a_rim_is_nearly_level_up_to_the_tilt_that_counts_and_within_its_share()
         assert not nearly_level(at._replace(points=(beside, beside)))
 
 
-def test_a_rim_is_level_up_to_the_tilt_and_stays_so_up_to_the_rate_that_count():
+def test_a_rim_is_level_and_stays_so_up_to_the_tolerances():
     x, z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
     cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
     for tilt, rate_of, expected in ((1.0, 2.0, None), (2.0, 2.0, "slides"), (1.0, 1.0, "rests")):

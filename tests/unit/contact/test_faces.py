@@ -140,7 +140,7 @@ def test_as_far_from_a_face_s_normal_as_counts_is_on_it() -> None:
         assert face(Placed(Cylinder(0.1, 0.2), *HERE), z + tilt * x).radius == radius
 
 
-def test_kinks_are_near_a_direction_that_is_off_by_less_than_is_asked_for() -> None:
+def test_kinks_are_near_a_direction_that_is_off_by_less() -> None:
     n, within = np.array([1.0, 0.0, 0.25]), 0.25
     assert not len(kinks(Capsule(0.1, 0.2)).near(n, within).axes)
     assert len(kinks(Capsule(0.1, 0.2)).near(n, 2 * within).axes) == 1

@@ -170,7 +170,7 @@ def test_as_near_to_a_rim_as_counts_is_on_it(name) -> None:
     assert (len(found.free), len(found.ends)) == (free, ends)
 
 
-def test_as_near_to_an_edge_or_a_corner_of_a_mesh_as_counts_is_on_it() -> None:
+def test_as_near_to_an_edge_of_a_mesh_as_counts_is_on_it() -> None:
     flat, corner = polytope(HUGE), np.array([2.0, 2.0, 4.0])
     assert len(_of_polytope(flat, 2 * X + Y, X, 1.0).free) == 1
     # A corner ends an edge within ten times as far, and along edges that the normal is across.

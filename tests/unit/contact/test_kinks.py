@@ -74,7 +74,7 @@ def test_tangents_switch_where_two_axes_are_as_far_from_the_normal(name) -> None
     assert _switches(np.array(n), np.array(d_n, dtype=float)[:, None], quarters) == expected
 
 
-def test_what_is_as_near_as_counts_touches_and_has_its_tangents_switch() -> None:
+def test_what_is_as_near_as_counts_touches_and_switches() -> None:
     """Of a reach of 1 / UNIQUE one metre is a touch; of a normal TIED is no difference."""
     at = couple(CUBE, CUBE, (ON_EDGE, CROSSED), [0.0, 0.0, 0.1 / HALF])
     wide = at._replace(extents=(1.0, 1 / UNIQUE))

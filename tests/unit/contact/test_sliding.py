@@ -59,7 +59,7 @@ def test_that_points_slide_does_not_depend_on_the_unit_of_a_displacement():
         np.testing.assert_allclose(rates.phi[0, 0], v @ N, rtol=ROUNDING)
 
 
-def test_two_points_have_a_normal_beyond_a_share_of_the_size_and_none_within():
+def test_two_points_have_a_normal_beyond_a_share_of_the_size():
     # The matrix of two points is phi over the size, which is one here.
     x, still = ACROSS[None], np.zeros((1, 3, 1))
     side = Sides([ball(0.0, N)], still, still)
