@@ -10,7 +10,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.tolerances import UNIT_QUATERNION
 from tests.tolerances import ROUNDING
-from tests.unit.model.urdf_texts import BOX, CHAIN, inertial, link, robot, written
+from tests.unit.model.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
 
 
 def test_a_configuration_keeps_its_bits_when_checked(
@@ -129,3 +129,13 @@ def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path: Path
     with pytest.raises(ModelError, match="mote: its mass matrix M_u is singular in float64"):
         System([Body("mote", path, "floating")])
     assert System([Body("mote", path, "floating", "all")]).n_u == 0
+
+
+def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path: Path) -> None:
+    """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 0.001 and I2 = 1e15 all four are I2."""
+    light, heavy = (inertial("1", (moment,) * 3) for moment in ("0.001", "1e15"))
+    links = [link("b0"), link("b1", inertial=light), link("b2", inertial=heavy)]
+    path = written(tmp_path, robot(*links, joint("one", "b0", "b1"), joint("two", "b1", "b2")))
+    with pytest.raises(ModelError, match="mass matrix M_u is singular in float64") as caught:
+        System([Body("arm", path, "fixed", ())])
+    assert caught.value.value == ["arm/one", "arm/two"]

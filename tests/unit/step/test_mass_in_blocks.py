@@ -21,7 +21,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.posed import BlockStep, PosedStep, constants
 from quasistatic_ref.step.solution_files import solution_text
-from quasistatic_ref.step.sparse_form import Pattern
+from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from tests.helpers import always_in_blocks
 from tests.scenes import chain_scene
 from tests.tolerances import EXACT, ROUNDING
@@ -200,3 +200,20 @@ def test_a_mechanism_has_no_blocks(tmp_path):
     assert not system.constant_mass_matrix
     assert system.mass_blocks.shape == (0, 6, 6)
     assert whole(np.zeros((0, 6, 6))).shape == (0, 0)
+
+
+def test_a_mass_matrix_that_changes_has_no_negative_zeros(tmp_path, monkeypatch):
+    system = chain_scene(tmp_path)
+    zeros = np.full((system.n_v, system.n_v), -0.0)
+    monkeypatch.setattr(system._workspace, "mass", lambda q: zeros)
+    assert not np.signbit(system.M_u(system.q_start)).any()
+
+
+def test_the_load_of_a_step_in_blocks_is_that_of_its_springs_and_forces():
+    """G = h [K_q delta_q_bar_a + tau_a; tau_u]."""
+    _, step = step_of("grasp")
+    step = step.replace(tau_a=np.arange(1.0, step.n_a + 1))
+    springs = step.K_q @ step.delta_q_bar_a
+    g = step.h * np.concatenate([springs + step.tau_a, step.tau_u])
+    found = sparse_form(step, Pattern(step)).g
+    np.testing.assert_allclose(found, g, rtol=ROUNDING, atol=ROUNDING * abs(g).max())
