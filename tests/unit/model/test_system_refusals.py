@@ -132,8 +132,8 @@ def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path: Path
 
 
 def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path: Path) -> None:
-    """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 0.001 and I2 = 1e15 all four are I2."""
-    light, heavy = (inertial("1", (moment,) * 3) for moment in ("0.001", "1e15"))
+    """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 1e-5, I2 = 2^40 all four are I2."""
+    light, heavy = (inertial("1", (moment,) * 3) for moment in ("1e-5", str(2**40)))
     links = [link("b0"), link("b1", inertial=light), link("b2", inertial=heavy)]
     path = written(tmp_path, robot(*links, joint("one", "b0", "b1"), joint("two", "b1", "b2")))
     with pytest.raises(ModelError, match="mass matrix M_u is singular in float64") as caught:

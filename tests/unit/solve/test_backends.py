@@ -14,7 +14,6 @@ from quasistatic_ref.solve.backends import (
     DEFAULT,
     DEFAULT_OF_RUNS,
     backend,
-    cone_backend,
     installed_backends,
 )
 from quasistatic_ref.solve.engines import solver_for
@@ -297,11 +296,3 @@ def test_impulses_whose_forces_leave_float64_are_refused():
     """Pushed out by 1 m within h, a force of m / h^2 = 3e309 N."""
     with pytest.raises(StepDataError, match="leave the range"):
         solve.solve_step(point_on_floor(m=0.3, phi=-1.0, h=1e-155))
-
-
-def test_only_backends_with_cones_take_the_ellipsoid_and_no_backend_at_all() -> None:
-    for name in ("clarabel", "scs", "none"):
-        cone_backend(name, "the ellipsoid")
-    for name in ("osqp", "daqp", "qpsolvers:clarabel"):
-        with pytest.raises(BackendError, match="takes linear rows only; the ellipsoid needs one"):
-            cone_backend(name, "the ellipsoid")

@@ -4,8 +4,9 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.solve import extended
+from quasistatic_ref.solve.backends import cone_backend
 from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.extended import _symbols, extended_solution, with_rows
 from quasistatic_ref.solve.units import natural_units, to_natural
@@ -81,3 +82,11 @@ def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatc
     monkeypatch.setattr(extended, "RESIDUAL_LIMIT", 0.0)
     with pytest.raises(StepNotSolved):
         extended_solution(step, cost, "clarabel", 1e-10, "residual")
+
+
+def test_only_backends_with_cones_take_what_is_no_row():
+    for name in ("clarabel", "scs", "none"):
+        cone_backend(name, "the ellipsoid")
+    for name in ("osqp", "daqp", "qpsolvers:clarabel"):
+        with pytest.raises(BackendError, match="takes linear rows only; the ellipsoid needs one"):
+            cone_backend(name, "the ellipsoid")
