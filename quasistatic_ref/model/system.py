@@ -267,7 +267,7 @@ class System:
         """Generalised force of a wrench on a body's root link, shape (n_v,) [N, N m].
 
         The wrench acts at the centre of mass of the root link and of the links that fixed joints
-        weld to it. Only for a body without moving joints is this that of the whole body.
+        weld to it. Only for a body without moving joints is it the whole body's centre of mass.
 
         Parameters
         ----------
