@@ -19,7 +19,7 @@ CHOSEN = {
         "a patch of 5 mm",
     ],
     "docs/conventions.md": [
-        "more by 0.1 %",
+        "by more than 0.1 %",
         "at these scales in 60 digits",
     ],
     "docs/derivations.md": ["A body 1 mm deep with h = 10 ms"],

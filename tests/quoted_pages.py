@@ -39,7 +39,7 @@ QUOTED = {
         ("({:.0f} points, as in the paper)", lambda: [claim("structure", "points of the cloud")]),
         ("{:,} contact problems with proved answers in {} families", of.problem_set),
         ("and {} gigabyte of disk: {} of it is Boost, whose libraries pinocchio and coal load, "
-         "then {} (through CVXPY), {} and {}", of.base),
+         "and the next largest parts are {} (through CVXPY), {} and {}", of.base),
         ("measures {} claims", lambda: [len(BY_NAME)]),
         ("(certified steps meet them to {:.0e})", lambda: [CLOSED_FORM]),
     ],

@@ -107,8 +107,9 @@ HELD = [
     ("the solve is {:.0f} % with the tracker and {:.0f} % without",
      lambda: parts("Means", "osqp", "solve [%]")),
     *((of_ways(n), list) for n in SHOWN),
-    ("take about {} ms a step, {:.2f} as an exponent in bodies; Clarabel {:.2f}. Of 16 boxes with "
-     "62 to 992 contacts: {:.2f} in contacts, Clarabel {:.2f}", chains),
+    ("take about {} ms a step: the exponent in the number of bodies is {:.2f}, with Clarabel "
+     "{:.2f}. With 16 boxes and 62 to 992 contacts the exponent in the number of contacts is "
+     "{:.2f}, with Clarabel {:.2f}", chains),
     ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms at first with PIQP, "
      "{:.0f} ms over 100 steps (99th percentile {:.0f}), {:.0f} ms with the bound; {:.0f} ms at "
      "first with Clarabel", heap),

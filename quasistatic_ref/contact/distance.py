@@ -135,9 +135,10 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
 def late(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates rank after all others: repetitions, and a closest pair beside k corners.
 
-    The closest pair mostly coincides with a corner candidate. On parallel faces it can be any point
-    between corners that are equally near but for rounding; ranked by its distance it would displace
-    one of these corners, and a box on a table would have three corner contacts instead of four.
+    The closest pair mostly coincides with a corner candidate. On parallel faces, whose corners
+    are equally near but for rounding, it can be any point between them; ranked by its distance it
+    would displace one of these corners, and a box on a table would have three corner contacts
+    instead of four.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED

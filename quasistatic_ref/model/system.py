@@ -63,9 +63,9 @@ class System:
     motion : Motion
         How links move with the coordinates.
     constant_mass_matrix : bool
-        Whether M_u is the same array at every q: un-actuated joints are those of rigid bodies.
+        Whether M_u is the same array at every q: un-actuated joints are bases of rigid bodies.
     mass_blocks : ndarray, shape (n_u / 6, 6, 6)
-        If so, the diagonal blocks of M_u [kg, kg m, kg m^2]; else none.
+        The diagonal blocks of M_u [kg, kg m, kg m^2]; no blocks unless M_u is constant.
     texts : tuple of str
         The URDF of each body.
     shapes : tuple of PlacedShape
@@ -108,7 +108,7 @@ class System:
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots
-        self._M_u: Array | None = None  # kept where it is the same at every q, from when it is read
+        self._M_u: Array | None = None  # if M_u is constant: kept once it has been read
         self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
         self.texts = world.texts
         self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
@@ -266,8 +266,7 @@ class System:
         """Generalised force of a wrench on a body's root link, shape (n_v,) [N, N m].
 
         The wrench acts at the centre of mass of the root link and of the links that fixed joints
-        weld to it. For a body without moving joints this is the centre of mass of the whole body;
-        for an articulated body it is not.
+        weld to it. Only for a body without moving joints is it the whole body's centre of mass.
 
         Parameters
         ----------

@@ -19,7 +19,7 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
 
     Of a floating base that is not actuated, the drag is the force ||M_u delta_q_u / h^2|| on its
     translation, and what its contacts can bear is the sum of mu_v f_n. Where they bear nothing by
-    friction, the drag is taken over the body's weight: in free fall it is all of it.
+    friction, the drag is divided by the body's weight: in free fall the share is 1.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
     Returns
     -------
     float or None
-        Of the body that has the largest share; None where nothing floats, or neither rubs nor
-        weighs, or where float64 has no number for it.
+        Of the body that has the largest share; None where no body floats, or none that floats rubs
+        or weighs anything, or where float64 has no number for it.
     """
     momentum = step.momentum(solution.delta_q)
     friction = _friction(step, solution)
@@ -50,7 +50,7 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
 
 
 def _quotient(over: Any, under: Any) -> float | None:
-    """Quotient of two numbers from 0 on; None where that is no float64: beyond its range, or 0/0.
+    """Quotient of two numbers >= 0; None where it is beyond the range of float64, or 0/0.
 
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.
@@ -65,10 +65,10 @@ def _free_bases(system: System) -> list[Joint]:
 
 
 def _friction(step: StepData, solution: StepSolution) -> Array:
-    """Sum of mu_v f_n [N] over the contacts whose bodies a coordinate of a base translates.
+    """For each coordinate that translates a base: sum of mu_v f_n [N] over its body's contacts.
 
-    Shape (n_v,) at least. Such a coordinate moves the points of its body's contacts by one metre
-    per metre, and others not at all.
+    Shape (n_v,), or (n_v + 1,) in blocks; other entries mean nothing. A coordinate that translates
+    a base moves the points of its body's contacts by one metre per metre, and others not at all.
     """
     contacts, f_n = step.contacts, solution.wrench[:, 2]
     bears = contacts.mu_v * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
@@ -85,8 +85,8 @@ def _friction(step: StepData, solution: StepSolution) -> Array:
 def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:
     """Pi = v / (mu_v g h) of one step: the drag m v / h over the friction mu_v m g.
 
-    That is what a body can bear which rests on its own weight, not one which is held. v is
-    that of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
+    mu_v m g is the friction of a body that rests by its own weight, not of a body that is held. v
+    is the speed of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
 
     Parameters
     ----------

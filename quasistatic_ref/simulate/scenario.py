@@ -69,7 +69,7 @@ class Scenario(Plain):
     targets : Targets
         q_bar_a(t).
     wrenches : tuple of Wrenches
-        External wrenches [N, N m] in the world frame, each at the centre of mass of its body.
+        External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
     backend, accuracy, certify, record, cone
         The fields of these names in the scenario's file.
     engine : str, optional

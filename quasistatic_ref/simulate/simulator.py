@@ -44,8 +44,8 @@ class Simulator:
     """A system, what may touch in it, and how each step is solved.
 
     A simulator keeps what is slow to make and serves many steps: which points of the clouds may
-    come among the closest, which columns of J move a contact, the solver. A copy is a new simulator
-    with the same settings.
+    come among the closest, which coordinates move which contact, the solver. A copy is a new
+    simulator with the same settings.
 
     Parameters
     ----------
@@ -62,9 +62,10 @@ class Simulator:
         compensated its own weight.
     solver : str, optional
         Name of a backend; by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`. If a step that is not certified in
-        full fails with that default, named or not, Clarabel solves it. `solver`, `accuracy` and
-        `certify` are otherwise as in :func:`~quasistatic_ref.solve.solve.solve_step`.
+        :func:`~quasistatic_ref.solve.engines.default_backend`. If that default, named here or
+        not, fails at a step that is not certified in full, Clarabel solves the step. `solver`,
+        `accuracy` and `certify` are otherwise as in
+        :func:`~quasistatic_ref.solve.solve.solve_step`.
     engine : str, optional
         As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
         reaches the backend and the cone, and ``"cvxpy"`` for extensions that are not linear

@@ -30,8 +30,8 @@ class Blocks(Plain):
     ----------
     column : ndarray of int, shape (n_c, w)
         Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w. A
-        read-only array is kept and not copied: steps that share one array have their entries in
-        the same places, which is seen without a comparison of numbers.
+        read-only array is kept and not copied: two steps that share it have their entries in the
+        same places, and one sees so without comparing numbers.
     J : ndarray, shape (n_c, 4, w)
         Those columns of the J of ``Contacts``; zero where a contact has fewer than w.
     n_v : int

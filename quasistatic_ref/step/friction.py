@@ -40,8 +40,8 @@ Friction: TypeAlias = "ConeFunction | None"
 def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     r"""The paper's cone: :math:`|f_1|/\mu_v + |f_2|/\mu_v + |\tau|/\mu_\omega \le f_n`.
 
-    An octahedron: the rows of a contact share one normal force. Arguments and result are in one
-    unit, for example [m]. They are +d1, +d2, -d1, -d2, +spin, -spin.
+    An octahedron: the rows of a contact share one normal force. The rows are +d1, +d2, -d1, -d2,
+    +spin, -spin, in the unit of the arguments, for example [m].
     """
     return (
         gap + slip_1,  # Eq. (5)
@@ -85,7 +85,8 @@ def facets(K: int) -> ConeFunction:
     Returns
     -------
     callable
-        The sides counter-clockwise about n, then +spin, -spin, in the unit [m] of its arguments.
+        The cone's function. It returns the sides counter-clockwise about n, then +spin, -spin, in
+        the unit [m] of its arguments.
     """
     corners = [direction(k, K) for k in range(K)]
 
@@ -148,7 +149,7 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     tuple of ndarray, each of shape (n_c, w)
         The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
     """
-    # Not `@`: BLAS sums in another order on another processor, and these three would differ.
+    # Not `@`: BLAS sums in another order on another processor, and the last bits would differ.
     axes = np.array([contacts.n, contacts.d1, contacts.d2])
     parts = axes[..., None] * J[:, :3]
     J_n, J_1, J_2 = parts[:, :, 0] + parts[:, :, 1] + parts[:, :, 2]
@@ -156,7 +157,7 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
 
 
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, all of each contact.
+    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, for each contact all that the cone has.
 
     Parameters
     ----------

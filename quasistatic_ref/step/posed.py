@@ -38,7 +38,7 @@ class Constants(NamedTuple):
     extra : Extra
         No rows of a user's own.
     H : ndarray, shape (n_v, n_v)
-        Of Eq. :eq:`eq-13`; M_u / h in blocks where M_u is.
+        Of Eq. :eq:`eq-13`; where M_u is in blocks, these blocks over h and nothing else.
     layout : RowLayout
     """
 

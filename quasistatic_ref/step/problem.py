@@ -1,6 +1,7 @@
 """The paper's page: Eqs. :eq:`eq-1`, :eq:`eq-3`-:eq:`eq-7`, :eq:`eq-10`, :eq:`eq-13` in CVXPY.
 
-A bare symbol is a CVXPY object, except h, mu_v and mu_omega: numbers, constants of the problem.
+Where the problem is built, a symbol alone, such as phi, is a CVXPY object, except h, mu_v and
+mu_omega: these are numbers, constants of the problem.
 """
 
 import cvxpy as cp
@@ -16,7 +17,7 @@ from quasistatic_ref.step.friction import Friction, frame_jacobian
 class StepProblem:
     """Eq. :eq:`eq-13`; ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it.
 
-    Extensions have ``delta_q``, ``contact_rows`` (a constraint for each row of the cone) and
+    Extensions read ``delta_q``, ``contact_rows`` (a constraint for each row of the cone) and
     ``motion``: gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
 
     Parameters
@@ -55,7 +56,7 @@ class StepProblem:
         torsion = [(gap + spin)[torsional] >= 0, (gap - spin)[torsional] >= 0]  # Eq. (7)
         rows = pyramid + torsion  # Eq. (10)
         if friction is not None:
-            sides = friction(gap, slip_1, slip_2, spin)  # none where the cone is one constraint
+            sides = friction(gap, slip_1, slip_2, spin)  # no sides in the ellipsoid
             rows = [side[j] >= 0 for side, j in zip(sides, like.mask.T, strict=bool(sides))]
 
         stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if n_a else 0  # Eq. (13)
