@@ -81,6 +81,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref inspect bunny_grasp",
         "quasistatic-ref backends",
         "quasistatic-ref completion bash",
+        "quasistatic-ref schema",
         "quasistatic-ref vectors own --layer qp --out answers",
         "quasistatic-ref vectors check answers",
         "quasistatic-ref vectors report answers --implementation 'own answers' --out conformance",
