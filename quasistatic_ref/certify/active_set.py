@@ -14,7 +14,7 @@ Termination. A walk drops at most |W| rows. It ends with the dual objective stri
 its start a_p x < b_p, and the dual objective grows at the rate b_p - a_p x > 0 in the multiplier
 of p until the full step closes the violation, which needs a positive multiplier since x must move.
 The dual objective after a walk is a function of the working set, so no working set comes back,
-and there are finitely many. This holds with exact signs only, and is why ties are decided
+and there are finitely many. This holds with exact signs only, which is why ties are decided
 before they are branched on.
 """
 
@@ -64,8 +64,8 @@ class Optimum:
 def most_violated(point: Point) -> tuple[int | None, list[int]]:
     """Return a violated row, if there is one, and all signs once there is none.
 
-    Any violated row may be chosen. If the most violated one is (of equal ones that of least index),
-    a grasp takes a fifth of the walks from a cold start that it takes with the least index.
+    Any violated row would do. With the most violated one (of equal ones that of least index) a
+    grasp takes, from a cold start, a fifth of the walks that it takes with :func:`least_index`.
     """
     shown = [i for i, sign in enumerate(point.slack_signs) if sign == -1]
     if shown and point.balls is not None:

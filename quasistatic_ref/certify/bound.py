@@ -190,8 +190,8 @@ def opening_direction(step: StepData) -> Array | None:
     A = A / norms[:, None]
     inverse = np.linalg.pinv(A)
     d = np.zeros(A.shape[1])
-    # Alternating projections of z = A v (d here) to {z >= 1} and to the range of A: Cheney and
-    # Goldstein (1959).
+    # Alternating projections of z = A d (d is the v above) to {z >= 1} and to the range of A:
+    # Cheney and Goldstein (1959).
     for _ in range(ROUNDS):
         short = np.maximum(1 - A @ d, 0)
         if short.max(initial=0.0) < 0.5:

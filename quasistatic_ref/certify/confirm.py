@@ -8,9 +8,10 @@ set of the optimum. Sums and products of the step's numbers give h H and h g. Wi
           x = (hH)^{-1} (hg + A_W^T y).
 
 It is the optimum if the first matrix is regular (the rows of W are then independent), y > 0, and
-every other row has a positive slack or an equation that those of W imply. Balls show all of that
-but the zeros; these follow from how the rows of a contact are combined, or from the rank of exact
-rows. What stays open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
+no other row has a negative slack. Balls show all of that but the slacks that are zero. These, and
+coordinates that are zero, follow from how the rows of a contact are combined, from the rank of
+exact rows, or from the rational solution on W (:mod:`~quasistatic_ref.certify.zeros`). What stays
+open is left to :mod:`~quasistatic_ref.certify.exact`, which decides everything.
 """
 
 from collections.abc import Sequence
@@ -47,7 +48,7 @@ class BallHessian:
     Raises
     ------
     StepDataError
-        If H is not positive definite without rounding.
+        If H, formed without rounding, is not positive definite.
     """
 
     def __init__(self, step: StepData) -> None:
@@ -159,7 +160,7 @@ class BallStep:
             slack=slack,
             working_set=tuple(working),
             multipliers_unique=not idle,
-            differentiable=True,  # every row without slack is one of W, or spanned by W
+            differentiable=True,  # zeros_hold: all rows without slack are strictly active
             smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
             smallest_active_multiplier=min(lam_w.tolist(), default=None),
             walks=0,

@@ -81,7 +81,8 @@ def exact_optimum(
     warm : sequence of int
         Rows that a solver found active, in order of preference; any rows will do.
     violated : callable
-        Which violated row is added next; it may change lam and the working set, nothing else.
+        Which violated row is added next: it may change lam, the working set, the smallest
+        multiplier on that and the number of walks, but nothing else of an optimum.
 
     Returns
     -------
@@ -90,7 +91,7 @@ def exact_optimum(
     Raises
     ------
     StepDataError
-        If H is not positive definite without rounding.
+        If H, formed without rounding, is not positive definite.
     """
     end = dual_active_set(form, warm, violated)
     return end if isinstance(end, Farkas) else _rounded(form, end)
@@ -156,8 +157,8 @@ def _nearest(
 ) -> Array:
     """Return unit * values[entries] in float64.
 
-    Each comes from its ball, or, where the ball is open, is one that `zeros` proves to be
-    zero, or comes from the rational solution.
+    Each is rounded from its ball; where the ball leaves that open, it is zero if `zeros` proves
+    so, and otherwise rounded from the rational solution.
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
     if point.balls is not None:

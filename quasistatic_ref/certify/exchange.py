@@ -17,11 +17,11 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.standard_form import StandardForm
 
 CHANGES = 4
-"""Walks before a guess is given up: on the grasp one or two mend those of DAQP."""
+"""Walks before a guess is given up: on the grasp one or two mend a wrong guess of DAQP."""
 
 DEPENDENT = 1e-9
-"""A row is taken to depend on others if the part of it that they do not span has less than this
-share of its squared length."""
+"""A row is taken to depend on others if the squared length of the part that they do not span is at
+most this share of the squared length of the row, both in the norm of H^-1."""
 
 
 class Violated(NamedTuple):
@@ -58,6 +58,7 @@ def proved_nearby(
     Parameters
     ----------
     prove : callable
+        Tests a working set, ascending.
     guess : ndarray of int, shape (k,)
         Rows.
     form : StandardForm
@@ -91,7 +92,7 @@ def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | Non
     reached, towards = A.dot(inverse).dot(A.T), A.dot(moved)
     while True:
         try:
-            falls = np.linalg.solve(reached, towards)  # of lam, for a unit of p's
+            falls = np.linalg.solve(reached, towards)  # of lam, per unit of p's multiplier
         except np.linalg.LinAlgError:
             return None
         rate = square - float(falls.dot(towards))

@@ -7,7 +7,7 @@ suffices: with a direction v, A v > 0, x' = x + t v is feasible, and
           + \big((\|r\|_{H^{-1}} + t\,\|v\|_H)^2 + 2\,y^T(A x' - b)\big)^{1/2},
           \qquad r = H x - g - A^T y.
 
-H, g and A mean those that the step's numbers give without rounding. The rounding of a sum, in
+H, g and A are those that the step's numbers give without rounding. The rounding of a sum, in
 whatever order it is taken, is at most a certain multiple of u = 2^-53 times the sum of the absolute
 values of its terms. The documentation derives these multiples on the page of exact answers.
 """
@@ -28,8 +28,8 @@ U = 2.0**-53
 """Largest relative error of one operation."""
 
 EXTRA_SLACK, EXTRA_BALANCE, EXTRA_TRANSPOSE, EXTRA_ENERGY = 8, 4, 8, 8
-"""Roundings of A x - b, H x - g, A'y and ||H^-1 g||^2 beyond n, n, k and 4 n: n coordinates, and k
-positive multipliers."""
+"""Roundings of A x - b, H x - g, A'y and ||H^-1 g||^2 in addition to n, n, k and 4 n of them, for n
+coordinates and k positive multipliers."""
 
 MORE = 1 + 2.0**-30
 """Covers the rounding of the bounds themselves, sums of up to 2^20 numbers that are not negative,
@@ -105,7 +105,7 @@ class FloatBound:
         self._mu = self._weight = np.zeros(0)
 
     def fits(self, hessian: BallHessian, coordinate: Array) -> bool:
-        """Whether it is that of an H in balls and of units `coordinate`, shape (n_v,) [m, rad]."""
+        """Whether it is for this H in units `coordinate`, (n_v,) [m or rad, per (N m s)^0.5]."""
         return hessian is self.hessian and coordinate is self.coordinate
 
     def error(

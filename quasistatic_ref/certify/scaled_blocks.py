@@ -39,14 +39,14 @@ class ScaledBlocks:
     size: arb
 
     def pair(self, found: Pair) -> tuple[arb_mat, list[Vector]]:
-        """The x and y of a pair of the program in the units of the form, x without radius."""
+        """The x and y of a pair in the form's units, without radius; lam is `mu` times y."""
         scaled = [self.size * r * v for r, v in zip(self.root, found.x.entries(), strict=True)]
         along = zip(self.length, found.y, strict=True)
         y = [[(self.size / ell * v).mid() for v in y_j] for ell, y_j in along]
         return arb_mat(len(scaled), 1, scaled).mid(), y
 
     def start(self, form: ExactForm, delta_q: Array, lam: Array) -> tuple[arb_mat, list[Vector]]:
-        """An answer in SI units as x and y of the program, shapes (n_v,) and (m,)."""
+        """An answer in SI units, delta_q (n_v,) and lam (m,), as x and y of the program."""
         coordinates = zip(self.root, delta_q.tolist(), strict=True)
         x = [(arb(v) / (form.x_unit * self.size * r)).mid() for r, v in coordinates]
         y = [

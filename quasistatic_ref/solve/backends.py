@@ -1,6 +1,6 @@
-"""The table of backends: one accuracy in each one's own options, and all else that differs.
+"""The table of backends: how an accuracy is said in the options of each, and all else that differs.
 
-A backend is a solver of another project. It is reached by three interfaces: through CVXPY under its
+A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
 form; and natively, where ``solve/adapters/`` has a file of its name.
 """

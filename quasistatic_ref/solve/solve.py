@@ -88,7 +88,9 @@ def solve_step(
         loads or its penetration ask for alone; see
         :func:`~quasistatic_ref.certify.exact_step.relative_length`.
     StepNotSolved
-        Otherwise, if the backend claims anything but a full solution, or fails the judge.
+        With ``"residual"`` and ``"off"``, if the backend claims anything but a full solution; with
+        ``"residual"`` also if the judge of residuals refuses its answer. With ``"full"`` only in
+        the ellipsoid, if no enclosure is found and no answer of the backend passes the judge.
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError

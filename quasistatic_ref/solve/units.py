@@ -62,7 +62,7 @@ class Metric:
     natural : ndarray, shape (n_v, n_v)
         H in natural units [-].
     usable : bool
-        Whether all units are finite and positive.
+        Whether the units of all coordinates are finite and positive.
     """
 
     H: Array
@@ -190,7 +190,7 @@ def to_natural(step: StepData, units: Units) -> StepData:
         PosedContacts(c.name, phi, c.n, c.d1, c.d2, J, *same),
     )
     own = (phi, J.ravel(), H.ravel(), tau_a, tau_u, natural.delta_q_bar_a)
-    return natural if all(map(finite, own)) else natural.replace()  # which says what is not
+    return natural if all(map(finite, own)) else natural.replace()  # its check names the number
 
 
 def within_reach(natural: StepData) -> StepData:

@@ -23,8 +23,10 @@ class Pattern:
 
     Attributes
     ----------
-    A, P : scipy.sparse.csc_matrix
-        Of shapes (m, n_v) and (n_v, n_v); their data are overwritten by :meth:`sparse_form`.
+    A : scipy.sparse.csc_matrix, shape (m, n_v)
+        Its places alone, all entries zero; :func:`sparse_form` gives each step entries of its own.
+    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
+        The upper triangle of H itself.
     """
 
     def __init__(self, step: StepData) -> None:
@@ -107,7 +109,7 @@ def upper_triangle(step: StepData) -> csc_matrix:
 
 
 def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
-    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`; of H and A only entries not zero."""
+    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`; of H and A the pattern's places only."""
     blocks = in_blocks(step)
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
