@@ -20,7 +20,6 @@ from quasistatic_ref.lab.study.bench.profile import (
 )
 from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
 from quasistatic_ref.lab.validate.paper import step_time
-from quasistatic_ref.simulate import simulator
 from tests.tolerances import ROUNDING
 
 STEPS = 6
@@ -41,7 +40,6 @@ def test_the_distances_of_the_tracker_are_those_that_it_really_evaluates(monkeyp
     for module in (tracker_bound, cloud_tracker):
         monkeypatch.setattr(module, "signed_distance", distances)
     monkeypatch.setattr(SolidRows, "__call__", rows)
-    monkeypatch.setattr(simulator, "compiled", lambda name: None)
     found = tracked_distances(grasp_scenario("clarabel", "off"), STEPS)
     assert found.sum() == sum(counted)
     # 3 first lists: a normal out of 992 points, a list out of 992, 32 on it. A later step

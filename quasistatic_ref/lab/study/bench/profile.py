@@ -1,4 +1,7 @@
-"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances."""
+"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances.
+
+The steps are those of NumPy also where a compiler is at hand.
+"""
 
 from collections.abc import Mapping
 from functools import cache, partial
@@ -7,6 +10,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.lab.study.bench.grasp import by_numpy
 from quasistatic_ref.lab.study.bench.timing import seconds
 from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.simulate.scenario import Scenario, load_scenario
@@ -137,7 +141,7 @@ class _Run:
     def __init__(self, backend: str, certify: str) -> None:
         self.backend, self.certify = backend, certify
         self.scenario = grasp_scenario(backend, certify)
-        self.simulator, self.q = self.scenario.simulator(), self.scenario.system.q_start
+        self.simulator, self.q = by_numpy(self.scenario), self.scenario.system.q_start
         self.kinematics = self.scenario.system.kinematics
         self.calls: list[float] = []
         self.laps: list[list[float]] = []
@@ -197,7 +201,7 @@ def tracked_distances(scenario: Scenario, steps: int) -> Array:
     starts from out of all points too. (Clouds of more points than ``ball_tree.SMALL`` have a tree,
     and lists that are made from fewer.)
     """
-    simulator, q = scenario.simulator(), scenario.system.q_start
+    simulator, q = by_numpy(scenario), scenario.system.q_start
     clouds, counts = simulator.tracker.clouds, np.zeros(steps)
     assert clouds is not None
     a_pair = all_distances(scenario) // len(scenario.pairs)
