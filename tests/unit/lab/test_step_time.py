@@ -12,6 +12,7 @@ from quasistatic_ref.lab.study.bench.profile import (
     TRACKER,
     Profile,
     Profiles,
+    _Run,
     all_distances,
     grasp_scenario,
     profiles,
@@ -78,6 +79,10 @@ def planted(solve, backend="x", distances=TRACKER):
     rest = (1 - solve) / 3
     times = dict(zip(PARTS, (solve / 2, solve / 2, rest, rest, rest), strict=True))
     return Profile(backend, "off", distances, times, times | {PARTS[0]: 10.0})
+
+
+def test_profiled_steps_are_those_of_numpy_with_a_compiler_too():
+    assert _Run("daqp", "off").simulator.fast is None
 
 
 def test_a_share_is_that_of_the_sum():
