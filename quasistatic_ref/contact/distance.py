@@ -133,7 +133,7 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:
-    """Which candidates rank after all others: repetitions, and a closest pair beside k corners.
+    """Which candidates rank last: repetitions, and a closest pair if k corners are as near.
 
     The closest pair mostly coincides with a corner candidate. On parallel faces, whose corners
     are equally near but for rounding, it can be any point between them; ranked by its distance it

@@ -19,7 +19,7 @@ class ContactTracker:
     """What :func:`~quasistatic_ref.contact.distance.closest_points` returns, in less time.
 
     A tracker remembers which points of the clouds can come among the closest, so each run has a
-    tracker of its own. Poses may jump; that costs time only. Pairs of two solids are measured anew
+    tracker of its own. Poses may jump; that costs time only. Pairs of two solids are measured
     at each step: the number of their contacts is fixed, and the distance of each is part of the
     step, near or far.
 

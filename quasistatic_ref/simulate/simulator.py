@@ -227,7 +227,7 @@ class Simulator:
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's own rows at q, shape (n_q,); and the extension or None.
 
-        An extension that holds costs or nonlinear constraints is returned beside the unchanged
+        An extension that holds costs or nonlinear constraints is returned with the unchanged
         step; the linear constraints of any other become rows of the step.
         """
         if self.extension is None:

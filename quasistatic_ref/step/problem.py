@@ -1,7 +1,6 @@
 """The paper's page: Eqs. :eq:`eq-1`, :eq:`eq-3`-:eq:`eq-7`, :eq:`eq-10`, :eq:`eq-13` in CVXPY.
 
-Where the problem is built, a symbol alone, such as phi, is a CVXPY object, except h, mu_v and
-mu_omega: these are numbers, constants of the problem.
+Where the problem is built, symbols are CVXPY objects, except the numbers h, mu_v and mu_omega.
 """
 
 import cvxpy as cp

@@ -1,8 +1,8 @@
 """Stores of earlier versions, read as those of today.
 
-Those of version 1 have null for what they did not measure. Their rows name the interface ``road``,
-their times are of one call each, cold, in one fixed order; and a false claim that there is no
-solution, which their own status still shows, counted as a failure.
+Those of version 1 have null for what they did not measure. They call the field ``interface`` by its
+former name, ``road``; their times are of one call each, cold, in one fixed order; and a false claim
+that there is no solution, which their own status still shows, counted as a failure.
 """
 
 from typing import Any

@@ -157,8 +157,8 @@ def test_a_rim_is_nearly_level_up_to_the_tolerances():
         at = couple._replace(n=z + tilt * np.array([1.0, 0.0, 0.0]))
         end = (1 - ON_RIM) * x - 0.06 * z
         assert nearly_level(at._replace(points=(end, end))) == expected
-        beside = (1 - 2 * ON_RIM) * x - 0.06 * z
-        assert not nearly_level(at._replace(points=(beside, beside)))
+        inside = (1 - 2 * ON_RIM) * x - 0.06 * z
+        assert not nearly_level(at._replace(points=(inside, inside)))
 
 
 def test_a_rim_is_level_and_stays_so_up_to_the_tolerances():
