@@ -19,7 +19,7 @@ from docs.fields_page import reference_page  # noqa: E402 the path has to be the
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.study.spec_table import TABLES as STUDY  # noqa: E402 the path has to be there first
-from quasistatic_ref.simulate.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
+from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -132,7 +132,8 @@ def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
     ``% fields of a scenario`` and ``% fields of a study`` are the tables by which these are read,
-    ``% modules of quasistatic_ref/ROOM`` is every module of that room, ``% examples`` each example.
+    ``% modules of quasistatic_ref/FOLDER`` is every module of that folder, ``% examples`` each
+    example.
     """
     up = "../" * docname.count("/")
     text = source[0]
@@ -164,7 +165,7 @@ def _plain_listings(app, doctree):
 
 
 def _modules(folder):
-    """An automodule directive for each module of a folder; of the two storeys, only their own."""
+    """An automodule directive for each module of a folder; package and lab give only their own."""
     files = folder.glob("*.py") if folder in (PACKAGE, LAB) else folder.rglob("*.py")
     names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
     one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"

@@ -18,19 +18,20 @@ _HOMES = {
     # A scene.
     "model.system": "System",
     "model.body": "Body",
-    "model.shapes": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud PlacedShape",
-    "model.convex_mesh": "convex_hull",
+    "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
+    "PlacedShape",
+    "shapes.convex_mesh": "convex_hull",
     "contact.pairs": "ContactPair",
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
-    "simulate.derivatives": "derivatives",
-    "simulate.smoothed": "smoothed",
-    "simulate.step_jax": "step_jax smoothed_jax",
+    "optional.derivatives.derivatives": "derivatives",
+    "optional.derivatives.smoothed": "smoothed",
+    "optional.derivatives.step_jax": "step_jax smoothed_jax",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",
-    "simulate.scenario": "Scenario load_scenario",
+    "scenario.scenario": "Scenario load_scenario",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
     "step.files": "step_read step_written",
@@ -40,7 +41,7 @@ _HOMES = {
     "step.solution": "StepSolution Certificate",
     "solve.solve": "solve_step",
     "certify.certificate": "verify",
-    "certify.sensitivity": "sensitivity",
+    "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NotDifferentiable "

@@ -8,7 +8,7 @@ from functools import cache
 from importlib import import_module
 from types import ModuleType
 
-_ROOM = "quasistatic_ref.fast"
+_ROOM = "quasistatic_ref.optional.fast.compiled"
 
 
 @cache

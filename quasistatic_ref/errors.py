@@ -12,13 +12,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from quasistatic_ref.plain import bits
-from quasistatic_ref.quoting import clipped, one_line, short_words, shown_value
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
-    from quasistatic_ref.certify.reason import Reason
+    from quasistatic_ref.optional.derivatives.step.reason import Reason
     from quasistatic_ref.step.data import Array, StepData
 
 

@@ -20,8 +20,8 @@ import numpy as np
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.model.shapes import (
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
+from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
     Cone,

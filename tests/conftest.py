@@ -4,13 +4,17 @@ import contextlib
 import gc
 import io
 import os
-from collections.abc import Generator
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import settings
+
+from quasistatic_ref.model.system import System
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
 settings.register_profile("local", deadline=None, max_examples=15)
@@ -56,3 +60,29 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         status = main(["demo", "--json", "--out", str(folder)])
     return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> System:
+    """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
+    return chain_scene(tmp_path)
+
+
+@pytest.fixture
+def q(scene: System, rng: np.random.Generator) -> np.ndarray:
+    """A configuration without symmetries."""
+    return scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Callable[..., Scenario]:
+    """The scenario PUSH with some of its lines replaced."""
+
+    def loaded(*changes: tuple[str, str], settings: Sequence[str] = ()) -> Scenario:
+        text = PUSH
+        for old, new in changes:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        return load_scenario(written_scenario(tmp_path, text), settings)
+
+    return loaded

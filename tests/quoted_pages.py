@@ -9,22 +9,22 @@ neither here nor in tests/chosen_numbers.py fail the test.
 
 import math
 
-from quasistatic_ref.contact import ball_tree, cloud_tracker, tracker_bound
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
 from quasistatic_ref.lab.grasp import TOP
-from quasistatic_ref.lab.validate.registry import BY_NAME
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_tracker, tracker_bound
 from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
 from tests import quoted_reality as reality
 from tests import quoted_sources as of
 from tests import quoted_speed as speed
 from tests import quoted_vectors as vectors
+from tests.lab import test_digits_figure as digits
+from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
-from tests.study import test_known_issues as known_issues
-from tests.unit.figures import test_digits_figure as digits
-from tests.unit.solve import test_options_of_backends as options
+from tests.solve import test_options_of_backends as options
 from validation.bench_exact import PROMISED
 
 GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from quasistatic_ref.model.system import Body, System
-from tests.unit.model.urdf_texts import BOX, CHAIN, collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import BOX, CHAIN, collision, inertial, joint, link, robot, written
 
 
 def chain_scene(folder: Path) -> System:

@@ -16,7 +16,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS, installed_backends
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step

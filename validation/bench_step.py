@@ -13,7 +13,7 @@ import time
 
 import numpy as np
 
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.expected import Json

@@ -30,7 +30,8 @@ TESTS = (
         "docstrings", "first_scene", "installs", "layers", "lock", "readme", "release", "sdist",
         "traceability", "workflows",
     )),
-    "tests/equations", "tests/study/test_committed_studies.py", "tests/vectors/test_folder.py",
+    "tests/equations", "tests/lab/study/test_committed_studies.py",
+    "tests/lab/vectors/test_folder.py",
 )  # fmt: skip
 """Those that read most of the checkout, not the package alone: docs, models, committed results."""
 NOWHERE = "http://127.0.0.1:9"

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.browser import Browser
 from validation.forged_scenes import scenes
 from validation.forgeries import good_file

@@ -17,9 +17,9 @@ import numpy as np
 from PIL import Image
 
 from quasistatic_ref.cli.main import main as command
-from quasistatic_ref.figures.moments import Moment, extent, frames
-from quasistatic_ref.figures.viewer import FRAMES_PER_SECOND, metres_per_newton
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.optional.show.figures.moments import Moment, extent, frames
+from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, metres_per_newton
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from validation.browser import Browser
 

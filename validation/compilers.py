@@ -1,7 +1,8 @@
 """C or numba for compiled code, in numbers: ``python -m validation.compilers --out FILE``.
 
-Of C: the library of ``quasistatic_ref/fast`` by each compiler that is here, compiled into an empty
-cache, loaded by a new process, and the call of one function. Of numba: its import, one function of
+Of C: the library of ``quasistatic_ref/optional/fast/compiled`` by each compiler that is here,
+compiled into an empty cache, loaded by a new process, and the call of one function. Of numba: its
+import, one function of
 twenty lines (the inverse of a matrix) compiled and, from its cache, loaded by a new process, and
 the call of a function that is given 40 arrays, about as many as a step has. What each takes on the
 disk is what its packages list. Takes a minute; needs numba and ziglang.
@@ -18,7 +19,7 @@ import tempfile
 from importlib.metadata import distribution
 from pathlib import Path
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 
 ROOT = Path(__file__).parent.parent
 
@@ -26,7 +27,7 @@ OF_C = """
 import time
 from quasistatic_ref.step import arrays
 start = time.perf_counter()
-from quasistatic_ref.fast.library import library
+from quasistatic_ref.optional.fast.compiled.library import library
 found = library()
 loaded = time.perf_counter() - start
 import ctypes

@@ -22,14 +22,14 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
-from quasistatic_ref.figures import figure_style
-from quasistatic_ref.figures.style import PAGE
+from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.study_pens import pens
 from quasistatic_ref.lab.study.calls import tried
 from quasistatic_ref.lab.study.sessions import Native
 from quasistatic_ref.lab.study.sets.folder import manifest, set_read
 from quasistatic_ref.lab.study.sets.member import SOCP, SPARSE, Member
-from quasistatic_ref.resources import problem_set_folder
+from quasistatic_ref.optional.show.figures import figure_style
+from quasistatic_ref.optional.show.figures.style import PAGE
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.adapters.program import Program, Reply
 from quasistatic_ref.solve.backends import BACKENDS

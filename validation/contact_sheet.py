@@ -18,13 +18,13 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image, ImageDraw
 
-from quasistatic_ref.figures import faults, figure_style
-from quasistatic_ref.figures.style import STYLES
+from quasistatic_ref.lab.claims.claim import finding
+from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, figure_of
 from quasistatic_ref.lab.figures.digits import digits_of_backends
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.validate.claim import finding
-from quasistatic_ref.lab.validate.registry import BY_NAME
+from quasistatic_ref.optional.show.figures import faults, figure_style
+from quasistatic_ref.optional.show.figures.style import STYLES
 from validation.digits_of_backends import SUBJECT, records_read
 
 COLUMNS, CELL, HEADING = 4, (630, 470), 24

@@ -32,10 +32,18 @@ from tqdm import tqdm
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.solid_pair import solid_pair
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.model.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape, Sphere
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Shape,
+    Sphere,
+)
 from tests import closest
 from validation.pair_distances import points_off
 

@@ -17,10 +17,10 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify import reason
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.files import text_written
-from quasistatic_ref.simulate.derivatives import derivatives
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.step.data import Array
 from validation.gradients.log import Record, logged
 from validation.gradients.placing import Kink, Rng, unit_vector

@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.layers.derivative import QUIET, STILL
 from validation.gradients.judge import judged
 from validation.gradients.log import Record, logged

@@ -23,10 +23,10 @@ from tqdm import tqdm
 
 from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.figures.style import figure_written
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.optional.show.figures.style import figure_written
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver, cvxpy_reply
 from quasistatic_ref.solve.units import from_natural

@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import installed
 

@@ -33,9 +33,9 @@ from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData

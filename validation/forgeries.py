@@ -31,7 +31,7 @@ from tqdm import tqdm
 
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read

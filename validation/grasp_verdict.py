@@ -16,9 +16,9 @@ import tempfile
 from pathlib import Path
 
 from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
-from quasistatic_ref.resources import models_folder
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 
 BODIES = ((0.1, 0), (0.2, 0), (0.25, 0), (0.2, 600), (0.2, 1200))
 """Mass [kg] and start of the sampling."""

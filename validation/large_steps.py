@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.sparse_jacobian import BlockGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.environment import machine
 from quasistatic_ref.lab.study.large import CHAINS
-from quasistatic_ref.step.posed import constants
+from quasistatic_ref.optional.fast.posed import constants
+from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 
 Shape = tuple[int, int, int]
 ROWS: tuple[Shape, ...] = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))

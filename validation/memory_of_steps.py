@@ -4,7 +4,7 @@ Run ``python -m validation.memory_of_steps`` (a quarter to half an hour; ``--ste
 it shorter). ``sphere_spin`` under a torque about the normal that is drawn at random at every step,
 so that no step is like another: 50,000 steps with ``certify = full``, nothing of them kept. What
 Python has allocated is traced, after a collection of garbage; what C libraries hold is seen in the
-resident size. What a run keeps of its steps is a test's: ``tests/unit/simulate/test_memory.py``.
+resident size. What a run keeps of its steps is a test's: ``tests/simulate/test_memory.py``.
 
 Prints the page that is kept in ``validation/results/memory_of_steps.md``. Exit status 1 if in the
 second half of the steps more was added than ``ENDS`` allows.
@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 
 ENDS = 0.5
 """Bytes a step, in the second half, below which growth counts as ended: caches that fill meet a

@@ -31,7 +31,7 @@ from pathlib import Path
 import pytest
 from tqdm import tqdm
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.mutating.mutants import Mutant, mutants
 from validation.mutating.mutated import EXACT, TESTS
 from validation.mutating.trials import Trials

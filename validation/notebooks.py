@@ -42,8 +42,8 @@ def notebook(name: str) -> nbformat.NotebookNode:
         nbformat.v4.new_code_cell(code),
         nbformat.v4.new_code_cell("main()"),
         nbformat.v4.new_code_cell(
-            "from quasistatic_ref.figures import figure_style\n\nwith figure_style():\n"
-            "    page = figure()"
+            "from quasistatic_ref.optional.show.figures import figure_style\n\n"
+            "with figure_style():\n    page = figure()"
         ),
     ]
     for k, cell in enumerate(made.cells):

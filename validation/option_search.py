@@ -18,13 +18,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.study.page import milliseconds, options_words
 from quasistatic_ref.lab.study.problems import problem_set
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
 from quasistatic_ref.lab.study.tuning import Options, Score, halves, line, scored, searched
-from quasistatic_ref.resources import scenario_names
 from validation.option_report import Spaces, is_searched, report
 
 HERE = Path(__file__).parent

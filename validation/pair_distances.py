@@ -23,9 +23,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.solid_pair import solid_pair
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import HalfSpace, Shape
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
 from tests import closest
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
 from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program

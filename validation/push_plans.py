@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.examples.plan_a_push import ARM, KAPPAS, STARTS, STEPS, SUPPORTS, planned
 
 MOST = (5.0, 5.0)

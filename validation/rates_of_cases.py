@@ -13,12 +13,12 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
+from quasistatic_ref.formats.resources import vectors_folder
 from quasistatic_ref.lab.vectors.challenge.terms import terms
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import layer as layer_of
 from quasistatic_ref.lab.vectors.layers import step as step_layer
-from quasistatic_ref.resources import vectors_folder
 
 PROMISES = {"rows": 150.0, "steps up to two contacts": 60.0, "steps, all": 8.0}
 """Cases a second on two quiet cores."""

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.conduct import poses, predicted_pushes
 from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
 from quasistatic_ref.lab.reality.identify import identified
@@ -21,7 +22,6 @@ from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.resources import reality_folder
 
 OUT = Path(__file__).parent / "results" / "reality_ablations.json"
 PYRAMID = {"cone": "pyramid"}

@@ -5,9 +5,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.figures.style import figure_style, figure_written
 from quasistatic_ref.lab.examples.gallery import figure_of
 from quasistatic_ref.lab.figures import reality
+from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "validation" / "results"

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.report import identified_record
-from quasistatic_ref.resources import reality_folder
 
 OUT = Path(__file__).parent / "results" / "reality_identified.json"
 CONES = ("ellipsoid", "pyramid", "product", "facets-8", "facets-16")

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
@@ -22,7 +23,6 @@ from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predict import predicted, rotation
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.resources import reality_folder
 
 RESULTS = Path(__file__).parent / "results"
 UNITS = np.array([1e3, np.degrees(1.0)])

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.files import json_text, text_written
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
 from quasistatic_ref.lab.reality.tripods import (
     FINGER,
@@ -20,7 +21,6 @@ from quasistatic_ref.lab.reality.tripods import (
     tripod_prediction,
     tripods_read,
 )
-from quasistatic_ref.resources import reality_folder
 
 OUT = Path(__file__).parent / "results" / "reality_tripods.json"
 VARIANTS: dict[str, dict[str, Any]] = {

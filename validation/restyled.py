@@ -16,9 +16,9 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from docs.six_figures import corner_loads, the_program
-from quasistatic_ref.figures import faults, figure_style
-from quasistatic_ref.figures.style import PAGE
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
+from quasistatic_ref.optional.show.figures import faults, figure_style
+from quasistatic_ref.optional.show.figures.style import PAGE
 
 ROOT = Path(__file__).parent.parent
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"

@@ -29,13 +29,13 @@ import numpy as np
 from threadpoolctl import threadpool_info
 
 from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.files import text_written
-from quasistatic_ref.lab.validate.claim import finding
-from quasistatic_ref.lab.validate.registry import BY_NAME
-from quasistatic_ref.lab.validate.report import finding_record
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.resources import scenario_names, vectors_folder
+from quasistatic_ref.lab.claims.claim import finding
+from quasistatic_ref.lab.claims.registry import BY_NAME
+from quasistatic_ref.lab.claims.report import finding_record
 from quasistatic_ref.lab.vectors.generate import generated
-from quasistatic_ref.resources import scenario_names, vectors_folder
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 
 Record = dict[str, Any]
 TIMES = ("step_time",)

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from quasistatic_ref.certify.enclosure import checked_pair, point
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.data import StepData
 
 Json = Any

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.study_advice import NAME as ADVICE
 from validation.study_advice import advice
 

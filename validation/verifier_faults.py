@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.check_verifier import VERIFIER, disagreement, verdicts
 from validation.verifier_files import Case, all_cases
 

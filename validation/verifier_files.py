@@ -15,7 +15,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.vectors.files import inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_read, step_written

@@ -5,9 +5,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures import panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.style import scaled
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 HALF_WIDTH, HALF_HEIGHT = 0.05, 0.04  # m

@@ -3,9 +3,9 @@
 import numpy as np
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.figures import panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.style import scaled
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
 PUSHES = (3.0, 8.0)  # N: one that is held, one that is not

@@ -14,13 +14,13 @@ import numpy as np
 from quasistatic_ref.certify.balls import positive_definite
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import idle_rows
-from quasistatic_ref.certify.ellipsoid import ellipsoid_verdict
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.judged import bound_verdict
 from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.optional.ellipsoid.ellipsoid import ellipsoid_verdict
+from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate

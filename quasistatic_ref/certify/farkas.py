@@ -14,7 +14,7 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 

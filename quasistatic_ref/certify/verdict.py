@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.quoting import clipped
+from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.step.data import Array
 
 

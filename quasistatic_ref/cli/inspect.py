@@ -13,9 +13,9 @@ from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.resources import scenario_names
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"

@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.quoting import clipped, nearest_name, suggestion
+from quasistatic_ref.formats.quoting import clipped, nearest_name, suggestion
 
 CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
 COMMANDS = {
@@ -66,7 +66,7 @@ class Parser(argparse.ArgumentParser):
 
 def _is_field(name: str) -> bool:
     """Whether it is a field of scenarios, as of --steps 5."""
-    tables = import_module("quasistatic_ref.simulate.scenario_table")
+    tables = import_module("quasistatic_ref.scenario.scenario_table")
     return name in tables.TABLES[tables.TOP]
 
 

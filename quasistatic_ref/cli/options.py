@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.files import json_text
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.optional.show.show import aligned
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
-from quasistatic_ref.step.show import aligned
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
@@ -78,7 +78,7 @@ def completed(
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
-    from quasistatic_ref.simulate.saved import EVERY
+    from quasistatic_ref.optional.runs.saved import EVERY
 
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
@@ -151,7 +151,7 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say what a failed run left in its trajectory's file; write its failing step; its status."""
-    from quasistatic_ref.simulate.saved import saved_steps
+    from quasistatic_ref.optional.runs.saved import saved_steps
 
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {path}"

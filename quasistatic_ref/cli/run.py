@@ -9,11 +9,11 @@ import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.files import writable_folder
-from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.optional.runs.saved import saved_steps
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.measures import free_body_motions
-from quasistatic_ref.simulate.saved import saved_steps
-from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
 from quasistatic_ref.step.cones import cone
 
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     writable_folder(options.out)  # known before the work, not after it
     if options.view:
-        from quasistatic_ref.figures.viewer import view_written, viewer_script
+        from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_script
 
         viewer_script()  # so that a missing extra is known before the work, too
     path = options.out / f"{scenario.path.stem}.npz"

@@ -10,7 +10,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import CVXPY, solver_for
 from quasistatic_ref.solve.solve import CERTIFY, solve_step

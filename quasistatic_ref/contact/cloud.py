@@ -12,7 +12,7 @@ rounding. (Coal is right for sphere, box, capsule and half-space, and agrees wit
 
 import numpy as np
 
-from quasistatic_ref.model.shapes import Shape
+from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array, Indices
 
 

@@ -17,10 +17,10 @@ from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.solid_pair import solid_pair
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import ON_RIM, REPEATED, UPRIGHT
 
@@ -59,7 +59,8 @@ class ClosestPoints(NamedTuple):
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
     """The contacts of all pairs, in order, each pair's in ascending distance, by brute force.
 
-    :class:`~quasistatic_ref.contact.tracker.ContactTracker` gives the same, bit for bit, sooner.
+    :class:`~quasistatic_ref.optional.fast.tracker.tracker.ContactTracker` gives the same, bit for
+    bit, sooner.
 
     Raises
     ------

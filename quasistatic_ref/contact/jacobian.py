@@ -8,9 +8,9 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.fast.posed import PosedContacts
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.posed import PosedContacts
 
 AXES = np.eye(3)
 CROSS_AXES = cross_matrix(AXES)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.convex_mesh import ConvexMesh
-from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices
 
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from quasistatic_ref.model.shapes import Shape
+from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array
 
 

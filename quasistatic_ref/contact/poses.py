@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.model.shapes import PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.data import Array
 
 

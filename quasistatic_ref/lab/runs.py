@@ -3,7 +3,7 @@
 from functools import cache
 
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 

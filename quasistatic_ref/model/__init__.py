@@ -1,1 +1,1 @@
-"""What exists: bodies and robots from URDF, their coordinates and their shapes."""
+"""What exists: bodies and robots from URDF, their coordinates, masses and kinematics."""

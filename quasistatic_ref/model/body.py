@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.frozen import finite, freeze_array
-from quasistatic_ref.model.solid import Homogeneous, solid_urdf
-from quasistatic_ref.plain import Plain
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
+from quasistatic_ref.shapes.frozen import finite, freeze_array
 
 BASES = ("fixed", "floating", "planar")
 

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.arrays import Array, Indices
 
 _TWISTS = {

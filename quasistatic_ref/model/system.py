@@ -13,6 +13,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
@@ -20,13 +21,12 @@ from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import check_mass, constant_mass, regular
 from quasistatic_ref.model.motion import Motion
-from quasistatic_ref.model.words import system_page
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.optional.large.blocks import whole
+from quasistatic_ref.optional.show.model_words import system_page
+from quasistatic_ref.optional.show.show import shown
 from quasistatic_ref.step.arrays import Array, read_only
-from quasistatic_ref.step.blocks import whole
-from quasistatic_ref.step.show import shown
 
 __all__ = ["Body", "Kinematics", "System"]
 

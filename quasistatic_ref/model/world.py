@@ -9,14 +9,14 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Joint, MimicJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.shapes import PlacedShape
-from quasistatic_ref.model.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
+from quasistatic_ref.model.urdf.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
 from quasistatic_ref.model.workspace import PART
-from quasistatic_ref.plain import Plain
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.arrays import Array
 
 

@@ -1,1 +1,1 @@
-"""Steps in sequence: scenarios, targets, the simulator and its trajectories."""
+"""Steps in sequence: the simulator, its targets and its trajectories."""

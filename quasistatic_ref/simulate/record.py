@@ -6,7 +6,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
+from quasistatic_ref.formats.fields import Fields
 
 RECORDS = ("full", "light")
 CONSTANT = ("mu_v", "mu_omega", "rows")

@@ -7,16 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.simulate.artifacts import (
+from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
     drag_share,
     gap_after,
     quasi_dynamic_number,
     warning,
 )
+from quasistatic_ref.optional.doctor.watch import doubtful_units, watched
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.simulate.watch import doubtful_units, watched
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.plain import Plain
-from quasistatic_ref.simulate.words import NOT_IN_TEXT, result_page
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, result_page
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.solution import StepSolution
 
 

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.optional.runs.resume import resumed, start_cold
+from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
-from quasistatic_ref.simulate.resume import resumed, start_cold
-from quasistatic_ref.simulate.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
@@ -61,7 +61,7 @@ def rollout(
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early. While the run
         goes on, its steps are saved in a folder next to that file; see
-        :class:`~quasistatic_ref.simulate.saved.SavedRun`.
+        :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
     save_every : float
         Time between two saves [s].
     resume : bool

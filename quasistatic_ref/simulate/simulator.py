@@ -9,15 +9,17 @@ import numpy as np
 from quasistatic_ref.compiled import compiled
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.sparse_jacobian import contact_geometry
-from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.optional.fast.posed import constants
+from quasistatic_ref.optional.fast.spare import Spare
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.optional.large.sparse_jacobian import contact_geometry
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.simulate_words import simulator_page
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
-from quasistatic_ref.simulate.spare import Spare
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.simulate.words import simulator_page
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.engines import (
     CVXPY,
@@ -32,8 +34,6 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, SparseContacts, StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.posed import constants
-from quasistatic_ref.step.show import shown
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -232,7 +232,9 @@ class Simulator:
         """
         if self.extension is None:
             return step, None
-        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+        from quasistatic_ref.optional.extensions import (
+            extended,  # needs CVXPY, which takes its time
+        )
 
         own = self.extension(q)
         rows = extended.extension_rows(step, own)

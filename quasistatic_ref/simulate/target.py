@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
-from quasistatic_ref.plain import Plain
 from quasistatic_ref.step.data import Array
 
 

@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import written_whole
-from quasistatic_ref.npz import json_array, npz_record
-from quasistatic_ref.plain import Plain
-from quasistatic_ref.quoting import nearest_name
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.npz import json_array, npz_record
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import nearest_name
+from quasistatic_ref.optional.show.show import html_page, text_page
+from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, trajectory_page
+from quasistatic_ref.optional.show.table import data_frame
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
-from quasistatic_ref.simulate.table import data_frame
-from quasistatic_ref.simulate.words import NOT_IN_TEXT, trajectory_page
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
-from quasistatic_ref.step.show import html_page, text_page
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -43,7 +43,7 @@ class Trajectory(Plain):
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
         coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
-        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.simulate.artifacts`;
+        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`;
         ``warnings``, see :attr:`warnings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
@@ -111,7 +111,7 @@ class Trajectory(Plain):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What needs a remedy, a sentence each; see :mod:`~quasistatic_ref.simulate.watch`.
+        """What needs a remedy, a sentence each; see :mod:`~quasistatic_ref.optional.doctor.watch`.
 
         Files from before there were any have none.
         """

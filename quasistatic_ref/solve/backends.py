@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]

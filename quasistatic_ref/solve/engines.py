@@ -3,7 +3,7 @@
 import math
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
@@ -87,12 +87,12 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
     # The classes are imported where they are used: their packages take longer than a short run.
     if engine == NATIVE:
         if not cone(step.cone).polyhedral:
-            from quasistatic_ref.solve.second_order import ConeSolver
+            from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver
 
             return ConeSolver(step, name)
         if step.contacts.blocks is None:
             return NativeSolver(step, name)
-        from quasistatic_ref.solve.sparse import SparseSolver
+        from quasistatic_ref.optional.large.sparse import SparseSolver
 
         return SparseSolver(step, name)
     if name.startswith(QPSOLVERS):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, installed
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep

@@ -7,9 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
-from quasistatic_ref.certify.bound import error_bound
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import (
     Metric,

@@ -7,22 +7,22 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.confirm import BallHessian, BallStep
 from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.certify.ellipsoid import enclosure_certificate
-from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
-from quasistatic_ref.certify.exchange import proved_nearby
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.compiled import compiled
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
+from quasistatic_ref.optional.ellipsoid.ellipsoid import enclosure_certificate
+from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
+from quasistatic_ref.optional.large.uncertified import uncertified_solution
 from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.scaled import DenseStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.uncertified import uncertified_solution
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -102,7 +102,9 @@ def solve_step(
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if extension is not None:
-        from quasistatic_ref.solve import extended  # needs CVXPY, which takes its time
+        from quasistatic_ref.optional.extensions import (
+            extended,  # needs CVXPY, which takes its time
+        )
 
         own = extended.extension_rows(step, extension)
         if own is not None:

@@ -13,9 +13,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from quasistatic_ref.certify.confirm import BallHessian
-from quasistatic_ref.certify.rounded_bound import FloatBound
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian
+from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep

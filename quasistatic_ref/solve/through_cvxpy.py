@@ -8,9 +8,9 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import BackendError
+from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend, cone_backend
-from quasistatic_ref.solve.cone_problem import cone_problem
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach

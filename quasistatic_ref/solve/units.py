@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.step.arrays import finite, read_only
 from quasistatic_ref.step.data import Array, Extra, Mask, StepData, hessian
-from quasistatic_ref.step.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 

@@ -12,7 +12,7 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.quoting import nearest_name
+from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.step.arrays import Indices
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"

@@ -7,11 +7,11 @@ from typing import ClassVar
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.step_words import contacts_page
 from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
-from quasistatic_ref.step.blocks import Blocks
-from quasistatic_ref.step.show import shown
-from quasistatic_ref.step.words import contacts_page
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 AXES = np.eye(3)

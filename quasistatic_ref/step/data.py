@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.plain import Plain, field_values
+from quasistatic_ref.formats.plain import Plain, field_values
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.step_words import extra_page, step_page
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -28,8 +30,6 @@ from quasistatic_ref.step.arrays import (
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts, SparseContacts
-from quasistatic_ref.step.show import shown
-from quasistatic_ref.step.words import extra_page, step_page
 
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "SparseContacts", "StepData"]
 
@@ -124,7 +124,7 @@ class StepData(Plain):
     Notes
     -----
     Each field is checked, and copied read-only. The steps of a simulator are
-    :class:`~quasistatic_ref.step.posed.PosedStep`.
+    :class:`~quasistatic_ref.optional.fast.posed.PosedStep`.
     """
 
     h: float

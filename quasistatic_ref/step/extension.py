@@ -1,7 +1,7 @@
 """What a user adds to a step: constraints and costs, written in SI units with CVXPY.
 
-CVXPY itself is not needed to say what an extension is; :mod:`~quasistatic_ref.solve.extended`
-builds its symbols and solves with it.
+CVXPY itself is not needed to say what an extension is;
+:mod:`~quasistatic_ref.optional.extensions.extended` builds its symbols and solves with it.
 """
 
 from __future__ import annotations

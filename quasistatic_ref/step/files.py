@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError, about_file
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_read, json_text, text_written
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Contacts, Extra, StepData
 

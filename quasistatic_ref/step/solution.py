@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
-from quasistatic_ref.plain import Plain
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.step_words import certificate_page, solution_page
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.show import shown
-from quasistatic_ref.step.words import certificate_page, solution_page
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError, about_file
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_read, json_text
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import json_read, json_text
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256

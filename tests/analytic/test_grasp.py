@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.model.rotation import rotation_angle
-from quasistatic_ref.model.shapes import PointCloud
-from quasistatic_ref.resources import models_folder
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import SLOW
 from tests.tolerances import (

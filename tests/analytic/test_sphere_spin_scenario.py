@@ -6,7 +6,7 @@ The formula is that of models/sphere_spin/README.md.
 import numpy as np
 import pytest
 
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from tests.tolerances import EXACT, ROUNDING
 
 MASS, INERTIA, RADIUS, MU_OMEGA, H, GRAVITY = 0.3, 8e-5, 0.05, 0.01, 0.01, 9.81

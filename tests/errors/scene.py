@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.unit.model.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 
 BALL = robot(link("ball", collision('<sphere radius="0.05"/>'), inertial("0.3", ("3e-4",) * 3)))
 RAIL = robot(

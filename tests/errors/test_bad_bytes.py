@@ -134,7 +134,7 @@ def test_what_is_no_file_is_refused(tmp_path, refused, file, kind):
 @pytest.mark.parametrize("file", READERS)
 def test_no_byte_changed_at_random_is_more_than_refused(tmp_path, capsys, rng, file):
     from quasistatic_ref.cli.main import main
-    from quasistatic_ref.simulate.scenario import load_scenario
+    from quasistatic_ref.scenario.scenario import load_scenario
     from quasistatic_ref.step.files import step_written
 
     scene = scene_written(tmp_path)

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.quoting import clipped
+from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.step.files import step_written
 from tests.errors.scene import BALL, SCENE, changed, scene_written
 from tests.helpers import planted_step
-from tests.unit.model.urdf_texts import written
+from tests.model.urdf.urdf_texts import written
 
 LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
 
@@ -171,7 +171,7 @@ FOLDERS = {
 def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     tmp_path, refused, monkeypatch, cause, command
 ):
-    from quasistatic_ref.simulate.scenario import Scenario
+    from quasistatic_ref.scenario.scenario import Scenario
 
     def run(scenario, progress=True):
         raise AssertionError("work was done before the folder was looked at")

@@ -3,7 +3,7 @@
 import pytest
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written, toml_text
 
 BALL = "bodies/ball/"
@@ -195,7 +195,7 @@ def test_a_scenario_that_cannot_be_used_is_refused(tmp_path, refused, cause):
 
 
 def test_the_scene_is_good_before_it_is_spoilt(tmp_path):
-    from quasistatic_ref.simulate.scenario import load_scenario
+    from quasistatic_ref.scenario.scenario import load_scenario
 
     assert load_scenario(scene_written(tmp_path)).run(progress=False).steps == 3
 

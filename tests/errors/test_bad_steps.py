@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.files import plain
+from quasistatic_ref.formats.files import plain
 from quasistatic_ref.step.files import step_record, step_written
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from tests.errors.scene import scene_written
 
 NOT_ONE = "is not a trajectory written by this program"

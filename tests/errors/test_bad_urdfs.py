@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from tests.unit.model.urdf_texts import INERTIAL, collision, joint, link, robot, written
+from tests.model.urdf.urdf_texts import INERTIAL, collision, joint, link, robot, written
 
 GOOD = robot(
     link("a", collision('<capsule radius="0.1" length="0.5"/>')),

@@ -12,9 +12,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError, LimitExceeded, RunFailed, StepInfeasible
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read
 from tests.errors.scene import SCENE, changed, scene_written

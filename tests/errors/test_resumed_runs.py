@@ -12,11 +12,11 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.optional.runs import saved
+from quasistatic_ref.optional.runs.saved import saved_folder, saved_steps
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate import rollout as module
-from quasistatic_ref.simulate import saved
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.saved import saved_folder, saved_steps
-from quasistatic_ref.simulate.scenario import load_scenario
 from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, changed, scene_written
 

@@ -1,30 +1,36 @@
-"""The walls of the house as a function of the source: which import crosses which."""
+"""Which import crosses which wall between core, optional parts and lab, read from the source."""
 
 import ast
 from pathlib import Path
 
-# A room imports only from rooms before it, and from itself: the core first, then the lab.
-ROOMS = (
-    "plain",
-    "quoting",
-    "errors",
-    "tolerances",
-    "progress",
-    "fields",
-    "files",
-    "resources",
-    "declared",
-    "schema",
-    "npz",
-    "compiled",
-    "step",
-    "certify",
-    "solve",
-    "model",
-    "contact",
-    "simulate",
-    "fast",
-    "figures",
+# The core, in this order: a folder imports only from folders before it, and from itself.
+CORE = (
+    ("formats", "errors", "tolerances"),
+    ("compiled",),
+    ("step",),
+    ("certify",),
+    ("solve",),
+    ("shapes",),
+    ("model",),
+    ("contact",),
+    ("simulate",),
+    ("scenario",),
+)
+
+# Each folder of `optional` imports the core, and no other folder of `optional`.
+OPTIONAL = (
+    "optional/derivatives",
+    "optional/doctor",
+    "optional/ellipsoid",
+    "optional/extensions",
+    "optional/fast",
+    "optional/large",
+    "optional/runs",
+    "optional/show",
+)
+
+# The command line and the lab import anything before them, in this order.
+LAB = (
     "cli",
     "__main__",
     "lab/grasp",
@@ -36,46 +42,95 @@ ROOMS = (
     "lab/vectors",
     "lab/study",
     "lab/reality",
-    "lab/validate",
+    "lab/claims",
     "lab/examples",
     "lab/commands",
 )
 
-# The only file of the core that may name the lab, as a string: it imports one of its commands.
-DOOR = "cli/main.py"
-
-# The only file that may name compiled code, as a string: it gives nothing where there is no
-# compiler. Whatever else is in the house comes to it through that door.
-COMPILED, COMPILED_DOOR = "fast", "compiled.py"
-
-# Where each third-party package may be imported: a room, or one file.
-WALLS = {
-    "cvxpy": ("step/problem.py", "solve"),
-    # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
-    # And the loop that people write first, to compare its time.
-    "qpsolvers": ("solve", "lab/validate/engines/by_hand.py", "lab/study/bench/by_hand.py"),
-    "pinocchio": ("model",),
-    "coal": ("model", "contact"),
-    "matplotlib": ("figures", "lab/figures"),
-    "meshcat": ("figures",),
-    "jax": ("simulate/step_jax.py",),
-    # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
-    "flint": ("certify", "lab/vectors"),
+# Imports that cross a wall today: from the core to an optional part, or between two parts. The
+# list only shrinks.
+REMAINING = {
+    "certify/certificate.py": {"optional/ellipsoid", "optional/large"},
+    "contact/jacobian.py": {"optional/fast"},
+    "model/system.py": {"optional/large", "optional/show"},
+    "scenario/scenario.py": {"optional/show"},
+    "simulate/recorder.py": {"optional/doctor"},
+    "simulate/result.py": {"optional/show"},
+    "simulate/rollout.py": {"optional/runs"},
+    "simulate/simulator.py": {
+        "optional/extensions",
+        "optional/fast",
+        "optional/large",
+        "optional/show",
+    },
+    "simulate/trajectory.py": {"optional/show"},
+    "solve/engines.py": {"optional/ellipsoid", "optional/large"},
+    "solve/scaled.py": {"optional/large"},
+    "solve/solve.py": {
+        "optional/ellipsoid",
+        "optional/extensions",
+        "optional/fast",
+        "optional/large",
+    },
+    "solve/solver.py": {"optional/fast", "optional/large"},
+    "solve/through_cvxpy.py": {"optional/ellipsoid"},
+    "solve/units.py": {"optional/fast"},
+    "step/contacts.py": {"optional/large", "optional/show"},
+    "step/data.py": {"optional/show"},
+    "step/solution.py": {"optional/show"},
+    "optional/derivatives/contact/couples.py": {"optional/fast"},
+    "optional/derivatives/contact/point_ties.py": {"optional/fast"},
+    "optional/extensions/extended.py": {"optional/ellipsoid"},
+    "optional/fast/compiled/answer.py": {"optional/large"},
+    "optional/fast/posed.py": {"optional/large"},
+    "optional/large/rounded_bound.py": {"optional/fast"},
 }
 
-# What a room may not import although it comes before: figures draw what they are given, examples
+# The only file of core and command line that may name the lab, as a string.
+LAB_DOOR = "cli/main.py"
+
+# The only file of the core that may name the compiled code, as a string.
+COMPILED, COMPILED_DOOR = "optional.fast.compiled", "compiled.py"
+
+# The only file that may import nothing of the package: the names of the front door are lazy.
+FACE = "__init__.py"
+
+# Where each third-party package may be imported: a folder, or one file.
+WALLS = {
+    "cvxpy": ("step/problem.py", "solve", "optional/ellipsoid", "optional/extensions"),
+    # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
+    # And the loop that people write first, to compare its time.
+    "qpsolvers": ("solve", "lab/claims/engines/by_hand.py", "lab/study/bench/by_hand.py"),
+    "pinocchio": ("model", "optional/derivatives/model"),
+    "coal": ("shapes", "model", "contact", "optional/derivatives/contact"),
+    "matplotlib": ("optional/show/figures", "lab/figures"),
+    "meshcat": ("optional/show/figures",),
+    "jax": ("optional/derivatives/step_jax.py",),
+    # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
+    "flint": (
+        "certify",
+        "optional/derivatives/step",
+        "optional/ellipsoid",
+        "optional/extensions",
+        "optional/fast/guess",
+        "optional/large",
+        "lab/vectors",
+    ),
+}
+
+# What a folder may not import although it comes before: figures draw what they are given, examples
 # need no claim.
 CLOSED = dict.fromkeys(
-    ("figures", "lab/figures"),
+    ("optional/show", "lab/figures"),
     (
         "solve",
         "certify",
-        "contact",
+        "contact/distance",
         "simulate/simulator",
         "step/data/StepData",
         "step/data/Contacts",
     ),
-) | {"lab/examples": ("lab/validate",)}
+) | {"lab/examples": ("lab/claims",)}
 
 DYNAMIC = ("import_module", "__import__")
 
@@ -111,67 +166,89 @@ def imports(tree, package, module):
                     yield node.lineno, str(argument.value)
 
 
-def room_of(parts):
-    """The room that a file or a dotted name is in, from its parts below the package."""
-    if parts[0] == "lab":
-        return "/".join(parts[:2]).removesuffix(".py")
-    return parts[0].removesuffix(".py")
+def folder_of(parts):
+    """The folder that a file or a dotted name is in, from its parts below the package."""
+    depth = 2 if parts[0] in {"lab", "optional"} else 1
+    return "/".join(parts[:depth]).removesuffix(".py")
 
 
-def names_of(room, tree):
-    """Lines on which a string names a room."""
+def rank(folder):
+    """Where a folder stands in the order of imports; None if it has no place there."""
+    for place, together in enumerate(CORE):
+        if folder in together:
+            return place
+    if folder in OPTIONAL:
+        return len(CORE)
+    if folder in LAB:
+        return len(CORE) + 1 + LAB.index(folder)
+    return None
+
+
+def crosses(own, other):
+    """What is wrong with an import of a folder by another; nothing if it is allowed."""
+    if own == other or rank(other) < rank(own) or rank(other) == rank(own) < len(CORE):
+        return None
+    return "another part" if rank(other) == rank(own) else "a later folder"
+
+
+def names_of(dotted, tree):
+    """Lines on which a string names a folder of the package."""
     for node in ast.walk(tree):
         if (
             isinstance(node, ast.Constant)
             and isinstance(node.value, str)
-            and (f"quasistatic_ref.{room}" in node.value or node.value.startswith(f".{room}"))
+            and (f"quasistatic_ref.{dotted}" in node.value or node.value.startswith(f".{dotted}"))
+            and ":`" not in node.value  # a reference of a docstring is no import
         ):
             yield node.lineno
 
 
-def closed_to(room, parts):
-    """Whether a room may not import a name, from the name's parts below the package."""
-    path = "/".join(parts) + "/"
-    return any(path.startswith(place + "/") for place in CLOSED.get(room, ()))
+def within(inside, places):
+    """Whether a file is one of some places, or below one of them."""
+    return any(inside == place or inside.startswith(place + "/") for place in places)
 
 
-def violations(root: Path, rooms=ROOMS, walls=WALLS):
+def violations(root: Path, remaining=REMAINING):
     """Sentences, one for each import that crosses a wall."""
     found = []
     package = root.name
+    crossed = {}
     for path in sorted(root.rglob("*.py")):
         inside = path.relative_to(root)
-        if inside.parts == ("__init__.py",):
-            own = None  # the lazy face: it may import no room at all
-        else:
-            own = room_of(inside.parts)
-            if own == "lab/__init__":
-                own = None
-            elif own not in rooms:
-                found.append(f"{inside}: {own} is not a room of the house")
-                continue
-        module = (package, *inside.with_suffix("").parts)
+        name = inside.as_posix()
+        parts = inside.parts
+        if inside.name == "__init__.py":
+            parts = (*parts[:-1], "x")
+        own = (
+            None if name in {FACE, "lab/__init__.py", "optional/__init__.py"} else folder_of(parts)
+        )
+        if own is not None and rank(own) is None:
+            found.append(f"{name}: {own} is no folder of the package")
+            continue
         tree = ast.parse(path.read_text())
-        if inside.parts[0] != "lab" and inside.as_posix() != DOOR:
-            found += [f"{inside}:{line}: names the lab" for line in names_of("lab", tree)]
-        if own != COMPILED and inside.as_posix() != COMPILED_DOOR:
-            found += [f"{inside}:{line}: names {COMPILED}" for line in names_of(COMPILED, tree)]
-        for line, name in imports(tree, package, module):
-            top, *rest = name.split(".")
+        if parts[0] != "lab" and name != LAB_DOOR:
+            found += [f"{name}:{line}: names the lab" for line in names_of("lab", tree)]
+        if parts[0] not in {"lab", "optional"} and name != COMPILED_DOOR:
+            found += [f"{name}:{line}: names {COMPILED}" for line in names_of(COMPILED, tree)]
+        for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):
+            top, *rest = imported.split(".")
             if top == package:
                 if not rest or rest[0].startswith("__"):
                     continue
-                room = room_of(rest)
-                if room == COMPILED and own != COMPILED:
-                    found.append(f"{inside}:{line}: imports {name}, past {COMPILED_DOOR}")
-                elif room not in rooms:
-                    found.append(f"{inside}:{line}: imports {name}, which is no room")
-                elif own is None or rooms.index(room) > rooms.index(own):
-                    found.append(f"{inside}:{line}: imports {name} from a later room")
-                elif closed_to(own, rest):
-                    found.append(f"{inside}:{line}: imports {name}, which is closed to {own}")
-            elif top in walls and not any(
-                inside.as_posix() == place or own == place for place in walls[top]
-            ):
-                found.append(f"{inside}:{line}: imports {top}")
+                other = folder_of(rest)
+                if rank(other) is None:
+                    found.append(f"{name}:{line}: imports {imported}, which is no folder")
+                elif own is None:
+                    found.append(f"{name}:{line}: imports {imported}, from a later folder")
+                elif wrong := crosses(own, other):
+                    crossed.setdefault(name, set()).add(other)
+                    if other not in remaining.get(name, ()):
+                        found.append(f"{name}:{line}: imports {imported}, from {wrong}")
+                elif within("/".join(rest), CLOSED.get(own, ())):
+                    found.append(f"{name}:{line}: imports {imported}, which is closed to {own}")
+            elif top in WALLS and not within(name, WALLS[top]):
+                found.append(f"{name}:{line}: imports {top}")
+    for name, others in remaining.items():
+        for other in sorted(others - crossed.get(name, set())):
+            found.append(f"{name}: no longer imports {other}: take it off the list")
     return found

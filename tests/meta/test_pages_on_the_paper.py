@@ -11,8 +11,8 @@ from urllib.parse import quote_plus
 import pytest
 
 from quasistatic_ref.cli.main import COMMANDS
+from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES
-from quasistatic_ref.lab.validate.registry import BY_NAME
 
 ROOT = Path(__file__).parents[2]
 THEORY, TESTS = ROOT / "docs" / "theory", ROOT / "tests"
@@ -86,7 +86,7 @@ EQ11 = "`equations/test_eq11_dual_feasibility.py`"
         (f"{EQ11}: `test_positive_multipliers_leave_no_residual`", []),
         (f"{EQ11}: `test_no_residual`", ["test_no_residual"]),
         (
-            f"`unit/certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
+            f"`certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
             ["test_half_way_values_round_to_even"],
         ),
         ("`unit/test_inexact.py`", ["unit/test_inexact.py"]),

@@ -6,15 +6,15 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from tests.chosen_numbers import CHOSEN
+from tests.lab.vectors.material import answer_file, cases, runner
 from tests.quoted import NUMBER, ROOT, filled, flat, printed, stale
 from tests.quoted_pages import OTHERS, QUOTED
-from tests.vectors.material import answer_file, cases, runner
 
 FENCE = re.compile(r"^( *)(```+).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
 UNITS = r"(?:ms|us|µs|μs|%|degrees|deg|digits|MB|GB|mm/s|mm|µm|times|claims|cases|calls)(?![\w^])"
 """Units of what is measured here; seconds and newtons are mostly those of a scene."""
 MEASURED = re.compile(rf"({NUMBER.pattern})\s*{UNITS}")
-ELSEWHERE = {"docs/solver_study.md": "tests/study/test_solver_study_page.py holds every number"}
+ELSEWHERE = {"docs/solver_study.md": "tests/lab/study/test_solver_study_page.py holds every number"}
 PAGES = sorted(
     name
     for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
@@ -26,7 +26,7 @@ PRINTED = {
     "docs/quickstart.md": "tests/quoted_pages.py: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/run_a_study.md": "below",
-    "docs/guides/write_a_scenario.md": "tests/unit/simulate/test_warnings.py",
+    "docs/guides/write_a_scenario.md": "tests/optional/doctor/test_warnings.py",
 }
 """Pages with text that a command printed, and what holds it."""
 

@@ -5,10 +5,10 @@ import pinocchio as pin
 import pytest
 
 from quasistatic_ref.contact import jacobian
-from quasistatic_ref.contact.tracker import ContactTracker
-from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, finding
-from quasistatic_ref.lab.validate.registry import BY_NAME
+from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.simulate import simulator
 
 TRUE = {

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.certify.certificate import Verdict
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.errors import StepInfeasible
-from quasistatic_ref.simulate.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import load_scenario
 from tests.helpers import sphere_on_floor
 from validation import exact_everywhere
 from validation.exact_everywhere import BACKENDS, checked

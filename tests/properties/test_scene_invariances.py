@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.systems import link_text, robot_text, system_of
-from quasistatic_ref.model.shapes import Box, HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form

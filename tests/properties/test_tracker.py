@@ -6,13 +6,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact import ball_tree, cloud_tracker, solid_rows
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.tracker import ContactTracker
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import (
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_tracker, solid_rows
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
     Cone,
@@ -23,7 +24,6 @@ from quasistatic_ref.model.shapes import (
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.model.system import Kinematics
 from tests.tolerances import EXACT, ROUNDING
 
 WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])

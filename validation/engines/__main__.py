@@ -20,7 +20,7 @@ import json
 import tempfile
 from pathlib import Path
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.engines.judge import ENGINES, HERE, judged, python_of
 from validation.engines.reproduce import missing, reproduced, unlike
 from validation.engines.tables import layers_page, phenomena_page

@@ -11,15 +11,15 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files import text_written
-from quasistatic_ref.lab.validate.engines.mujoco_scenes import heap
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.resources import vectors_folder
+from quasistatic_ref.lab.claims.engines.mujoco_scenes import heap
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import LayerReport
 from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.resources import vectors_folder
 from validation.engines.phenomena import cells
 
 HERE = Path(__file__).parent

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
-from quasistatic_ref.model.shapes import Box, PlacedShape, Sphere
+from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
 
 

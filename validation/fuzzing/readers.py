@@ -13,7 +13,8 @@ import numpy as np
 
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_text
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.resources import models_folder, vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problem_set, problems_read
 from quasistatic_ref.lab.study.report import study_report
@@ -24,19 +25,18 @@ from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import Report
 from quasistatic_ref.lab.vectors.files import answers_written, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.model.clouds import point_cloud
+from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.resources import models_folder, vectors_folder
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import certified, trajectory_read, worst_residual
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
-from tests.study import made_store
-from tests.unit.model.test_meshes import COLLADA
-from tests.unit.model.urdf_texts import collision, link, written
-from tests.unit.model.urdf_texts import robot as urdf_of
+from tests.lab.study import made_store
+from tests.model.readers.test_meshes import COLLADA
+from tests.model.urdf.urdf_texts import collision, link, written
+from tests.model.urdf.urdf_texts import robot as urdf_of
 from validation.fuzzing import texts
 from validation.fuzzing.files import (
     Form,

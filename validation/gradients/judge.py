@@ -4,9 +4,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.reason import ZERO_FRICTION
 from quasistatic_ref.lab.vectors.layers.derivative import free_sizes
-from quasistatic_ref.simulate.derivatives import Derivatives, derivatives
+from quasistatic_ref.optional.derivatives.derivatives import Derivatives, derivatives
+from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import frame_jacobian
 from validation.gradients.placing import unit_vector

@@ -9,9 +9,16 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import pose_of
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import Box, HalfSpace, PlacedShape, PointCloud, Shape, Sphere
 from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Shape,
+    Sphere,
+)
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 

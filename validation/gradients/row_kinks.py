@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify import reason
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.lab.scenes.pushes import SHAPES
 from quasistatic_ref.lab.scenes.systems import link_text, robot_text
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.shapes import HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from validation.gradients.placing import (

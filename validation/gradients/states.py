@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.pushes import SHAPES, pushed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import numbers
@@ -21,8 +22,7 @@ from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.lab.vectors.families.step_scenes import scene
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.resources import scenario_names
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from validation.gradients.contacts import starts
@@ -46,7 +46,7 @@ class State:
         One of TURN, and the scenario or the shapes.
     simulator : Simulator
     q, q_bar_a, force : ndarray
-        As :func:`~quasistatic_ref.simulate.derivatives.derivatives` takes them.
+        As :func:`~quasistatic_ref.optional.derivatives.derivatives.derivatives` takes them.
     case : dict
         The same step as an input of the layer ``step``, with the force as ``tau``.
     starts : list

@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify import reason
-from quasistatic_ref.model.shapes import (
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
     Cone,

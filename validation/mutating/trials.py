@@ -26,7 +26,7 @@ from typing import Any
 import pytest
 from tqdm import tqdm
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from validation.mutating.forks import Job, forked, more_time
 from validation.mutating.mutants import Mutant
 from validation.mutating.swapped import (

@@ -3,7 +3,7 @@
 import argparse
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.files import json_text, text_written, writable_folder
+from quasistatic_ref.formats.files import json_text, text_written, writable_folder
 from quasistatic_ref.lab.study.bench.acceptance import PAPER
 from quasistatic_ref.lab.study.bench.report import page, paper_sentence, promise_rows
 from quasistatic_ref.lab.study.bench.tables import tables
@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _figure(found: dict[str, object], options: argparse.Namespace) -> None:
-    from quasistatic_ref.figures.style import figure_written
     from quasistatic_ref.lab.figures.bench import step_times
+    from quasistatic_ref.optional.show.figures.style import figure_written
 
     figure_written(step_times(found, PAPER), options.out, "step_times")

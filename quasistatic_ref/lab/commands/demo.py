@@ -5,9 +5,9 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.files import writable_folder
+from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.grasp import CLOSED, INSTANTS, TOP, grasp_report, grasp_scenarios
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 
@@ -51,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
+    from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     with figure_style():
         strip = grasp_strip(scenario, runs, INSTANTS)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.quoting import suggestion
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -38,9 +38,9 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If a name is unknown.
     """
-    from quasistatic_ref.figures.style import figure_style, figure_written
-    from quasistatic_ref.files import writable_folder
+    from quasistatic_ref.formats.files import writable_folder
     from quasistatic_ref.lab.examples.gallery import EXAMPLES, figure_of
+    from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     for name in options.names:
         if name not in EXAMPLES:

@@ -4,7 +4,7 @@ import argparse
 import json
 
 from quasistatic_ref.lab.study.spec_table import study_schema
-from quasistatic_ref.simulate.scenario_table import scenario_schema
+from quasistatic_ref.scenario.scenario_table import scenario_schema
 
 SCHEMAS = {"scenario": scenario_schema, "study": study_schema}
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.resources import problem_set_folder
+from quasistatic_ref.formats.resources import problem_set_folder
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
@@ -101,7 +101,7 @@ def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.sets.checking import refutation
     from quasistatic_ref.lab.study.sets.editions import edition_problem
     from quasistatic_ref.lab.study.sets.folder import set_read
-    from quasistatic_ref.progress import progress_bar
+    from quasistatic_ref.simulate.progress import progress_bar
 
     folder = _folder(options)
     members = set_read(folder)

@@ -7,7 +7,7 @@ import sys
 def run_report(options: argparse.Namespace) -> int:
     """Write ``report.html``, ``report.md``, ``report.csv``, ``report.parquet`` and ``figures``."""
     from quasistatic_ref.errors import InputError
-    from quasistatic_ref.files import bytes_written, text_written, writable_folder
+    from quasistatic_ref.formats.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.lab.figures.study_images import images
     from quasistatic_ref.lab.page.html import html_page, sorting
     from quasistatic_ref.lab.page.markdown import markdown_page

@@ -52,7 +52,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run_sequences(options: argparse.Namespace) -> int:
     """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
-    from quasistatic_ref.files import text_written
+    from quasistatic_ref.formats.files import text_written
+    from quasistatic_ref.formats.resources import problem_set_folder
     from quasistatic_ref.lab.study.sequences import (
         SequenceRow,
         SolverLimits,
@@ -61,8 +62,7 @@ def run_sequences(options: argparse.Namespace) -> int:
     )
     from quasistatic_ref.lab.study.sets.folder import set_read
     from quasistatic_ref.lab.study.sets.member import Member
-    from quasistatic_ref.progress import progress_bar
-    from quasistatic_ref.resources import problem_set_folder
+    from quasistatic_ref.simulate.progress import progress_bar
 
     if options.repetitions < 1:
         raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)

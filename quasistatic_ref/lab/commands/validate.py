@@ -6,12 +6,12 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
+from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
+from quasistatic_ref.lab.claims.report import claims_page, finding_record, summary
 from quasistatic_ref.lab.commands import reality
-from quasistatic_ref.lab.validate.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
-from quasistatic_ref.lab.validate.registry import BY_NAME, CLAIMS
-from quasistatic_ref.lab.validate.report import claims_page, finding_record, summary
-from quasistatic_ref.quoting import suggestion
 
 IN = {
     "daqp": "daqp",
@@ -89,8 +89,8 @@ def _why(found: Finding) -> str:
 
 
 def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
-    from quasistatic_ref.figures.style import figure_style, figure_written
     from quasistatic_ref.lab.figures.validation import PICTURES
+    from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     drawn = []
     for name, found in findings.items():

@@ -157,7 +157,7 @@ def _export(options: argparse.Namespace) -> int:
 
     programs = exported_programs(vectors_given(options))
     print(parquet_written(options.out / "quasistatic_ref.parquet", programs))
-    print(npz_written(options.out / "quasistatic_ref.npz", programs))
+    print(npz_written(options.out / "quasistatic_ref.formats.npz", programs))
     return 0
 
 

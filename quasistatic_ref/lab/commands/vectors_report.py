@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.files import json_read
-from quasistatic_ref.resources import vectors_folder
+from quasistatic_ref.formats.files import json_read
+from quasistatic_ref.formats.resources import vectors_folder
 
 
 def vectors_given(options: argparse.Namespace) -> Path:

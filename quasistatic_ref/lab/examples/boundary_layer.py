@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, layer_at_rate, layer_at_torque
+from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
 
 TIME_STEPS = tuple(np.geomspace(1e-3, 3e-2, 5).tolist())

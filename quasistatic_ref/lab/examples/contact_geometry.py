@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.free_pair import capsule_and_box, geometry, outline
+from quasistatic_ref.optional.show.figures import Figure
 
 DIFFERENCE = 1e-6
 """Of q, either way, for a derivative by differences [m, rad]."""

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
+from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 

@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import Any, Final
 
-from quasistatic_ref.figures import Figure, figure_style
+from quasistatic_ref.optional.show.figures import Figure, figure_style
 
 EXAMPLES: Final = (
     "block_on_a_table",

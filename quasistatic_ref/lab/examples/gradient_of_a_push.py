@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, nudged
-from quasistatic_ref.model.shapes import HalfSpace, Sphere
-from quasistatic_ref.simulate.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 
 FINGER, AHEAD, GAP = 0.02, 0.006, 1e-4

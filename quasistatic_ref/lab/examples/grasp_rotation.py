@@ -4,11 +4,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.grasp import rotation_plot
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.lab.runs import grasp
+from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.simulate.measures import link_motion
 
 

@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
-from quasistatic_ref.model.shapes import HalfSpace, PlacedShape
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape
 from quasistatic_ref.step.data import Array
 
 HALF_AXES, POINTS, K, HEIGHT, TILT = (0.05, 0.03), 40, 5, 0.032, 25.0

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from quasistatic_ref.figures import Figure
-from quasistatic_ref.figures.moments import Moment
-from quasistatic_ref.figures.style import figure_style, figure_written
+from quasistatic_ref.optional.show.figures import Figure
+from quasistatic_ref.optional.show.figures.moments import Moment
+from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
 Numbers = dict[str, float]
 """What an example came to: a quantity with its unit in brackets -> its value."""

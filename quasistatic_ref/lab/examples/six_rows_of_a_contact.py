@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.pens import CONTACT
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.pens import CONTACT
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form

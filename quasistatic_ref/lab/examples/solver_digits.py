@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.runs import grasp
+from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.solve.solve import solve_step
 
 BACKENDS = ("clarabel", "osqp", "piqp")

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
 from quasistatic_ref.lab.examples.finger_spring_block import GAP, K_Q, H, M, finger_and_block
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 

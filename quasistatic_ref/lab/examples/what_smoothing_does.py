@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
-from quasistatic_ref.figures.style import scaled
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, resting
-from quasistatic_ref.model.shapes import Sphere
-from quasistatic_ref.simulate.derivatives import derivatives
-from quasistatic_ref.simulate.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Array
 
 G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]

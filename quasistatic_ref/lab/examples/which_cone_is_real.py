@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.figures import Figure, panels
+from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.reality.errors import pose_errors
@@ -20,7 +20,7 @@ from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
 from quasistatic_ref.lab.reality.predict import predicted, rotation
 from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.resources import reality_folder
+from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
 
 PAIR, CONES = "abs/rect1", ("ellipsoid", "pyramid")

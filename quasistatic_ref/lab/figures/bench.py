@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import figure_style
+from quasistatic_ref.optional.show.figures.style import figure_style
 
 PARTS = {
     "distances": "0.25", "selection": "0.0", "rows": "0.55", "solve": "0.75", "integrate": "0.92"

@@ -8,8 +8,8 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from quasistatic_ref.figures.style import panels, scaled
-from quasistatic_ref.figures.surfaces import faces
+from quasistatic_ref.optional.show.figures.style import panels, scaled
+from quasistatic_ref.optional.show.figures.surfaces import faces
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.friction import cone_matrix
 

@@ -7,9 +7,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import panels, scaled
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.figures.study_pens import COLOURS, DASHES, MARKS
+from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 SPREAD = 0.17
 """Distance between backends at the same setting, settings being one apart."""

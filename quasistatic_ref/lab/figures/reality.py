@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import panels, scaled
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 Record = Mapping[str, Any]
 

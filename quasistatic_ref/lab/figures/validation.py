@@ -6,9 +6,9 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.figures.style import panels, scaled
 from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
 from quasistatic_ref.lab.figures.study_pens import MARKS
+from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 Picture = Mapping[str, Any]
 THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}

@@ -15,13 +15,13 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, json_text, text_of, text_written
+from quasistatic_ref.formats.files import bytes_read, json_text, text_of, text_written
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
 from quasistatic_ref.lab.reality.push import Pushed
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.step.data import Array
 
 FORMAT: Final = {"format": "quasistatic-ref/reality", "version": 1}

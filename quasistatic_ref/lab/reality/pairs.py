@@ -8,11 +8,11 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_read
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import json_read
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
-from quasistatic_ref.quoting import suggestion
 
 FINGER: Final = 0.00475
 """Radius of the finger of the MIT pushes [m]; of other data, a column of patches.csv."""

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, text_of
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.step.data import Array, Indices
 
 PAIR: Mapping[str, str] = {"surface": "what is pushed on", "shape": "name in shapes.json"}

@@ -6,8 +6,8 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, on_link, system_of
-from quasistatic_ref.model.shapes import Capsule
 from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.step.data import Array, Contacts
 
 CORNERS = np.array([[x, 0.0, z] for x in (-0.04, 0.04) for z in (-0.03, 0.03)])

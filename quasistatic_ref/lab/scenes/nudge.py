@@ -5,8 +5,8 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import on_link, world_plane
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.shapes import PointCloud, Shape, Sphere
 from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.placed_shape import PointCloud, Shape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 

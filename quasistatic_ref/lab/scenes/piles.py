@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of, world_plane
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 

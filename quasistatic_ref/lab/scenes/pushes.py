@@ -7,8 +7,9 @@ import numpy as np
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import (
+from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
     Cone,
@@ -20,7 +21,6 @@ from quasistatic_ref.model.shapes import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 

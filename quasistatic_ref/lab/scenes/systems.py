@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.model.shapes import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import NONE

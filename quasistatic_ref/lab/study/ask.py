@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.study.keeper import Keeper
 from quasistatic_ref.lab.study.measure import Limits, measured
 from quasistatic_ref.lab.study.problems import HEADER, problems_read
@@ -17,8 +19,6 @@ from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import BY_INTERFACE, PACKAGE, solvers_named
 from quasistatic_ref.lab.study.spec_table import MODULE
 from quasistatic_ref.lab.study.store import study_checked
-from quasistatic_ref.quoting import suggestion
-from quasistatic_ref.resources import problem_set_folder
 
 LIMITS = Limits(2.0, 10.0, 5)
 """Of a call that belongs to no study, as study files have them by default."""

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_text
+from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.guests import GUESTS, Native, natively
 from quasistatic_ref.lab.study.packages import loaded
 from quasistatic_ref.lab.study.solvers import Solver

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.plan import Measurement
 from quasistatic_ref.lab.study.qp import Problem, Truth
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.lab.study.store import Row, Store
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.simulate.progress import progress_bar
 
 Block = list[tuple[Measurement, Problem]]
 Left = tuple[float, float]

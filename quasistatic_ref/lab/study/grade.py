@@ -12,9 +12,9 @@ import numpy as np
 
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.qp import NoSolution, Problem, Truth, units_of
-from quasistatic_ref.quoting import clipped
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.units import Units, natural_form
 from quasistatic_ref.step.data import Array

@@ -86,7 +86,9 @@ def _qoco() -> Native:
 
 def _jax() -> Any:
     """JAX in float64, in the process of one solver."""
-    from quasistatic_ref.simulate.step_jax import jax_package  # heavy, not every worker's
+    from quasistatic_ref.optional.derivatives.step_jax import (
+        jax_package,  # heavy, not every worker's
+    )
 
     jax = jax_package()
     jax.config.update("jax_enable_x64", True)

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.study.spec_sweep import MOST_RUNS, Axis, Sweep, sweep_scenario
 from quasistatic_ref.lab.study.store import Row
 from quasistatic_ref.lab.study.sweep import run_file, run_sweep
 from quasistatic_ref.model.system import System
-from quasistatic_ref.simulate.overrides import parsed
+from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, bytes_written, json_text, text_written
+from quasistatic_ref.formats.files import bytes_read, bytes_written, json_text, text_written
 from quasistatic_ref.lab.study.claim import PASSING
 from quasistatic_ref.lab.study.pack import shorter
 from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problems_read, set_record

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files import (
+from quasistatic_ref.formats.files import (
     bytes_read,
     bytes_written,
     json_text,

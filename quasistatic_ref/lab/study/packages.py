@@ -13,7 +13,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.formats.quoting import suggestion
 
 GROUP: Final = "quasistatic_ref.solvers"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from quasistatic_ref.files import text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.study.problems import problems_read
 from quasistatic_ref.lab.study.qp import UNITS, Problem, Truth, units_of
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written

@@ -13,7 +13,9 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_read, json_text, text_written, written_whole
+from quasistatic_ref.formats.files import json_read, json_text, text_written, written_whole
+from quasistatic_ref.formats.npz import npz_arrays
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.study.families.harvest import (
     Count,
     harvested,
@@ -39,9 +41,7 @@ from quasistatic_ref.lab.study.sets.selection import problems_taken, set_identit
 from quasistatic_ref.lab.study.spec import TestSet
 from quasistatic_ref.lab.study.store import lines_read
 from quasistatic_ref.lab.study.truth import answer_of
-from quasistatic_ref.npz import npz_arrays
-from quasistatic_ref.plain import bits
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 

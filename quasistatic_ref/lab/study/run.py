@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files import writable_folder
+from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.study.conduct import Work, conduct_here
 from quasistatic_ref.lab.study.environment import machine, versions
 from quasistatic_ref.lab.study.measure import Limits

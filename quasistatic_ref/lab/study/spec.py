@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, text_of
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.spec_solvers import chosen_solvers, own_solvers
@@ -23,9 +25,7 @@ from quasistatic_ref.lab.study.spec_table import (
     TABLES,
     VERSION,
 )
-from quasistatic_ref.quoting import suggestion
-from quasistatic_ref.resources import scenario_names
-from quasistatic_ref.simulate.overrides import toml_tables
+from quasistatic_ref.scenario.overrides import toml_tables
 
 KINDS = ("solvers", "sweep")
 FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")

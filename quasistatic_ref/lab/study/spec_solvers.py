@@ -5,12 +5,12 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.study.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.packages import announced, entry_of
 from quasistatic_ref.lab.study.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.spec_table import MODULE, SOLVER, TABLES
-from quasistatic_ref.quoting import suggestion
 
 PACKAGE = "package"
 BY_INTERFACE = {interface: known_to(interface) for interface in ("cvxpy", "qpsolvers", "native")}

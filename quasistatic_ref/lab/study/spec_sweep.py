@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_text
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.spec_table import AXIS, SWEEP, SWEEPS, TABLES
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.tolerances import LARGE
 
 MOST_RUNS = 100_000

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from quasistatic_ref.declared import Field, Tables
+from quasistatic_ref.formats.declared import Field, Tables
+from quasistatic_ref.formats.schema import json_schema
 from quasistatic_ref.lab.study.families.dials import DIALS, HARVESTED
 from quasistatic_ref.lab.study.qp import UNITS
 from quasistatic_ref.lab.study.solvers import INTERFACES, SETTINGS
-from quasistatic_ref.schema import json_schema
 from quasistatic_ref.tolerances import LARGE
 
 FORMAT, VERSION = "quasistatic-ref/study", 1

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import bytes_read, json_read, json_text, text_of, text_written
 from quasistatic_ref.lab.study.claim import continued
 from quasistatic_ref.lab.study.old_rows import today_row, today_study
 from quasistatic_ref.lab.study.schema import (

@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed
-from quasistatic_ref.files import writable_folder
+from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.study.environment import machine, versions
 from quasistatic_ref.lab.study.spec_sweep import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.store import Row, Store, key_of
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.measures import link_motion
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 RUNS = "runs"

@@ -1,12 +1,12 @@
 """The exact answer of a plain quadratic program, or a rigorous enclosure of it."""
 
-from quasistatic_ref.certify.bound import enclosed_answer
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.calls import tried
 from quasistatic_ref.lab.study.qp import Truth, step_of, units_of
+from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply

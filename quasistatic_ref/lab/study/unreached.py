@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_read, json_text, text_written
+from quasistatic_ref.formats.files import json_read, json_text, text_written
 
 UNREACHED = "unreached.json"
 

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import json_read, plain, text_written
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import json_read, plain, text_written
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.quoting import suggestion
 
 VERSION: Final = 1
 INPUTS, EXPECTED, ANSWERS = (

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, bytes_written, text_written, writable_folder
+from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import (
     Case,
@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.files import (
 )
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.simulate.progress import progress_bar
 
 COPIED: Final = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""

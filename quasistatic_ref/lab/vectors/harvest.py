@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
 
-from quasistatic_ref.files import text_written, writable_folder
+from quasistatic_ref.formats.files import text_written, writable_folder
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.scenarios import scenario_cases
 from quasistatic_ref.lab.vectors.files import Case, inputs_text

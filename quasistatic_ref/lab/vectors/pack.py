@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, bytes_written, text_written, writable_folder
+from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.versions import MANIFEST, edition, listed, release_of
 
 EPOCH: Final = (1980, 1, 1, 0, 0, 0)

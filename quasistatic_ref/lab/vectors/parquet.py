@@ -13,7 +13,7 @@ from typing import IO, Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import written_whole
+from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.step.data import Array

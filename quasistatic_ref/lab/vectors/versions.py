@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, json_read
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import bytes_read, json_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
 NAME: Final = "quasi-dynamic vectors"

@@ -8,9 +8,9 @@ import numpy as np
 from qpsolvers import solve_qp
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.model.shapes import PointCloud
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
 
 

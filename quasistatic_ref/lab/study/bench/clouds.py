@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.tracker import ContactTracker
+from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.study.bench.grasp import Places, brute_force, by_numpy
 from quasistatic_ref.lab.study.bench.timing import in_turn, microseconds, seconds
-from quasistatic_ref.model.shapes import PointCloud
-from quasistatic_ref.resources import models_folder
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
 
 BRUTE = 100_000

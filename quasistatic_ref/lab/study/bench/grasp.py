@@ -12,7 +12,7 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import installed, installed_backends

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.study.bench.timing import in_turn, microseconds
-from quasistatic_ref.resources import models_folder
 
 SETTLE = 200
 """Steps until the fingers press on the bunny."""

@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.families.made import Made, mass_ratio
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, StepData
 

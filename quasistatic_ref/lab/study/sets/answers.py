@@ -6,14 +6,14 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
-from quasistatic_ref.certify.enclosure import enclosure
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of
-from quasistatic_ref.certify.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.sets.member import BOUNDED, ENCLOSED, EXACT, Answer
 from quasistatic_ref.lab.study.sets.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.truth import reply_of
+from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm

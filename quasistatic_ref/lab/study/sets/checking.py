@@ -8,13 +8,13 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form_of
-from quasistatic_ref.certify.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.study.families.short import framed
 from quasistatic_ref.lab.study.qp import step_of
 from quasistatic_ref.lab.study.sets.answers import cone_answer
 from quasistatic_ref.lab.study.sets.member import BOUNDED, SOCP, Member
 from quasistatic_ref.lab.study.sets.plain_sizes import PlainSizes
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 

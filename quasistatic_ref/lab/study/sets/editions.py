@@ -4,7 +4,7 @@ import hashlib
 from pathlib import Path
 from typing import Final
 
-from quasistatic_ref.files import bytes_read
+from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.lab.study.sets.folder import MANIFEST, manifest
 
 FROZEN: Final = {

@@ -9,7 +9,7 @@ from scipy.io import savemat
 from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_text, text_written, written_whole
+from quasistatic_ref.formats.files import json_text, text_written, written_whole
 from quasistatic_ref.lab.study.sets.member import QP, SPARSE, Member
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 

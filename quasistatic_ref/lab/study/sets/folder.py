@@ -19,11 +19,17 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
-from quasistatic_ref.files import bytes_read, bytes_written, json_read, json_text, text_written
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import (
+    bytes_read,
+    bytes_written,
+    json_read,
+    json_text,
+    text_written,
+)
+from quasistatic_ref.formats.npz import npz_arrays
 from quasistatic_ref.lab.study.families.dials import ends
 from quasistatic_ref.lab.study.sets.member import Answer, Member
-from quasistatic_ref.npz import npz_arrays
 from quasistatic_ref.solve.units import Units
 
 FORMAT, VERSION = "quasistatic-ref/problem-set", 1

@@ -24,10 +24,10 @@ from quasistatic_ref.lab.study.sets.folder import family_read, family_written, f
 from quasistatic_ref.lab.study.sets.measures import measures, tags
 from quasistatic_ref.lab.study.sets.member import QP, SOCP, SPARSE, Answer, Member
 from quasistatic_ref.lab.study.sets.recipe import CONTACT_QP_1, Recipe, family_made
-from quasistatic_ref.progress import progress_bar
+from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.solve.units import Units, coordinate_units, metric, units_from, units_of
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.sparse_form import Pattern, sparse_form
 from quasistatic_ref.step.standard_form import standard_form
 
 ATTEMPTS = 10

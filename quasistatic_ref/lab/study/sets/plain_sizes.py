@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.certify.sizes import LARGEST
+from quasistatic_ref.optional.large.sizes import LARGEST
 from quasistatic_ref.step.data import Array
 
 

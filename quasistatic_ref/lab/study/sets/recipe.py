@@ -4,13 +4,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.study.families.dials import DIALS, turned
 from quasistatic_ref.lab.study.families.harvest import Count, no_count
 from quasistatic_ref.lab.study.families.made import Made
 from quasistatic_ref.lab.study.families.windows import windows
 from quasistatic_ref.lab.study.problems import made
 from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
-from quasistatic_ref.resources import scenario_names
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read
+from quasistatic_ref.formats.files import bytes_read
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.study.families.dials import ends
 from quasistatic_ref.lab.study.qp import Problem
 from quasistatic_ref.lab.study.sets.folder import MANIFEST, manifest, set_read
 from quasistatic_ref.lab.study.sets.member import QP, SPARSE, Member
 from quasistatic_ref.lab.study.spec import TestSet
-from quasistatic_ref.quoting import suggestion
-from quasistatic_ref.resources import problem_set_folder
 
 CONTACT_QP_1 = "contact-qp-1"
 

@@ -5,7 +5,7 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import json_read
+from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
 from quasistatic_ref.lab.vectors.challenge.live import challenge, sent_again
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from quasistatic_ref.files import plain
+from quasistatic_ref.formats.files import plain
 from quasistatic_ref.lab.vectors.challenge.program import Reply
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.expected import Json

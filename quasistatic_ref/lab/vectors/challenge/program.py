@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import IO, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
+from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS

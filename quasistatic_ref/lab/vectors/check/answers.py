@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.fields import Fields
+from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import ANSWERS, opened
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files import bytes_read, text_written, writable_folder
+from quasistatic_ref.formats.files import bytes_read, text_written, writable_folder
 from quasistatic_ref.lab.page.html import html_page
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Table

@@ -8,6 +8,7 @@ from typing import Any
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
     ZERO,
@@ -23,7 +24,6 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
 )
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, sign
 from quasistatic_ref.lab.vectors.exact.rotation import rotation
-from quasistatic_ref.quoting import suggestion
 
 SHAPES = {
     "sphere": ("radius",),

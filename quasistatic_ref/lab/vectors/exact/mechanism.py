@@ -14,6 +14,7 @@ from typing import Any, Final
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
     ZERO,
@@ -35,7 +36,6 @@ from quasistatic_ref.lab.vectors.exact.rotation import (
     cos_sin,
     rotation,
 )
-from quasistatic_ref.quoting import suggestion
 
 SIZES: Final = {
     "fixed": (0, 0),

@@ -11,15 +11,15 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
-from quasistatic_ref.model import shapes
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.convex_mesh import ConvexMesh
 from quasistatic_ref.model.rotation import quaternion
-from quasistatic_ref.model.shapes import PlacedShape, Shape
-from quasistatic_ref.model.urdf_file import FileLink, UrdfFile, urdf_file
-from quasistatic_ref.model.urdf_tree import FileJoint
+from quasistatic_ref.model.urdf.urdf_file import FileLink, UrdfFile, urdf_file
+from quasistatic_ref.model.urdf.urdf_tree import FileJoint
 from quasistatic_ref.model.world import world_of
-from quasistatic_ref.simulate.scenario import Scenario
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.data import Array
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.derivative import kinds_of
 from quasistatic_ref.lab.vectors.families.rows import rows_input
@@ -20,11 +21,10 @@ from quasistatic_ref.lab.vectors.families.steps import contact_entries, program
 from quasistatic_ref.lab.vectors.families.wrench import PLACE, wrench_input
 from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.resources import scenario_names
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.target import piecewise_linear
 from quasistatic_ref.step.data import Array
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.reason import ZERO_FRICTION
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.simulate.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
 
 
 def own_derivative(case_input: Json) -> Json:

@@ -8,10 +8,10 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model import shapes
-from quasistatic_ref.model.convex_mesh import convex_hull
-from quasistatic_ref.model.shapes import PlacedShape, PointCloud, Shape
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.step.data import Array
 
 

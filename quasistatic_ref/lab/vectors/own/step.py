@@ -10,7 +10,7 @@ from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.shapes import own_rotation, own_shape
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
-from quasistatic_ref.model.shapes import PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form

@@ -1,0 +1,107 @@
+"""Faces and edges of convex polytopes, for the closed form of a pair of them.
+
+A capsule is a segment with a margin, its radius. So box, convex mesh and capsule are one family.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
+from quasistatic_ref.shapes.rounded import distance_to_rounded_box
+from quasistatic_ref.step.data import Array, Indices
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Polytope:
+    """A convex polytope or a segment, with a ball of some radius about every point.
+
+    Parameters
+    ----------
+    shape : Capsule, Box or ConvexMesh
+    margin : float
+        [m].
+    vertices : ndarray, shape (V, 3)
+        Of the core [m].
+    normals : ndarray, shape (F, 3)
+        Outward unit normals of its faces. A segment has three, at right angles to it, and is
+        three edges, so that each has a face on either side like any other.
+    offsets : ndarray, shape (F,)
+        Of those faces' planes [m].
+    edges : ndarray of int, shape (E, 2)
+        Vertices at the ends of each edge.
+    sides : ndarray of int, shape (E, 2)
+        The two faces that meet there.
+    """
+
+    shape: Shape
+    margin: float
+    vertices: Array
+    normals: Array
+    offsets: Array
+    edges: Indices
+    sides: Indices
+
+    def moved(self, R: Array, t: Array) -> "Polytope":
+        """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""
+        normals = self.normals @ R.T
+        offsets = self.offsets + normals @ t
+        return replace(self, vertices=self.vertices @ R.T + t, normals=normals, offsets=offsets)
+
+    def core_distance(self, points: Array) -> tuple[Array, Array]:
+        """Signed distance and normal of points, in the shape's own frame, to the core."""
+        if isinstance(self.shape, Capsule):
+            return distance_to_rounded_box(points, self.shape.core[0])
+        return signed_distance(self.shape, points)
+
+
+@lru_cache(maxsize=256)
+def polytope(shape: Shape) -> Polytope | None:
+    """The polytope that a shape is, in its own frame; None where it is none."""
+    match shape:
+        case Capsule():
+            ends, radius = shape.corners(UP)
+            angle = 2 * np.pi / 3 * np.arange(3)
+            around = np.stack([np.cos(angle), np.sin(angle), np.zeros(3)], axis=1)
+            sides = np.array([[0, 1], [1, 2], [2, 0]])
+            edges = np.array([[0, 1]] * 3)
+            return Polytope(shape, radius, ends, around, np.zeros(3), edges, sides)
+        case Box():
+            return _box(shape)
+        case ConvexMesh():
+            return _mesh(shape)
+        case _:
+            return None
+
+
+def _box(box: Box) -> Polytope:
+    bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
+    normals = np.concatenate([np.eye(3), -np.eye(3)])
+    edges, sides = [], []
+    for axis in range(3):
+        first, second = (axis + 1) % 3, (axis + 2) % 3
+        for corner in np.flatnonzero(bits[:, axis] == 0):
+            edges.append((corner, corner | 1 << axis))
+            sides.append([a if bits[corner, a] else a + 3 for a in (first, second)])
+    vertices, margin = box.corners(UP)
+    offsets = np.tile(box.half_extents, 2)
+    return Polytope(box, margin, vertices, normals, offsets, np.array(edges), np.array(sides))
+
+
+def _mesh(mesh: ConvexMesh) -> Polytope:
+    """Coplanar triangles are one face, and what they share is no edge."""
+    every = np.column_stack([mesh.normals, mesh.offsets])
+    planes, face = np.unique(every, axis=0, return_inverse=True)
+    face = face.reshape(-1)
+    pairs = np.concatenate([np.roll(mesh.triangles, -k, axis=1)[:, :2] for k in range(3)])
+    owner = np.tile(face, 3)
+    order = np.lexsort(np.sort(pairs, axis=1).T)
+    edges = np.sort(pairs, axis=1)[order].reshape(-1, 2, 2)[:, 0]
+    sides = owner[order].reshape(-1, 2)
+    real = sides[:, 0] != sides[:, 1]
+    return Polytope(mesh, 0.0, mesh.vertices, planes[:, :3], planes[:, 3], edges[real], sides[real])

@@ -1,0 +1,61 @@
+"""Signed distance, closest points and normal of two solids, each pair by its own method.
+
+A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
+have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). A
+polytope or a cylinder and a cylinder, cone or ellipsoid that are apart have candidates, one for
+each face, edge, rim and vertex. For all others, curved solids that meet, and cones and ellipsoids
+among themselves, coal's answer is refined, and then checked.
+"""
+
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.solids.by_coal import coal_witness
+from quasistatic_ref.contact.solids.curved_pair import curved_witness
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.contact.solids.polytope_pair import polytope_pair
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
+
+
+def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
+    """Closest points of two solids in the world frame.
+
+    Parameters
+    ----------
+    name : str
+        Of the pair, for messages.
+    a, b : Placed
+        Not two half-spaces.
+
+    Raises
+    ------
+    ContactError
+        If the pair is of the last kind, and coal's refined answer fails a check.
+    """
+    if isinstance(b.shape, Sphere):
+        return _sphere_on_solid(a, b, b.shape.radius)
+    if isinstance(a.shape, Sphere):
+        return _sphere_on_solid(b, a, a.shape.radius).swapped()
+    if isinstance(a.shape, HalfSpace):
+        return _solid_on_plane(a, a.shape, b)
+    if isinstance(b.shape, HalfSpace):
+        return _solid_on_plane(b, b.shape, a).swapped()
+    P, Q = polytope(a.shape), polytope(b.shape)
+    if P is None or Q is None:
+        apart = curved_witness(a, b)
+        return coal_witness(name, a, b) if apart is None else apart
+    found = polytope_pair(P, Q, a.R.T @ b.R, a.R.T @ (b.t - a.t))
+    return Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
+
+
+def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:
+    distance, normal = signed_distance(solid.shape, ((sphere.t - solid.t) @ solid.R)[None])
+    n = solid.R @ normal[0]
+    phi = float(distance[0])
+    return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)
+
+
+def _solid_on_plane(plane: Placed, half_space: HalfSpace, solid: Placed) -> Witness:
+    n = plane.R @ half_space.normal
+    lowest = solid.farthest(-n)
+    phi = float(n @ (lowest - plane.t) - half_space.offset)
+    return Witness(phi, lowest - phi * n, lowest, n)

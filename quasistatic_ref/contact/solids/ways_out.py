@@ -1,0 +1,85 @@
+"""Directions in which one convex solid leaves another by the shortest way.
+
+In penetration the gap s(n) has several local maxima, and coal's expanding polytope stops at any
+of them, up to the size of the solids away from the best. So the search starts from many
+directions: a spread over the sphere, and those in which maxima are sharp.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.step.data import Array, Indices
+
+SPREAD = 1024
+"""Directions over the sphere, about 0.11 rad apart: no direction is farther than REACH from one."""
+
+REACH = 0.08
+"""[rad]"""
+
+STARTS = 6
+"""Local maxima that are followed at most."""
+
+NEAR = np.cos(0.2)
+"""Cosine above which a direction is a neighbour of another."""
+
+APART = 0.985
+"""Cosine above which two directions are taken to lead to the same maximum."""
+
+
+def gaps(a: Placed, b: Placed, directions: Array) -> Array:
+    """Gap from a to b along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+    return -b.reach(-directions) - a.reach(directions)
+
+
+def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float) -> list[Array]:
+    """Directions of other maxima of the gap, in whose neighbourhood it may exceed phi.
+
+    Parameters
+    ----------
+    a, b : Placed
+    first : ndarray, shape (3,)
+        The known direction, a unit vector in the world frame [-].
+    phi : float
+        The gap along it [m].
+    size : float
+        By how much a gap can change per radian [m].
+
+    Returns
+    -------
+    list of ndarray, shape (3,)
+        At most STARTS, the widest gap first.
+    """
+    sharp, (sphere, neighbours) = np.concatenate([_sharp(a), -_sharp(b)]), _sphere()
+    spread_gaps, sharp_gaps = gaps(a, b, sphere), gaps(a, b, sharp)
+    peaks = (spread_gaps[neighbours] <= spread_gaps[:, None]).all(axis=1)
+    near = sharp @ sphere.T > NEAR
+    sharp_peaks = (np.where(near, spread_gaps, -np.inf) <= sharp_gaps[:, None]).all(axis=1)
+    directions = np.concatenate([sphere[peaks], sharp[sharp_peaks]])
+    found = np.concatenate([spread_gaps[peaks], sharp_gaps[sharp_peaks]])
+    chosen = [first]
+    for k in np.argsort(-found, kind="stable"):
+        if found[k] <= phi - REACH * size or len(chosen) > STARTS:
+            break
+        if all(directions[k] @ other < APART for other in chosen):
+            chosen.append(directions[k])
+    return chosen[1:]
+
+
+def _sharp(solid: Placed) -> Array:
+    """Normals of the faces, or the axes of a curved solid, in the world frame."""
+    flat = polytope(solid.shape)
+    own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
+    return own @ solid.R.T
+
+
+@cache
+def _sphere() -> tuple[Array, Indices]:
+    """Directions spread evenly over the sphere, on a Fibonacci spiral, and neighbours of each."""
+    k = np.arange(SPREAD) + 0.5
+    z, turn = 1 - 2 * k / SPREAD, np.pi * (1 + np.sqrt(5)) * k
+    r = np.sqrt(1 - z * z)
+    sphere = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+    return sphere, np.argsort(-(sphere @ sphere.T), axis=1, kind="stable")[:, 1:9]

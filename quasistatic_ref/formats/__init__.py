@@ -1,0 +1,1 @@
+"""Reading and writing: files, fields, tables of fields, NPZ, schemas, quoting."""

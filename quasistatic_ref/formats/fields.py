@@ -1,0 +1,201 @@
+"""Reading the named fields of a JSON object or a TOML table, with plain errors.
+
+A reader takes each field once, checks it, and refuses in :meth:`Fields.close` whatever was
+not taken: a misspelt name is an error, never a default.
+"""
+
+from collections.abc import Iterable
+from typing import Any, Final, TypeVar
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+
+REQUIRED: Final[Any] = object()
+E = TypeVar("E", bound=InputError)
+
+
+class Fields:
+    """The fields of one table.
+
+    Parameters
+    ----------
+    table : object
+        What the parser returned; anything but a mapping is refused.
+    where : str
+        Dotted name of the table itself, ``""`` at the top.
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
+    """
+
+    def __init__(self, table: Any, where: str = "", error: type[InputError] = InputError) -> None:
+        self.where, self.error = where, error
+        if not isinstance(table, dict):
+            raise error("must be a table of named fields", field=where or None, value=table)
+        self._left: dict[str, Any] = dict(table)
+        self._known: set[str] = set()
+
+    def name(self, field: str) -> str:
+        """Return the full dotted name of a field."""
+        return f"{self.where}.{field}" if self.where else field
+
+    def fail(self, field: str, problem: str, value: Any = None) -> InputError:
+        """Return (not raise) the error about one field."""
+        return self.error(problem, field=self.name(field), value=value)
+
+    def take(self, field: str, default: Any = REQUIRED) -> Any:
+        """Return a field as parsed; a missing one is the default, or an error."""
+        self._known.add(field)
+        if field in self._left:
+            return self._left.pop(field)
+        if default is REQUIRED:
+            raise self.fail(field, "is missing")
+        return default
+
+    def __contains__(self, field: str) -> bool:
+        return field in self._left
+
+    def is_null(self, field: str) -> bool:
+        """Tell whether a field is there and holds JSON's null."""
+        return field in self._left and self._left[field] is None
+
+    def names(self) -> list[str]:
+        """Return the names of the fields not yet taken, in file order."""
+        return list(self._left)
+
+    def _typed(self, field: str, kind: Any, words: str, default: Any) -> Any:
+        """Return a field of one kind, of which booleans are no numbers; None if that is default."""
+        value = self.take(field, default)
+        fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
+        if not fits and (value is not None or default is not None):
+            raise self.fail(field, f"must be {words}", value)
+        return value
+
+    def number(
+        self,
+        field: str,
+        default: Any = REQUIRED,
+        *,
+        above: float | None = None,
+        least: float | None = None,
+        most: float | None = None,
+    ) -> float:
+        """Return a finite number, above `above`, from `least` to `most` [the field's unit]."""
+        value = self._typed(field, int | float, "a number", default)
+        if value is None:
+            return None  # type: ignore[return-value]  # only where the caller's default is None
+        try:
+            number = float(value)
+        except OverflowError:
+            number = float("inf")
+        if not np.isfinite(number):
+            raise self.fail(field, "must be a finite number", value)
+        if above is not None and not number > above:
+            raise self.fail(field, f"must be greater than {above:g}", value)
+        if least is not None and not number >= least:
+            raise self.fail(field, f"must be at least {least:g}", value)
+        if most is not None and not number <= most:
+            raise self.fail(field, f"must be at most {most:g}", value)
+        return number
+
+    def integer(
+        self,
+        field: str,
+        default: Any = REQUIRED,
+        *,
+        least: int | None = None,
+        most: int | None = None,
+        choices: tuple[int, ...] | None = None,
+    ) -> int:
+        """Return a whole number, at least `least` and at most `most`, or one of `choices`."""
+        value: int = self._typed(field, int, "a whole number", default)
+        if value is None:
+            return value
+        if choices is not None and value not in choices:
+            raise self.fail(field, f"must be {' or '.join(map(str, choices))}", value)
+        if least is not None and value < least:
+            raise self.fail(field, f"must be at least {least}", value)
+        if most is not None and value > most:
+            raise self.fail(field, f"must be at most {most}", value)
+        return value
+
+    def boolean(self, field: str, default: Any = REQUIRED) -> bool:
+        """Return true or false."""
+        value: bool = self._typed(field, bool, "true or false", default)
+        return value
+
+    def text(
+        self, field: str, default: Any = REQUIRED, choices: tuple[str, ...] | None = None
+    ) -> str:
+        """Return a string, one of `choices` where they are given."""
+        value: str = self._typed(field, str, "a string", default)
+        if value is not None and choices is not None and value not in choices:
+            one = f"must be {choices[0]!r}"  # the format of a file, which is then another kind
+            wrong = one if len(choices) == 1 else f"is not a choice{suggestion(value, choices)}"
+            raise self.fail(field, wrong, value)
+        return value
+
+    def array(
+        self, field: str, shape: tuple[int | None, ...], default: Any = REQUIRED
+    ) -> np.ndarray:
+        """Return finite numbers of the given shape (None: any length) as float64."""
+        value = self.take(field, default)
+        wanted = " x ".join("any" if s is None else str(s) for s in shape)
+        if isinstance(value, str):
+            problem = f"must be {wanted} numbers, with commas between them and brackets around them"
+            raise self.fail(field, problem, value)
+        try:
+            array = np.array(value, dtype=object)
+            if any(isinstance(v, list) for v in array.flat):
+                raise self.fail(field, f"must be {wanted} numbers, in lists of equal length", value)
+            if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
+                raise self.fail(field, f"must hold numbers only ({wanted})", value)
+            numbers = array.astype(np.float64)
+        except (ValueError, OverflowError, TypeError):
+            raise self.fail(field, f"must be {wanted} finite numbers", value) from None
+        if numbers.shape == (0,) and 0 in shape:
+            numbers = numbers.reshape([s or 0 for s in shape])
+        if numbers.ndim != len(shape) or any(
+            s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
+        ):
+            raise self.fail(field, f"must be {wanted} numbers", value)
+        if not np.isfinite(numbers).all():
+            raise self.fail(field, "must hold finite numbers only", value)
+        return numbers
+
+    def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
+        """Return a list."""
+        value: list[Any] = self._typed(field, list, "a list", default)
+        return value
+
+    def words(self, field: str, default: Any = REQUIRED) -> list[str]:
+        """Return a list of strings."""
+        value = self.sequence(field, default)
+        if value is not default and not all(isinstance(word, str) for word in value):
+            raise self.fail(field, "must be a list of strings", value)
+        return value
+
+    def table(self, field: str, default: Any = REQUIRED) -> "Fields":
+        """Return a nested table."""
+        return Fields(self.take(field, default), self.name(field), self.error)
+
+    def check_format(self, name: str, *versions: int) -> int:
+        """Take ``format`` and ``version`` of a file, refuse others than these: the version."""
+        self.text("format", choices=(name,))
+        version = self.integer("version")
+        if version not in versions:
+            known = " and ".join(map(str, versions))
+            raise self.fail("version", f"is not known here; this program reads {known}", version)
+        return version
+
+    def only(self, known: Iterable[str]) -> None:
+        """Refuse every field but these: before any of them is found missing."""
+        self._known.update(known)
+        for field, value in self._left.items():
+            if field not in self._known:
+                raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)
+
+    def close(self) -> None:
+        """Refuse every field that was not taken."""
+        self.only(())

@@ -1,0 +1,161 @@
+"""The arrays of an ``.npz`` or ``.npy`` file from anywhere: no pickles, and only the size it says.
+
+``numpy.load`` believes the shape in an array's header and asks for that much memory at once, and a
+few kilobytes of ZIP can hold gigabytes of zeros. Here sizes are compared before anything is
+unpacked.
+"""
+
+import io
+import json
+import math
+import tokenize
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.files import bytes_read, json_text, text_of, unique_fields
+
+LARGEST_UNPACKED = 2 * 2**30
+"""Largest sum of all arrays [bytes]: 100,000 full steps of the paper's size."""
+MOST_ARRAYS = 256
+UNREADABLE: tuple[type[Exception], ...] = (
+    ValueError,
+    KeyError,
+    TypeError,
+    OSError,
+    EOFError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,  # an array's header with an open bracket
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What zipfile and NumPy raise at a file that is something else, or spoilt."""
+
+
+def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
+    """Every array of the file by name, each of the shape and type that it has there.
+
+    Parameters
+    ----------
+    path : str or Path
+    what : str
+        What the file must be, for the sentence on one that is something else.
+
+    Raises
+    ------
+    InputError
+        If it is no such file, is spoilt, holds pickles, or unpacks to more than it should.
+    """
+    content = bytes_read(path)
+    problem = f"is not {what}"
+    with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
+        members = _checked_sizes(archive)
+        return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
+
+
+def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
+    """The JSON header of a .npz file, and its other arrays, as :func:`npz_arrays` reads them.
+
+    Returns
+    -------
+    header : object
+    arrays : dict of str to ndarray
+        Each of the shape that the file has.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or has no such header.
+    """
+    arrays = npz_arrays(path, what)
+    header = arrays.pop("header", None)
+    with about_file(path):
+        if header is None or header.dtype != np.uint8:
+            raise InputError(f"is not {what}: it has no header")
+        try:
+            text = text_of(header.tobytes(), path)
+            return json.loads(text, object_pairs_hook=unique_fields), arrays
+        except (ValueError, RecursionError):
+            raise InputError(f"is not {what}: its header is not JSON") from None
+
+
+def json_array(header: Mapping[str, Any]) -> NDArray[np.uint8]:
+    """A header as :func:`npz_record` reads it, shape (bytes,) [-]."""
+    return np.frombuffer(json_text(dict(header)).encode(), dtype=np.uint8)
+
+
+def npy_array(path: str | Path) -> NDArray[Any]:
+    """The array of an ``.npy`` file, of the shape and type that it has there.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    ndarray, any shape
+        In the file's own unit.
+
+    Raises
+    ------
+    InputError
+        If it is no such file, is spoilt, or holds a pickle.
+    """
+    with _readable(path, "is not an array of NumPy"):
+        return _array(bytes_read(path), "it")
+
+
+@contextmanager
+def _readable(path: str | Path, problem: str) -> Iterator[None]:
+    """Say `problem` of a file where what is done in this block fails."""
+    try:
+        with about_file(path):
+            yield
+    except UNREADABLE as error:
+        reason = " ".join(str(error).split())[:80]
+        raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
+
+
+def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
+    members = archive.infolist()
+    if len(members) > MOST_ARRAYS:
+        raise InputError(f"holds more than {MOST_ARRAYS} arrays", value=len(members))
+    seen: set[str] = set()
+    for member in members:
+        if member.filename in seen:
+            raise InputError("is given twice", field=member.filename)
+        seen.add(member.filename)
+    unpacked = sum(member.file_size for member in members)
+    if unpacked > LARGEST_UNPACKED:
+        most = LARGEST_UNPACKED / 2**30
+        raise InputError(f"unpacks to more than {most:g} GiB", field="its arrays", value=unpacked)
+    return members
+
+
+def _name(member: zipfile.ZipInfo, problem: str) -> str:
+    if not member.filename.endswith(".npy"):
+        raise InputError(problem, field=member.filename)
+    return member.filename.removesuffix(".npy")
+
+
+def _array(content: bytes, name: str) -> NDArray[Any]:
+    file = io.BytesIO(content)
+    if np.lib.format.read_magic(file) != (1, 0):
+        raise ValueError(f"{name} is an array file of another version")
+    shape, _, kind = np.lib.format.read_array_header_1_0(file)
+    if kind.hasobject:
+        raise ValueError(f"{name} is a pickle, which is never opened")
+    size = math.prod(shape, start=kind.itemsize)  # of Python's own numbers: it does not overflow
+    if min(shape, default=0) < 0 or size != len(content) - file.tell():
+        raise ValueError(f"{name} does not have the size that it says")
+    file.seek(0)
+    array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+    return array

@@ -1,0 +1,58 @@
+"""Where the data that come with the package are: in the wheel, or next to it in a checkout."""
+
+import os
+from pathlib import Path
+
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.quoting import suggestion
+
+
+def models_folder() -> Path:
+    """The folder of the models that come with the package."""
+    return _folder("models", "models")
+
+
+def vectors_folder() -> Path:
+    """The folder of the reference vectors that come with the package."""
+    return _folder("validation/vectors", "lab/vectors/data")
+
+
+def reality_folder() -> Path:
+    """The folder of measured pushes that come with the package."""
+    return _folder("validation/reality", "lab/reality/data")
+
+
+def problem_set_folder() -> Path:
+    """The folder of the set of quadratic programs that comes with the package."""
+    return _folder("validation/contact_qp_1", "lab/study/sets/data")
+
+
+def _folder(next_to: str, inside: str) -> Path:
+    """Return a folder by its place in a checkout, or by that in the wheel."""
+    package = Path(__file__).parents[1]
+    root = package.parent
+    in_checkout = (root / "pyproject.toml").is_file() and (root / next_to).is_dir()
+    return root / next_to if in_checkout else package / inside
+
+
+def scenario_names() -> list[str]:
+    """Names of the scenarios that come with the package."""
+    return sorted(path.stem for path in models_folder().glob("*/*.toml"))
+
+
+def scenario_path(name: str | Path) -> Path:
+    """A scenario file: a path as it is, or the name of one that comes with the package.
+
+    Raises
+    ------
+    ScenarioError
+        If there is neither such a file nor such a name.
+    """
+    path = Path(name)
+    if path.suffix == ".toml" or os.path.exists(path):  # Path's own raises for a name too long
+        return path
+    for known in models_folder().glob("*/*.toml"):
+        if known.stem == str(name):
+            return known
+    hint = suggestion(str(name), scenario_names())
+    raise ScenarioError(f"is neither a file nor a scenario that is installed{hint}", file=name)

@@ -1,0 +1,69 @@
+"""Actuated coordinates: free, and pressed against a wall."""
+
+import numpy as np
+
+from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.measures import exact, grid
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.tolerances import CLOSED_FORM
+
+
+def free_evidence() -> Evidence:
+    """Random stiffnesses of 1 to 7 coordinates, condition at most 100 or so."""
+    rng = np.random.default_rng(1)
+    moved, wanted, sagged = [], [], []
+    for n_a in range(1, 8):
+        for _ in range(4):
+            B = rng.normal(size=(n_a, n_a))
+            K_q = 500 * (B @ B.T / n_a + np.eye(n_a))
+            tau_a, target = rng.normal(size=n_a), 1e-3 * rng.normal(size=n_a)
+            h = float(rng.choice([1e-3, 1e-2, 1e-1]))
+            step = actuated_step(K_q, tau_a, target, no_contacts(n_a), h)
+            moved.append(exact(step).delta_q)
+            wanted.append(target)
+            sagged.append(np.linalg.solve(step.K_q, tau_a))
+    terms = [np.concatenate(wanted), np.concatenate(sagged)]
+    return Evidence.of(sum_of_terms("delta_q_a [m]", np.concatenate(moved), terms, CLOSED_FORM))
+
+
+def pressed_evidence() -> Evidence:
+    """A finger of stiffness K whose target lies `beyond` a wall at the gap phi."""
+    moved, pressed, gaps, forces, loads = [], [], [], [], []
+    for K, phi, beyond, tau in grid([10, 1e3, 1e5], [0, 1e-4, 2e-3], [-1e-3, 0, 1e-3], [0, 0.7]):
+        J = np.zeros((1, 4, 1))
+        J[0, 0, 0] = -1.0  # towards the wall, along -n
+        frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+        wall = contacts_of(phi, frame, J, 0.5)
+        answer = exact(actuated_step([[K]], [tau], [phi + beyond], wall, 0.01))
+        load = K * beyond + tau
+        moved.append(answer.delta_q[0])
+        gaps.append(phi + min(load, 0.0) / K)
+        pressed.append(answer.wrench[0, 2])
+        forces.append(max(load, 0.0))
+        loads.append(max(abs(K * beyond), tau))
+    return Evidence.of(
+        comparison("delta_q_a [m]", moved, gaps, CLOSED_FORM, scale=1e-3),
+        comparison("normal force [N]", pressed, forces, CLOSED_FORM, scale=loads),
+    )
+
+
+FREE = Claim(
+    name="free_impedance",
+    sentence="Without contact an actuated coordinate reaches its target, plus what its load bends "
+    "it.",
+    where="docs/derivations.md (R1)",
+    sweep="1 to 7 coordinates, 28 random stiffnesses, three time steps",
+    reason="CLOSED_FORM: relative to the larger of target and sag.",
+    measure=free_evidence,
+)
+
+PRESSED = Claim(
+    name="pressed_impedance",
+    sentence="A target beyond a wall presses with K times the depth of the target in the wall.",
+    where="docs/derivations.md (R2)",
+    sweep="K from 10 to 1e5 N/m, gaps of 0 to 2 mm, targets in front of, at and in the wall, loads",
+    reason="CLOSED_FORM; the depth is a difference of a target and a gap, rounded before the step "
+    "is made.",
+    measure=pressed_evidence,
+)

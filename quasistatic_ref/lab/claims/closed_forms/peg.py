@@ -1,0 +1,67 @@
+"""A peg that touches its hole at two points: wedged, or free to go in (Whitney 1982)."""
+
+import numpy as np
+
+from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.scenes.contacts import X, Y, Z
+from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import CLOSED_FORM
+
+M, H = 0.3, 0.01
+INERTIA = 2e-3
+"""Of a peg long enough that both contacts go on pressing while it slides in [kg m^2]."""
+
+
+def pushed(depth: float, width: float, mu: float, force: float) -> StepData:
+    """A peg pushed down by a force on its axis.
+
+    It touches the mouth of the hole at its left and the wall at its right, `depth` lower and
+    `width` apart; the centre of mass is midway.
+    """
+    points = [[-width / 2, 0.0, depth / 2], [width / 2, 0.0, -depth / 2]]
+    frames = [[Y, Z, X], [Y, -Z, -X]]
+    return rigid_step(M, INERTIA, (0, 0, -force, 0, 0, 0), points, frames, mu_v=mu, h=H)
+
+
+def evidence() -> Evidence:
+    """The depth at which the peg wedges, for weak and strong pushes; and how it slides deeper."""
+    found, expected, rest = [], [], []
+    for width, mu, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6]):
+        limit = mu * width
+
+        def moves(depth: float, of: tuple[float, float, float] = (width, mu, force)) -> bool:
+            return bool(np.any(exact(pushed(depth, *of)).delta_q))
+
+        found.append(threshold(moves, 0.2 * limit, 5 * limit))
+        expected.append(limit)
+        rest.append(exact(pushed(0.99 * limit, width, mu, force)).delta_q)
+    solved, formula = [], []
+    for width, mu, over, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]):
+        depth = over * mu * width
+        solved.append(exact(pushed(depth, width, mu, force)).delta_q)
+        theta, x = 2 * mu / depth, -(mu**2) * width / depth  # per unit of descent
+        descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
+        formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
+    size = np.abs(formula).max(1, keepdims=True)
+    widths, mus = np.array([0.01, 0.04]), np.array([0.1, 0.3, 0.8])
+    picture = {"mu": np.repeat(np.tile(mus, len(widths)), 3), "width": np.repeat(widths, 9),
+               "found": np.array(found), "h": H}  # fmt: skip
+    return Evidence.of(
+        comparison("depth below which it wedges [m]", found, expected, CLOSED_FORM, expected),
+        comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
+        comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
+        **picture,
+    )
+
+
+CLAIM = Claim(
+    name="peg_wedging",
+    sentence="A peg that touches its hole on both sides wedges at depths l < mu d, however hard "
+    "it is pushed; deeper, it slides in, turning by 2 mu / l for each unit of descent.",
+    where="docs/derivations.md (R17); D. E. Whitney, J. Dyn. Sys. Meas. Control 104 (1982), 65-77",
+    sweep="two widths, three mu, pushes of 1 mN to 1 MN, three depths beyond the limit",
+    reason="CLOSED_FORM; a wedged peg does not move at all, bit for bit.",
+    measure=evidence,
+)

@@ -1,0 +1,131 @@
+"""Findings as JSON and as the page ``claims.md``."""
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.claims.claim import HOLDS, Comparison, Finding
+
+HEAD = """# Claims
+
+Written by `quasistatic-ref validate`. Each row is one quantity over a sweep, shown at its worst
+point: its error is relative to the largest term of the formula, or absolute where it has none.
+Formulas (R1), (R2), ... are derived in docs/derivations.md.
+"""
+
+
+def finding_record(finding: Finding) -> dict[str, Any]:
+    """One finding as a JSON object."""
+    claim = finding.claim
+    comparisons = () if finding.evidence is None else finding.evidence.comparisons
+    return {
+        "name": claim.name,
+        "claim": claim.sentence,
+        "where": claim.where,
+        "sweep": claim.sweep,
+        "engine": claim.installed,
+        "reason": claim.reason,
+        "verdict": finding.verdict,
+        "trouble": finding.trouble,
+        "comparisons": [_record(c) for c in comparisons],
+    }
+
+
+def _record(c: Comparison) -> dict[str, Any]:
+    i = c.worst if c.errors.size else None
+    return {
+        "what": c.what,
+        "points": int(c.errors.size),
+        "measured": None if i is None else _finite(c.measured[i]),
+        "expected": c.words or (None if i is None else _finite(c.expected[i])),
+        "error": None if i is None else _finite(c.errors[i]),
+        "tolerance": c.tolerance,
+        "holds": c.holds,
+    }
+
+
+def _finite(x: float) -> float | None:
+    """A number that JSON holds, or null."""
+    return float(x) if np.isfinite(x) else None
+
+
+def summary(finding: Finding) -> tuple[str, str, str, str]:
+    """Verdict and points; error and tolerance of the comparison that is nearest to failing."""
+    record = finding_record(finding)["comparisons"]
+    if not record:
+        return finding.verdict, "-", "-", "-"
+    points = sum(c["points"] for c in record)
+    # Failures first, then real numbers before equalities that hold bit for bit.
+    worst = max(record, key=lambda c: (not c["holds"], _share(c)))
+    return finding.verdict, str(points), _short(worst["error"]), _short(worst["tolerance"])
+
+
+def _share(record: Mapping[str, Any]) -> float:
+    error, tolerance = record["error"], record["tolerance"]
+    return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
+
+
+def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[str] = ()) -> str:
+    """The page: claim, where it stands, measured, expected, verdict.
+
+    Parameters
+    ----------
+    sections : mapping of str to sequence of Finding
+    figures : collection of str
+        Names of the claims that have a figure; it is in the folder ``figures`` next to the page.
+    """
+    every = [finding for findings in sections.values() for finding in findings]
+    held = sum(finding.verdict == HOLDS for finding in every)
+    lines = [HEAD, f"{held} of {len(every)} claims hold.", ""]
+    for title, findings in sections.items():
+        if not findings:
+            continue
+        lines += [f"## {title}", ""]
+        for finding in findings:
+            lines += _chapter(finding)
+            if finding.claim.name in figures:
+                name = finding.claim.name
+                lines += [f"![{name}](figures/{name}.png)", ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _chapter(finding: Finding) -> list[str]:
+    record = finding_record(finding)
+    engine = f"*Engine:* {record['engine']}. " if record["engine"] else ""
+    lines = [
+        f"### {record['name']}: {record['verdict']}",
+        "",
+        record["claim"],
+        "",
+        f"*Where:* {record['where']}. {engine}*Sweep:* {record['sweep']}. "
+        f"*Tolerance:* {record['reason']}",
+        "",
+    ]
+    if record["trouble"]:
+        lines += [f"It could not be measured: {record['trouble']}.", ""]
+    if record["comparisons"]:
+        lines += ["| quantity | points | measured | expected | error | tolerance | verdict |"]
+        lines += ["|---|---|---|---|---|---|---|"]
+        for c in record["comparisons"]:
+            expected = c["expected"] if isinstance(c["expected"], str) else _number(c["expected"])
+            cells = [
+                c["what"].replace("|", "\\|"),
+                str(c["points"]),
+                _number(c["measured"]),
+                expected,
+                _short(c["error"]),
+                _short(c["tolerance"]),
+                "holds" if c["holds"] else "FAILS",
+            ]
+            lines.append(f"| {' | '.join(cells)} |")
+        lines.append("")
+    return lines
+
+
+def _number(x: float | None) -> str:
+    return "not a number" if x is None else f"{x:.6g}"
+
+
+def _short(x: float | None) -> str:
+    return "not a number" if x is None else f"{x:.1e}" if x else "0"

@@ -1,0 +1,1 @@
+"""Files of clouds and meshes, one format a file."""

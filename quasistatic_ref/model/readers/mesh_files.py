@@ -1,0 +1,107 @@
+"""Mesh files: which file a URI means, and the convex hull of what it holds."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.readers.dae import check_dae
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
+from quasistatic_ref.step.arrays import Array
+
+MESHES = (".stl", ".obj", ".dae")
+PACKAGE = "package://"
+
+
+def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Path:
+    """The file that a mesh's URI means.
+
+    Parameters
+    ----------
+    uri : str
+        ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders, or a
+        path relative to `folder`.
+    folder : Path
+        Of the file that the URI stands in.
+    package_dirs : sequence of str or Path
+
+    Raises
+    ------
+    ModelError
+        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
+        the package folders after symbolic links are resolved: what is loaded is never a surprise.
+        Or if it is a COLLADA file that would take a mesh library's memory.
+    """
+    if Path(uri).suffix.lower() not in MESHES:
+        hint = suggestion(Path(uri).suffix.lower(), MESHES)
+        raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
+    packages = [Path(given) for given in package_dirs]
+    if uri.startswith(PACKAGE):
+        if not packages:
+            problem = "is looked for in the folders of package_dirs, and the body has none"
+            raise ModelError(problem, value=uri)
+        inside = uri.removeprefix(PACKAGE).lstrip("/")
+        places = [package / inside for package in packages]
+    elif "://" in uri:
+        raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
+    else:
+        places = [folder / uri]
+    try:
+        found = next((place.resolve() for place in places if place.is_file()), None)
+    except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
+        found = None
+    if found is None:
+        where = ", ".join(str(package) for package in packages) or str(folder)
+        raise ModelError(f"no such file (looked for in {where})", value=uri)
+    if not any(found.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
+        problem = (
+            f"leads to {found}, outside the folder of this file and of package_dirs; "
+            "move the mesh, or name its folder in package_dirs"
+        )
+        raise ModelError(problem, value=uri)
+    if found.suffix.lower() == ".dae":
+        check_dae(found)
+    return found
+
+
+def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
+    """Convex hull of a mesh file, each coordinate multiplied by its scale, shape (3,) [-].
+
+    Raises
+    ------
+    ModelError
+        If coal cannot read the file, or its vertices have no volume.
+    """
+    try:
+        loaded = coal.MeshLoader().load(str(path), scale)
+    except (ValueError, RuntimeError) as error:
+        lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+        reason = lines[-2] if len(lines) > 1 else "".join(lines)
+        raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
+    with about_file(path):
+        return hull_of_loaded(loaded)
+
+
+def hull_of_loaded(geometry: Any) -> ConvexMesh:
+    """Convex hull of a mesh as coal loaded it; ModelError if it is too small."""
+    if geometry.num_vertices < 4 or geometry.num_tris < 1:
+        problem = "must be at least four vertices, and triangles"
+        raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))
+    corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
+    triangles = np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
+    return hull_of_mesh(np.array(geometry.vertices()), triangles)
+
+
+def hull_note(name: str, mesh: ConvexMesh) -> str:
+    """What became of a mesh, as one line."""
+    if mesh.is_convex:
+        return f"{name}: convex mesh, {len(mesh.vertices)} corners"
+    more = 100 * mesh.excess
+    return (
+        f"{name}: mesh replaced by its convex hull, {len(mesh.vertices)} corners; "
+        f"it is not convex (by {more:.2g} %), so a contact with it must say hull = true"
+    )

@@ -1,1 +1,0 @@
-"""Shapes, one a file: all that concerns one shape alone."""

@@ -1,0 +1,1 @@
+"""URDF files: read, compared with what pinocchio loaded, refused in one sentence."""

@@ -1,0 +1,180 @@
+"""A URDF loaded through pinocchio, and compared with what its file says.
+
+urdfdom reports trouble to standard error and carries on without the collision shape, the
+inertia or the joint that it could not read. So every link's pose, every mass and every shape
+is worked out twice, from the file alone and from what was loaded; a difference is an error.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+
+from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.model.urdf.urdf_file import UrdfFile, urdf_file
+from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
+from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
+from quasistatic_ref.model.urdf.urdf_tree import link_poses
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.tolerances import LOADED
+
+BASE = "base"
+"""Name of the joint of a floating or planar base."""
+BASES = {"floating": pin.JointModelFreeFlyer, "planar": pin.JointModelPlanar}
+
+
+@dataclass(frozen=True, eq=False)
+class Urdf:
+    """A URDF that was loaded as written.
+
+    Parameters
+    ----------
+    file : UrdfFile
+        What it says.
+    text : str
+        What was loaded: the file's text without what the model ignores in links, each mesh URI
+        replaced by the path of its file.
+    base : str
+        How its root link moves (joint ``base``): ``"fixed"``, ``"floating"`` or ``"planar"``.
+    model : pinocchio.Model
+        Its kinematics and inertias.
+    links : tuple of str
+        Its links, the root first, parents before children.
+    shapes : tuple of PlacedShape
+        Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
+    notes : tuple of str
+        Where the model differs from its file: meshes as hulls, inertias that no body can have and
+        that M_u does not need.
+    """
+
+    file: UrdfFile
+    text: str
+    base: str
+    model: Any
+    links: tuple[str, ...]
+    shapes: tuple[PlacedShape, ...]
+    notes: tuple[str, ...]
+
+
+def loaded_urdf(
+    path: str | Path,
+    *,
+    base: str = "fixed",
+    actuated: Sequence[str] = (),
+    package_dirs: Sequence[str | Path] = (),
+) -> Urdf:
+    """One URDF, loaded and compared with its file.
+
+    Parameters
+    ----------
+    path : str or Path
+    base : str
+        ``"fixed"``; or ``"floating"`` or ``"planar"``: a joint named ``base``, with six or three
+        degrees of freedom, between the world and the root link.
+    actuated : sequence of str, or "all"
+        Joints that have a stiffness. The inertia of a link that only these move need not be
+        physically consistent.
+    package_dirs : sequence of str or Path
+        Where ``package://`` URIs are looked for.
+
+    Raises
+    ------
+    ModelError
+        If the file is not usable, or anything in it was not loaded as written.
+    """
+    file = urdf_file(path)
+    with about_file(file.path):
+        moving = _moving_joints(file, base)
+        free = [] if actuated == "all" else [name for name in moving if name not in actuated]
+        inertias = checked_inertias(file, free, base)
+        text = resolved_text(file, package_dirs)
+        model, geometry = _loaded(text, base)
+        _check_names(file, model, moving)
+        _check_poses(file, model)
+        _check_inertias(file, model)
+        links = (file.root, *(joint.child for joint in file.joints))
+        frames = [body_frame(model, link) for link in links]
+        shapes, meshes = checked_shapes(file, model, geometry, links, frames)
+    return Urdf(file, text, base, model, links, shapes, (*inertias, *meshes))
+
+
+def body_frame(model: Any, link: str) -> int:
+    """Number of a link's frame; a joint's frame may have the same name."""
+    return int(model.getFrameId(link, pin.FrameType.BODY))
+
+
+def _moving_joints(file: UrdfFile, base: str) -> list[str]:
+    """Names of the joints that are not fixed, the base's last."""
+    moving = [joint.name for joint in file.joints if joint.kind != "fixed"]
+    if base == "fixed":
+        return moving
+    if any(joint.name == BASE for joint in file.joints):
+        problem = f"this name is taken by the {base} base; rename the joint"
+        raise ModelError(problem, field=f"joint[{BASE}]")
+    return [*moving, BASE]
+
+
+def urdf_model(text: str, base: str) -> Any:
+    """The pinocchio model of a URDF's text."""
+    root = () if base == "fixed" else (BASES[base](), BASE)
+    return pin.buildModelFromXML(text, *root, mimic=True)
+
+
+def _loaded(text: str, base: str) -> tuple[Any, Any]:
+    # From the text, not the path: what is loaded is what was read and checked.
+    try:
+        model = urdf_model(text, base)
+        geometry = pin.buildGeomFromUrdfString(model, text, pin.GeometryType.COLLISION)
+    except (ValueError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        if "not in the kinematic tree" in reason:
+            reason = (
+                "a mimic joint is met before the joint that it mimics; joints of one link are "
+                "visited in alphabetical order, so rename one of the two"
+            )
+        elif "valid URDF" in reason:
+            reason = "its URDF parser refuses it, for the reason printed on standard error"
+        else:  # what a mesh library says, without where in its source it says so
+            reason = reason.rpartition("message: ")[2]
+        raise ModelError(f"pinocchio cannot load it: {reason}") from None
+    return model, geometry
+
+
+def _check_names(file: UrdfFile, model: Any, moving: Sequence[str]) -> None:
+    frames = [frame.name for frame in model.frames if frame.type == pin.FrameType.BODY]
+    joints = list(model.names)[1:]  # the first is the universe
+    for what, written, loaded in (("links", file.links, frames), ("joints", moving, joints)):
+        if sorted(written) != sorted(loaded):
+            problem = f"differ from those loaded, {sorted(loaded)}"
+            raise ModelError(problem, field=what, value=sorted(written))
+
+
+def _check_poses(file: UrdfFile, model: Any) -> None:
+    """Compare every link's pose at position zero and at one without symmetries."""
+    moving = [joint for joint in file.joints if joint.kind != "fixed" and joint.mimic is None]
+    data = model.createData()
+    for step in (0.0, 0.1):
+        positions = {joint.name: step * (k + 3) for k, joint in enumerate(moving)}
+        delta_q = np.zeros(model.nv)
+        for name, position in positions.items():
+            delta_q[model.joints[model.getJointId(name)].idx_v] = position
+        q = pin.integrate(model, pin.neutral(model), delta_q)
+        pin.framesForwardKinematics(model, data, q)
+        poses = link_poses(file.root, file.joints, positions)
+        for link, (R, t) in poses.items():
+            if not same_pose(data.oMf[body_frame(model, link)], R, t):
+                problem = "its joint's origin, axis or mimic was not loaded as written"
+                raise ModelError(problem, field=f"link[{link}]")
+
+
+def _check_inertias(file: UrdfFile, model: Any) -> None:
+    """Compare the spatial inertia of each rigid group, about the frame of its first link."""
+    for first, written in group_inertias(file).items():
+        joint = model.frames[body_frame(model, first)].parentJoint
+        loaded = model.inertias[joint].matrix()
+        if np.abs(written - loaded).max() > LOADED * np.abs(written).max():
+            problem = f"mass, centre or inertia was not loaded as written ({loaded[0, 0]:g} kg)"
+            raise ModelError(problem, field=f"link[{first}].inertial", value=float(written[0, 0]))

@@ -1,0 +1,115 @@
+"""Inertias of a URDF: an error where M_u needs them and they are no rigid body's, else a note.
+
+M_u is the only mass matrix of the model. A link is part of it where an un-actuated joint moves the
+link; there the inertia of all links that fixed joints weld together must be physically consistent:
+mass > 0, positive definite, principal moments with the triangle inequality. Elsewhere moments of
+inertia have no effect. A mass still has: gravity on actuated joints that are not compensated.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+import pinocchio as pin
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.urdf.urdf_file import Defect, FileLink, UrdfFile, inertia_defect
+from quasistatic_ref.model.urdf.urdf_tree import Pose, link_poses, rigid_groups
+from quasistatic_ref.step.arrays import Array
+
+
+def group_inertias(file: UrdfFile) -> dict[str, Array]:
+    """Spatial inertia (6, 6) of each rigid group as written, about the frame of its first link."""
+    group = rigid_groups(file.root, file.joints)
+    zero = {joint.name: 0.0 for joint in file.joints}
+    poses = {
+        name: pin.SE3(*pose) for name, pose in link_poses(file.root, file.joints, zero).items()
+    }
+    total = {first: np.zeros((6, 6)) for first in dict.fromkeys(group.values())}
+    for link, first in group.items():
+        inertia = _spatial_inertia(file.links[link])
+        # As a congruence, not through pinocchio's Inertia: that would divide by a mass of zero.
+        X = poses[first].actInv(poses[link]).toActionMatrixInverse()
+        total[first] += X.T @ inertia @ X
+    return total
+
+
+def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[str, ...]:
+    """Notes on inertias that no rigid body can have and that M_u does not need.
+
+    Parameters
+    ----------
+    file : UrdfFile
+    free : collection of str
+        The un-actuated joints, the base's name among them where it moves and is un-actuated.
+    base : str
+        Kind of the base, for messages.
+
+    Raises
+    ------
+    ModelError
+        If an un-actuated joint moves a group of links whose inertia no rigid body can have.
+    """
+    group, mover, notes = rigid_groups(file.root, file.joints), _movers(file, free, base), []
+    poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
+    for first in dict.fromkeys(group.values()):
+        links = [link for link in group if group[link] == first]
+        defects = [(link, file.links[link].defect) for link in links]
+        if mover[first] is not None:
+            whole = _whole(file, links, poses)
+            if not whole.mass > 0 and defects[0][1] is None:
+                problem = f"is missing, but {mover[first]} moves this link: it needs a mass"
+                raise ModelError(problem, field=f"link[{first}].inertial")
+            defect = inertia_defect(whole.inertia)
+            if defect is not None:
+                named = next(((link, d) for link, d in defects if d is not None), (first, defect))
+                link, (field, problem, value) = named
+                raise ModelError(problem, field=f"link[{link}].inertial.{field}", value=value)
+        notes += [
+            f"link[{link}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover[first])}"
+            for link, defect in defects
+            if defect
+        ]
+    return tuple(notes)
+
+
+def _accepted(defect: Defect, mover: str | None) -> str:
+    """Why a defect of a link's inertia is no error, and what it may change nevertheless."""
+    if mover is not None:
+        return "accepted, because the inertia of all links welded to it is that of a body"
+    accepted = "accepted, because no un-actuated joint moves this link"
+    lost = "its actuated joints carry no weight of it, also without gravity compensation"
+    return f"{accepted}; {lost}" if defect[0] == "mass" else accepted
+
+
+def _movers(file: UrdfFile, free: Collection[str], base: str) -> dict[str, str | None]:
+    """For every link, an un-actuated joint that moves it, in words, or None."""
+    root = next((name for name in free if not any(j.name == name for j in file.joints)), None)
+    mover: dict[str, str | None] = {file.root: f"the {base} base" if root else None}
+    for joint in file.joints:
+        by = joint.mimic.of if joint.mimic else joint.name
+        own = f"joint {joint.name!r}" if joint.kind != "fixed" and by in free else None
+        mover[joint.child] = own or mover[joint.parent]
+    return mover
+
+
+def _whole(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> FileLink:
+    """Links welded together as one, in the frame of the root link."""
+    parts = [(file.links[link], *poses[link]) for link in links if file.links[link].mass]
+    mass = sum(link.mass for link, _, _ in parts)
+    if not parts:
+        return FileLink("", 0.0, np.zeros(3), np.zeros((3, 3)), ())
+    centres = [R @ link.com + t for link, R, t in parts]
+    com = sum((link.mass * c for (link, _, _), c in zip(parts, centres, strict=True)), np.zeros(3))
+    com = com / mass
+    inertia = np.zeros((3, 3))
+    for (link, R, _), centre in zip(parts, centres, strict=True):
+        d = centre - com
+        inertia += R @ link.inertia @ R.T + link.mass * (d @ d * np.eye(3) - np.outer(d, d))
+    return FileLink("", mass, com, inertia, ())
+
+
+def _spatial_inertia(link: FileLink) -> Array:
+    """(6, 6) about the link's frame, linear part first."""
+    m, c = link.mass, pin.skew(link.com)
+    top, bottom = np.hstack([m * np.eye(3), -m * c]), np.hstack([m * c, link.inertia - m * c @ c])
+    return np.vstack([top, bottom])

@@ -1,0 +1,95 @@
+"""The collision shapes of a URDF as pinocchio loaded them, compared with what its file says."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import tostring
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
+from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
+from quasistatic_ref.model.urdf.urdf_xml import xml_root
+from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import LOADED
+
+
+def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
+    """What pinocchio is given: the file's text without what the model ignores in its links.
+
+    Visuals are left out, and so is <collision_checking>, by which pinocchio takes a shape for
+    another than the one written. The URI of a collision mesh is replaced by the file that
+    it means: pinocchio would read a relative path from the working folder, and follow any.
+
+    Raises
+    ------
+    ModelError
+        If a mesh is not to be found where it may be.
+    """
+    robot = xml_root(file.text)
+    for link in robot.findall("link"):
+        for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
+            link.remove(ignored)
+        for count, collision in enumerate(link.findall("collision")):
+            for mesh in collision.findall("geometry/mesh"):
+                with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
+                    path = mesh_path(mesh.get("filename", ""), file.path.parent, package_dirs)
+                mesh.set("filename", str(path))
+    return tostring(robot, encoding="unicode")
+
+
+def checked_shapes(
+    file: UrdfFile, model: Any, geometry: Any, links: Sequence[str], frames: Sequence[int]
+) -> tuple[tuple[PlacedShape, ...], tuple[str, ...]]:
+    """Every collision shape in the frame of its link, as loaded; and notes on its meshes.
+
+    Raises
+    ------
+    ModelError
+        If shapes are missing, or differ from what the file says.
+    """
+    shapes, notes = [], []
+    for number, (link, frame) in enumerate(zip(links, frames, strict=True)):
+        said = file.links[link].collisions
+        loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
+        where = f"link[{link}].collision"
+        if len(loaded) != len(said):
+            capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in said)
+            hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
+            problem = (
+                f"only {len(loaded)} of the shapes written were loaded, "
+                f"for the reason printed on standard error{hint}"
+            )
+            raise ModelError(problem, field=where, value=len(said))
+        for count, ((shape, R, t), given) in enumerate(zip(said, loaded, strict=True)):
+            placement = model.frames[frame].placement.actInv(given.placement)
+            same = same_pose(placement, R, t)
+            solid = _solid(shape, given, f"{where}[{count}]") if same else None
+            if solid is None:
+                problem = "was not loaded as written"
+                raise ModelError(problem, field=f"{where}[{count}]", value=shape)
+            name = f"{link}#{count}"
+            if isinstance(shape, FileMesh):
+                notes.append(hull_note(name, solid))
+            at = (placement.rotation, placement.translation)
+            shapes.append(PlacedShape(name, number, *at, solid))
+    return tuple(shapes), tuple(notes)
+
+
+def same_pose(placement: Any, R: Array, t: Array) -> bool:
+    """Whether pinocchio's placement is that of a file, (3, 3) and (3,) [m], but for rounding."""
+    off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
+    return not (off or np.abs(placement.rotation - R).max() > LOADED)
+
+
+def _solid(shape: Shape | FileMesh, given: Any, where: str) -> Any:
+    """The shape, or None where another one was loaded."""
+    if not isinstance(shape, FileMesh):
+        same = (given.meshScale == 1).all() and given.geometry == shape.coal
+        return shape if same else None
+    if not hasattr(given.geometry, "tri_indices") or (given.meshScale != shape.scale).any():
+        return None
+    with about_field(f"{where}.mesh.vertices"):
+        return hull_of_loaded(given.geometry)

@@ -1,0 +1,152 @@
+"""The tree of links and joints in a URDF file: one root, one parent each, mimics that can be."""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.step.arrays import Array
+
+Pose = tuple[Array, Array]
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """A joint whose position is multiplier times that of joint `of`, plus offset [m or rad]."""
+
+    of: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True, eq=False)
+class FileJoint:
+    """A joint as written.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        ``"fixed"``, ``"revolute"``, ``"continuous"`` or ``"prismatic"``.
+    parent, child : str
+        Names of links.
+    R, t : ndarray, shapes (3, 3) and (3,)
+        Frame of the child in that of the parent at position zero [-, m].
+    axis : ndarray, shape (3,)
+        Unit vector in the child's frame.
+    mimic : Mimic or None
+    """
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    R: Array
+    t: Array
+    axis: Array
+    mimic: Mimic | None
+
+
+def checked_tree(
+    links: Collection[str], joints: Sequence[FileJoint]
+) -> tuple[str, tuple[FileJoint, ...]]:
+    """Root link, and the joints sorted so that parents come before children.
+
+    Raises
+    ------
+    ModelError
+        If names repeat or dangle, a link has two parents, the links are not one tree, or a
+        joint mimics what it cannot.
+    """
+    named: dict[str, FileJoint] = {}
+    parent_of: dict[str, FileJoint] = {}
+    for joint in joints:
+        where = f"joint[{joint.name}]"
+        if joint.name in named:
+            raise ModelError("is the name of two joints", field=where)
+        for field, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in links:
+                problem = f"is no link{suggestion(link, links)}"
+                raise ModelError(problem, field=f"{where}.{field}", value=link)
+        if joint.child in parent_of:
+            problem = f"is already the child of joint {parent_of[joint.child].name!r}"
+            raise ModelError(problem, field=f"{where}.child", value=joint.child)
+        named[joint.name] = parent_of[joint.child] = joint
+    roots = [link for link in links if link not in parent_of]
+    if len(roots) != 1:
+        problem = "there must be exactly one link that is no joint's child"
+        raise ModelError(problem, field="root link", value=roots)
+    children: dict[str, list[FileJoint]] = {}
+    for joint in joints:
+        children.setdefault(joint.parent, []).append(joint)
+    ordered, front = [], [roots[0]]
+    while front:
+        here = children.get(front.pop(), [])
+        ordered += here
+        front += [joint.child for joint in here]
+    if len(ordered) != len(joints):
+        loose = sorted(set(named) - {joint.name for joint in ordered})
+        raise ModelError(f"joints not reached from {roots[0]!r}", field="tree", value=loose)
+    for joint in joints:
+        _check_mimic(joint, named)
+    return roots[0], tuple(ordered)
+
+
+def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
+    if joint.mimic is None:
+        return
+    field, of = f"joint[{joint.name}].mimic", joint.mimic.of
+    if of not in named:
+        raise ModelError(f"is no joint{suggestion(of, named)}", field=field, value=of)
+    leader = named[of]
+    if leader.kind == "fixed" or leader.mimic is not None:
+        problem = "must be a joint that moves by itself, neither fixed nor a mimic"
+        raise ModelError(problem, field=field, value=of)
+    if (joint.kind == "continuous") != (leader.kind == "continuous"):
+        problem = "a continuous joint can only mimic, and be mimicked by, a continuous one"
+        raise ModelError(problem, field=field, value=of)
+
+
+def link_poses(
+    root: str, joints: Sequence[FileJoint], positions: Mapping[str, float]
+) -> dict[str, Pose]:
+    """Pose (R, t) of every link in the frame of the root link, from the file alone.
+
+    Parameters
+    ----------
+    root : str
+    joints : sequence of FileJoint
+        Parents before children.
+    positions : mapping of str to float
+        Position of every moving joint that is no mimic [m or rad].
+    """
+    poses: dict[str, Pose] = {root: (np.eye(3), np.zeros(3))}
+    for joint in joints:
+        R, t = poses[joint.parent]
+        R, t = R @ joint.R, R @ joint.t + t
+        if joint.kind != "fixed":
+            mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
+            position = mimic.multiplier * positions[mimic.of] + mimic.offset
+            if joint.kind == "prismatic":
+                t = t + R @ joint.axis * position
+            else:
+                R = R @ turn(joint.axis, position)
+        poses[joint.child] = R, t
+    return poses
+
+
+def turn(axis: Array, angle: float) -> Array:
+    """Rotation (3, 3) by an angle [rad] about a unit axis (3,), by Rodrigues' formula."""
+    cross = np.cross(axis, np.eye(3)).T  # [axis x]
+    R: Array = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return R
+
+
+def rigid_groups(root: str, joints: Sequence[FileJoint]) -> dict[str, str]:
+    """For every link, the first link of the group that fixed joints weld it to."""
+    group = {root: root}
+    for joint in joints:
+        group[joint.child] = group[joint.parent] if joint.kind == "fixed" else joint.child
+    return group

@@ -1,0 +1,184 @@
+"""The XML of a URDF file: parsed without declarations, read without silent defaults.
+
+Every reader here refuses what urdfdom would pass over: a repeated element, a misspelt
+attribute, a number with a tail.
+"""
+
+import difflib
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import LARGE
+
+DEEPEST = 100
+"""Most elements in one another; other readers of XML recurse, and end the process."""
+
+
+def xml_root(text: str) -> Element:
+    """Root element of a document without a DOCTYPE.
+
+    Raises
+    ------
+    ModelError
+        If the text is not well-formed, is nested without end, or declares a document type:
+        entities of its own are never needed in a model, and can expand without bound.
+    """
+    builder = TreeBuilder()
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+
+    def refusal(*_: object) -> None:
+        problem = "a DOCTYPE is not allowed: no entity is ever expanded"
+        raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
+
+    parser.StartDoctypeDeclHandler = refusal
+    depth = 0
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > DEEPEST:
+            problem = f"is nested deeper than {DEEPEST} elements"
+            raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
+        builder.start(name, attributes)
+
+    def end(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(name)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = builder.data
+    try:
+        parser.Parse(text, True)
+    except expat.ExpatError as error:
+        problem = f"is not well-formed XML: {expat.ErrorString(error.code)}"
+        raise ModelError(problem, field=f"line {error.lineno}") from None
+    return builder.close()
+
+
+@dataclass(frozen=True)
+class Tag:
+    """An element, with what it is called in messages.
+
+    Parameters
+    ----------
+    element : Element
+    where : str
+        E.g. ``link[base].inertial``.
+    """
+
+    element: Element
+    where: str
+
+    def text(self, name: str) -> str:
+        """Text of an attribute; ModelError unless it is there and not blank."""
+        value = self.element.get(name)
+        if value is None or not value.strip():
+            raise ModelError("is missing", field=f"{self.where}.{name}")
+        return value
+
+    def numbers(
+        self, name: str, count: int, default: float | None = None, most: float = LARGE
+    ) -> Array:
+        """Finite numbers in one attribute, shape (count,).
+
+        Parameters
+        ----------
+        name : str
+            The attribute.
+        count : int
+            How many numbers it must hold.
+        default : float, optional
+            Each number, where the attribute is missing; without it that is an error [its unit].
+        most : float
+            Largest absolute value: beyond it squares and products overflow [its unit].
+
+        Raises
+        ------
+        ModelError
+            If there are others, or they are no such numbers.
+        """
+        if default is not None and name not in self.element.attrib:
+            return np.full(count, default)
+        text, field = self.text(name), f"{self.where}.{name}"
+        if len(text.split()) != count:
+            problem = f"must be {count} number{'s' if count > 1 else ''}"
+            raise ModelError(problem, field=field, value=text)
+        with about_field(field):
+            values = np.array([decimal(word) for word in text.split()])
+        if np.abs(values).max() > most:
+            raise ModelError(f"must be at most {most:g}", field=field, value=text)
+        return values
+
+    def number(self, name: str, default: float | None = None, most: float = LARGE) -> float:
+        """The one number of an attribute [its unit], as :meth:`numbers` reads it.
+
+        Parameters
+        ----------
+        name : str
+        default : float, optional
+            Where the attribute is missing [its unit].
+        most : float
+            Largest magnitude [its unit].
+        """
+        return float(self.numbers(name, 1, default, most)[0])
+
+    def only(self, *known: str) -> None:
+        """Refuse an attribute that nothing would read, with a ModelError."""
+        for name in self.element.attrib:
+            if name not in known:
+                field = f"{self.where}.{name}"
+                raise ModelError(f"is unknown{suggestion(name, known)}", field=field)
+
+    def perhaps(self, tag: str, *attributes: str) -> "Tag | None":
+        """The child of that name, with no other `attributes` where some are given; or None.
+
+        Two are a ModelError, since urdfdom reads the first only.
+        """
+        found, where = self.element.findall(tag), f"{self.where}.{tag}"
+        if len(found) > 1:
+            raise ModelError("is given more than once", field=where, value=len(found))
+        child = Tag(found[0], where) if found else None
+        if child is not None and attributes:
+            child.only(*attributes)
+        return child
+
+    def child(self, tag: str, *attributes: str) -> "Tag":
+        """The only child of that name; a missing one is a ModelError."""
+        found = self.perhaps(tag, *attributes)
+        if found is None:
+            raise ModelError("is missing", field=f"{self.where}.{tag}")
+        return found
+
+    def ignored(self, *read: str) -> list[str]:
+        """Names of the children that are not read; ModelError if one looks like a misprint."""
+        ignored = []
+        for tag in (child.tag for child in self.element if child.tag not in read):
+            name = f"{self.where}.{tag}"
+            if tag.startswith("xacro:"):
+                raise ModelError("is a macro: expand the file with xacro first", field=name)
+            near = difflib.get_close_matches(tag, read, n=1, cutoff=0.8)
+            if near:
+                raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
+            ignored.append(name)
+        return list(dict.fromkeys(ignored))
+
+    def frame(self) -> tuple[Array, Array]:
+        """Rotation (3, 3) and origin (3,) [m] of the child ``origin``; the identity without one.
+
+        R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent.
+        """
+        origin = self.perhaps("origin", "xyz", "rpy")
+        if origin is None:
+            return np.eye(3), np.zeros(3)
+        rpy = origin.numbers("rpy", 3, default=0.0)
+        return rotation(rpy), origin.numbers("xyz", 3, default=0.0)

@@ -1,0 +1,1 @@
+"""Derivatives of a step through contact, smoothed steps, and steps in JAX."""

@@ -1,0 +1,1 @@
+"""Derivatives of closest points, and the kinks at which there are none."""

@@ -1,0 +1,191 @@
+"""How all contacts of a step change with q, and where they have kinks."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import nearest_of_solids
+from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.contact.witness_rates import Rates, Sides, witness_rates
+from quasistatic_ref.optional.derivatives.model.motion_rates import crossed
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
+
+
+class ContactRates(NamedTuple):
+    """Derivatives by n_v coordinates of what n_c contacts are.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n_c, n_v)
+    alpha, beta, n : ndarray, shape (n_c, 3, n_v)
+    unique : ndarray of bool, shape (n_c,)
+        Whether the closest points are; where they are not, the others mean nothing.
+    level_rim : ndarray of bool, shape (n_c,)
+        Whether the contact is on a rim of which no point is the nearest.
+    blurred : ndarray of bool, shape (n_c,)
+        Whether point or normal themselves are known to half of their digits only.
+    slides : ndarray of bool, shape (n_c,)
+        Whether its points may be anywhere along a line, where an edge ends among others, and it
+        does not matter where.
+    """
+
+    phi: Array
+    alpha: Array
+    beta: Array
+    n: Array
+    unique: Mask
+    level_rim: Mask
+    blurred: Mask
+    slides: Mask
+
+
+def contact_rates(
+    couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array
+) -> ContactRates:
+    """The derivatives of all contacts.
+
+    Parameters
+    ----------
+    couples : sequence of Couple, length n_c
+    tangents : (ndarray, ndarray), each of shape (n_c, 3)
+        d1 and d2 [-].
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+    """
+    frames = np.stack(tangents, axis=1)
+    slides = np.zeros((2, len(couples), 3, J.shape[2]))
+    level = np.zeros(len(couples), dtype=bool)
+    on_rims = [j for j, couple in enumerate(couples) if couple.rim is not None]
+    for j in on_rims:
+        slide = _rim_slide(couples[j], J)
+        level[j] = slide is None
+        slides[_rim_side(couples[j]), j] = 0.0 if slide is None else slide
+    features = [couple.features for couple in couples]
+    slid = np.zeros(len(couples), dtype=bool)
+    for j, couple in enumerate(couples):
+        if any(len(f.ends) for f in couple.features):
+            merged = merged_features(couple)
+            several = couple_rates([couple], frames[j : j + 1], J, None, [merged])
+            slid[j] = several.unique[0] and _dependent(merged)
+            features[j] = merged if slid[j] else features[j]
+    found = couple_rates(couples, frames, J, slides, features)
+    level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
+    return ContactRates(
+        found.phi,
+        found.alpha,
+        found.beta,
+        found.n,
+        found.unique,
+        level,
+        found.blurred | level_too,
+        slid,
+    )
+
+
+def nearly_level(couple: Couple) -> bool:
+    """Whether a contact is on a rim that is level but for more than rounding."""
+    for body, end in zip(couple.bodies, couple.points, strict=True):
+        radius = body.shape.rim_radius
+        if radius is not None:
+            x, n = body.R.T @ (end - body.t), body.R.T @ couple.n
+            on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * radius
+            if on_rim and SPLIT < np.hypot(*n[:2]) <= LEVEL:
+                return True
+    return False
+
+
+def merged_features(couple: Couple) -> tuple[Feature, Feature]:
+    """The features of a couple with the directions in which they end as free ones."""
+    found = []
+    for f in couple.features:
+        if len(f.ends):
+            _, s, V = np.linalg.svd(np.concatenate([f.free, f.ends]))
+            f = Feature(f.bend, V[: len(s)][s > ON_RIM][:2])
+        found.append(f)
+    return found[0], found[1]
+
+
+def _dependent(features: tuple[Feature, Feature]) -> bool:
+    """Whether both have a straight direction in common."""
+    straight = np.concatenate([f.free for f in features])
+    return len(straight) > 2 or bool(np.linalg.svd(straight)[1].min(initial=1.0) <= UNIQUE)
+
+
+def couple_rates(
+    couples: Sequence[Couple],
+    frames: Array,
+    J: Array,
+    slides: Array | None = None,
+    features: Sequence[tuple[Feature, Feature]] | None = None,
+) -> Rates:
+    """The derivatives of closest points of some couples.
+
+    Parameters
+    ----------
+    couples : sequence of Couple, length N
+    frames : ndarray, shape (N, 2, 3)
+        Two unit vectors across each normal [-].
+    J : ndarray, shape (L, 6, n_v)
+        As above [m, rad].
+    slides : ndarray, shape (2, N, 3, n_v), optional
+        How corners move on their bodies [m].
+    features : sequence of (Feature, Feature), optional
+        Others than those of the couples.
+    """
+    features = [c.features for c in couples] if features is None else features
+    sides, far = [], np.zeros(len(couples))
+    for side in (0, 1):
+        links = [(c.pair.alpha, c.pair.beta)[side].link for c in couples]
+        nu, omega = J[links][:, :3], J[links][:, 3:]
+        at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
+        far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
+        v = nu + crossed(omega, at)
+        v = v if slides is None else v + slides[side]
+        sides.append(Sides([own[side] for own in features], v, omega))
+    phi, size = np.array([c.phi for c in couples]), np.array([c.size for c in couples])
+    size = np.maximum(size, far)
+    n = np.array([c.n for c in couples]).reshape(-1, 3)
+    return witness_rates(phi, n, frames, sides[0], sides[1], size)
+
+
+def _rim_side(couple: Couple) -> int:
+    assert couple.rim is not None
+    return couple.rim.side
+
+
+def _rim_slide(couple: Couple, J: Array) -> Array | None:
+    """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
+    rim, (a, b), pair = couple.rim, couple.bodies, couple.pair
+    assert rim is not None
+    one = nearest_of_solids(pair, a, b)
+    nearest, n = closest_pair(pair, a, b, one), one.n[0]
+    across = np.linalg.svd(one.n)[2][1:]
+    rates = couple_rates([nearest], across[None], J)
+    if not rates.unique[0] or any(len(f.ends) for f in nearest.features):
+        return None
+    link = (pair.alpha, pair.beta)[rim.side].link
+    turn = rates.n[0] - np.cross(J[link, 3:], n[:, None], axis=0)
+    sign = 1.0 if rim.side == 0 else -1.0
+    return rim_velocity(rim, couple.bodies[rim.side], sign * n, sign * turn)
+
+
+def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:
+    """Derivatives of the tangents d1 and d2, each of shape (n_c, 3, n_v).
+
+    Parameters
+    ----------
+    n : ndarray, shape (n_c, 3)
+    d_n : ndarray, shape (n_c, 3, n_v)
+        Derivatives of n [per m or rad].
+    """
+    axis = np.eye(3)[np.abs(n).argmin(axis=1)]
+    along = np.vecdot(n, axis)[:, None, None]
+    d_along = np.einsum("ja,jak->jk", axis, d_n)[:, None]
+    length = np.sqrt(1 - along * along)
+    d1 = (axis[:, :, None] - along * n[:, :, None]) / length
+    d_d1 = -(d_along * n[:, :, None] + along * d_n) / length + d1 * (along * d_along) / length**2
+    d_d2 = crossed(d_n, d1) + crossed(n[:, :, None], d_d1)
+    return d_d1, d_d2

@@ -1,0 +1,115 @@
+"""Whether a body in penetration has two ways out that are equally short."""
+
+import numpy as np
+
+from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.contact.solids.polytope_pair import gaps_between
+from quasistatic_ref.contact.solids.settle import settled
+from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
+from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    Shape,
+)
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import TIED
+
+
+def depth_tie(couple: Couple) -> bool:
+    """Whether the normal of a contact in penetration is one of several.
+
+    Of two curved solids that meet, other directions are tried as far as they are known: their gaps
+    bound the ways out from below.
+
+    Parameters
+    ----------
+    couple : Couple
+    """
+    a, b = couple.bodies
+    if couple.centre is not None:
+        other, centre, _ = couple.centre
+        solid = couple.bodies[other]
+        return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.size)
+    if couple.phi > 0 or isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
+        if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
+            return _axes_cross(couple)
+        return False
+    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
+        return _axes_cross(couple)
+    P, Q = polytope(a.shape), polytope(b.shape)
+    if P is None or Q is None:
+        return _rival(a, b, couple)
+    every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
+    core = couple.phi + P.margin + Q.margin
+    level = every >= core - TIED * couple.size
+    return core < 0 and _differ(normals[level], a.R.T @ couple.n)
+
+
+def _axes_cross(couple: Couple) -> bool:
+    radii = sum(body.shape.radius for body in couple.bodies if isinstance(body.shape, Capsule))
+    return bool(abs(couple.phi + radii) <= TIED * couple.size)
+
+
+def _rival(a: Placed, b: Placed, couple: Couple) -> bool:
+    size = couple.size
+    ways = rival_directions(a, b, couple.n, couple.phi, size)
+    if not ways:
+        return False
+    every = ways + [w.n for way in ways for w in settled(a, b, Witness(0.0, a.t, b.t, way))]
+    level = gaps(a, b, np.array(every)) >= couple.phi - TIED * size
+    return _differ(np.array(every)[level], couple.n)
+
+
+def _differ(normals: Array, n: Array) -> bool:
+    return bool((np.abs(normals - n).max(axis=1, initial=0.0) > np.sqrt(TIED)).any())
+
+
+def _inside_tie(shape: Shape, p: Array, size: float) -> bool:
+    """Whether a point p (3,) [m] inside of a shape, in its frame, has several nearest points."""
+    near = TIED * size
+    match shape:
+        case Box():
+            excess = np.sort(np.concatenate([p - shape.half_extents, -p - shape.half_extents]))
+            return bool(excess[-1] < 0 and excess[-1] - excess[-2] <= near)
+        case Cylinder():
+            side = np.hypot(p[0], p[1]) - shape.radius
+            caps = np.array([p[2], -p[2]]) - shape.half_length
+            excess = np.sort([side, *caps])
+            return bool(excess[-1] < 0 and excess[-1] - excess[-2] <= near)
+        case Cone():
+            slant = np.hypot(shape.radius, 2 * shape.half_length)
+            r = np.hypot(p[0], p[1])
+            side = (
+                (r - shape.radius) * 2 * shape.half_length
+                + (p[2] + shape.half_length) * shape.radius
+            ) / slant
+            base = -shape.half_length - p[2]
+            return bool(max(side, base) < 0 and abs(side - base) <= near)
+        case Ellipsoid():
+            return _on_medial_plane(shape, p, near)
+        case ConvexMesh():
+            flat = polytope(shape)
+            assert flat is not None
+            level = np.sort(flat.normals @ p - flat.offsets)
+            return bool(level[-1] < 0 and level[-1] - level[-2] <= near)
+        case _:
+            return False
+
+
+def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:
+    """Whether p is on the disc from which the surface is as far above as below."""
+    e, least = shape.half_axes, int(shape.half_axes.argmin())
+    if abs(p[least]) > near or np.sum((p / e) ** 2) >= 1:
+        return False
+    rest = [i for i in range(3) if i != least]
+    spread = e[rest] ** 2 - e[least] ** 2
+    if (spread <= 0).any():
+        return bool((np.abs(p) <= near).all())
+    return bool(np.sum((e[rest] * p[rest] / spread) ** 2) < 1)

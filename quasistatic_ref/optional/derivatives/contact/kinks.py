@@ -1,0 +1,104 @@
+"""Where the contacts of a step have no derivative: kinks and jumps of their geometry, by name."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.optional.derivatives.contact.contact_rates import (
+    ContactRates,
+    couple_rates,
+    merged_features,
+)
+from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import TIED, UNIQUE
+
+
+class Kink(NamedTuple):
+    """Something about one contact that has no derivative.
+
+    Parameters
+    ----------
+    contact : int
+    kind : str
+        A name of :mod:`~quasistatic_ref.optional.derivatives.step.reason`.
+    says : str
+        What it is, after the contact's name.
+    jumps : bool
+        Whether points, normal or tangents jump there, rather than turn a corner.
+    blurs : bool
+        Whether float64 does not know the contact well enough for any derivative.
+    """
+
+    contact: int
+    kind: str
+    says: str
+    jumps: bool
+    blurs: bool = False
+
+
+def kinks(
+    couples: Sequence[Couple], rates: ContactRates, frames: Array, J: Array, quarters: bool
+) -> Iterator[Kink]:
+    """The kinks of all contacts, whether they touch or not.
+
+    Parameters
+    ----------
+    couples : sequence of Couple, length n_c
+    rates : ContactRates
+    frames : ndarray, shape (n_c, 2, 3)
+        d1 and d2 [-].
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+    quarters : bool
+        Whether the friction cone is the same after a quarter turn about n.
+    """
+    for j, couple in enumerate(couples):
+        blurs = bool(rates.blurred[j])
+        if rates.level_rim[j]:
+            says = "is on a rim that is level: no point of it is lowest"
+            yield Kink(j, reason.RIM, says, True, blurs)
+        if depth_tie(couple):
+            yield Kink(j, reason.SURFACES, "is as deep below another surface", True)
+        if not rates.unique[j]:
+            yield _not_unique(j, couple)._replace(blurs=blurs)
+        elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
+            yield _at_an_end(j, couple, frames[j], J)._replace(blurs=blurs)
+        if _switches(couple.n, rates.n[j], quarters):
+            says = "has two axes that are as far from its normal: its tangents jump"
+            yield Kink(j, reason.TANGENTS, says, True)
+
+
+def _not_unique(j: int, couple: Couple) -> Kink:
+    straight = np.concatenate([f.free for f in couple.features])
+    independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
+    if len(straight) <= 2 and independent:
+        if abs(couple.phi) <= UNIQUE * couple.reach:
+            return Kink(j, reason.NO_NORMAL, "touches where neither surface has a normal", True)
+        return Kink(j, reason.MANY, "is at a surface's centre of curvature", True)
+    return Kink(j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True)
+
+
+def _at_an_end(j: int, couple: Couple, frame: Array, J: Array) -> Kink:
+    """A point on the rim of a feature: a kink, or a jump if its neighbour has no unique point."""
+    if not couple_rates([couple], frame[None], J, features=[merged_features(couple)]).unique[0]:
+        return Kink(
+            j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True
+        )
+    return Kink(j, reason.FEATURE, "is where a vertex, an edge or a face of a shape ends", False)
+
+
+def _switches(n: Array, d_n: Array, quarters: bool) -> bool:
+    """Whether another axis of the world is as far from n, and n moves so that it matters.
+
+    Where n is along an axis the frames of the two others are quarter turns of each other.
+    """
+    size = np.abs(n)
+    order = np.argsort(size, kind="stable")
+    tied = [k for k in order[1:] if size[k] - size[order[0]] <= TIED]
+    if not tied or (quarters and size[order[1]] <= TIED and len(tied) == 1):
+        return False
+    return bool(np.abs(d_n[[order[0], *tied]]).max(initial=0.0) > TIED)

@@ -1,0 +1,54 @@
+"""Whether a closest pair that is left out for its corners would be kept after any motion.
+
+Of two solids the candidates are the corners and the closest pair, which is left out where it is one
+of them, or where as many corners are as near. Where it lies on parallel faces that overlap in more
+than corners, or where its feature ends, a motion makes another point of it: the contacts jump.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints, nearest_of_solids, with_corners
+from quasistatic_ref.contact.solids.faces import face
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
+from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import REPEATED
+
+
+def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple[str, str] | None:
+    """Kind and sentence of the jump, for the contacts of one pair; None if there is none.
+
+    Parameters
+    ----------
+    kept : sequence of Couple
+    points : ClosestPoints
+        The same.
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+    """
+    pair, (a, b) = kept[0].pair, kept[0].bodies
+    if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
+        return None
+    one = nearest_of_solids(pair, a, b)
+    nearest = closest_pair(pair, a, b, one)
+    across = np.linalg.svd(one.n)[2][1:]
+    unique = couple_rates([nearest], across[None], J).unique[0]
+    ends = any(len(f.ends) for f in nearest.features)
+    if unique and not ends:
+        return None
+    merged = couple_rates([nearest], across[None], J, features=[merged_features(nearest)])
+    if merged.unique[0]:
+        return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
+    every = with_corners(a, b, one)
+    level = every.phi <= one.phi + REPEATED
+    first = a.shape.corner_count
+    counts = int(level[:first].sum()), int(level[first:-1].sum())
+    for body, way, count in ((a, one.n[0], counts[0]), (b, -one.n[0], counts[1])):
+        whole = not isinstance(body.shape, HalfSpace | Sphere)
+        if whole and count >= len(face(body, way).corners):
+            return None  # all of the smaller face lies on the larger one
+    return reason.MANY, "has parallel surfaces that overlap in more than corners"

@@ -1,0 +1,161 @@
+r"""How closest points, distance and normal of two bodies change as the bodies move: (R29).
+
+The bodies' points at alpha and beta move by :math:`v_\alpha, v_\beta` and the bodies turn by
+:math:`\omega_\alpha, \omega_\beta`. On its body a closest point moves by p, and its outward normal
+turns by r; both are related by the body's
+:class:`~quasistatic_ref.optional.derivatives.contact.features.Feature`. With
+:math:`r_\alpha = dn - \omega_\alpha\times n` and :math:`r_\beta = -(dn - \omega_\beta\times n)`,
+the condition :math:`\beta - \alpha = \phi n` gives
+
+.. math:: (\phi + D_\alpha + D_\beta)\,dn + F_\alpha z_\alpha - F_\beta z_\beta
+   = v_\beta - v_\alpha + D_\alpha(\omega_\alpha\times n) + D_\beta(\omega_\beta\times n) , \qquad
+   F_\alpha^T dn = F_\alpha^T(\omega_\alpha\times n),\;
+   F_\beta^T dn = F_\beta^T(\omega_\beta\times n)
+
+(of a rim, plus :math:`z_\alpha` or minus :math:`z_\beta` times its curvature) across n, and along n
+:math:`d\phi = n\cdot(v_\beta - v_\alpha)`. The matrix is singular where the closest points are not
+unique, and at a distance of zero where neither surface has a normal. Points that slide along a
+common straight line do no harm if the bodies cannot turn out of it: the equations are then
+consistent, and no row depends on where along the line the points are.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.model.motion_rates import crossed
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
+
+
+class Rates(NamedTuple):
+    """Derivatives by n_v coordinates of the closest points of N pairs.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N, n_v)
+    alpha, beta, n : ndarray, shape (N, 3, n_v)
+    unique : ndarray of bool, shape (N,)
+        Whether there are such derivatives.
+    blurred : ndarray of bool, shape (N,)
+        Whether not, and the points or normals themselves have lost half of their digits.
+    """
+
+    phi: Array
+    alpha: Array
+    beta: Array
+    n: Array
+    unique: Mask
+    blurred: Mask
+
+
+class Sides(NamedTuple):
+    """One side of N pairs.
+
+    Parameters
+    ----------
+    features : list of Feature
+        In the world frame.
+    v : ndarray, shape (N, 3, n_v)
+        Velocity of the point that is the closest one now, on its body or with a corner [m].
+    omega : ndarray, shape (N, 3, n_v)
+        Angular velocity of the body [rad].
+    """
+
+    features: list[Feature]
+    v: Array
+    omega: Array
+
+
+def witness_rates(
+    phi: Array, n: Array, frames: Array, alpha: Sides, beta: Sides, size: Array
+) -> Rates:
+    """The derivatives of all pairs at once.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N,)
+    n : ndarray, shape (N, 3)
+    frames : ndarray, shape (N, 2, 3)
+        Two unit vectors across each n [-].
+    alpha, beta : Sides
+    size : ndarray, shape (N,)
+        About how large the bodies are [m]: what a singular matrix is measured by.
+    """
+    count = len(phi)
+    turn = [crossed(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
+    bends = [np.array([f.bend for f in side.features]).reshape(-1, 3, 3) for side in (alpha, beta)]
+    free = [_padded(side.features) for side in (alpha, beta)]
+    curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
+    matrix, right = _system(phi, frames, bends, free, curved, turn, beta.v - alpha.v, size)
+    least = np.linalg.svd(matrix, compute_uv=False)[:, -1]
+    good = least > UNIQUE
+    turns = beta.omega - alpha.omega
+    solutions = {
+        int(j): _sliding(matrix[j], right[j], free[0][j], turns[j]) for j in np.flatnonzero(~good)
+    }
+    matrix[~good] = np.eye(6)
+    solved = np.linalg.solve(matrix, right)
+    for j, solution in solutions.items():
+        if solution is not None:
+            solved[j], good[j] = solution, True
+    dn = frames.transpose(0, 2, 1) @ solved[:, :2]
+    moved = []
+    for side, D, F, w, z, sign in zip(
+        (alpha, beta), bends, free, turn, (solved[:, 2:4], solved[:, 4:]), (1, -1), strict=True
+    ):
+        slide = F.transpose(0, 2, 1) @ z * size[:, None, None]
+        moved.append(side.v + sign * (D @ (dn - w)) + slide)
+    d_phi = np.einsum("ja,jak->jk", n, beta.v - alpha.v)
+    assert len(good) == count
+    return Rates(d_phi, moved[0], moved[1], dn, good, ~good & (least > SPLIT))
+
+
+def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:
+    """A solution of singular equations, (6, n_v), where it does not matter which; else None."""
+    U, s, V = np.linalg.svd(matrix)
+    rank = int(np.count_nonzero(s > UNIQUE))
+    slides, across = V[rank:], U[:, rank:].T
+    if np.abs(slides[:, :2]).max() > CONSISTENT:
+        return None  # the normal itself is not determined
+    if np.abs(across @ right).max(initial=0.0) > CONSISTENT * max(1.0, float(np.abs(right).max())):
+        return None
+    for way in slides[:, 2:4] @ free:
+        if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
+            return None
+    return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))
+
+
+def _system(
+    phi: Array,
+    frames: Array,
+    bends: list[Array],
+    free: list[Array],
+    curved: list[Array],
+    turn: list[Array],
+    apart: Array,
+    size: Array,
+) -> tuple[Array, Array]:
+    """The matrices (N, 6, 6) [-] and right sides (N, 6, n_v), lengths in units of `size`."""
+    s, across = size[:, None, None], frames.transpose(0, 2, 1)
+    matrix, right = np.zeros((len(phi), 6, 6)), np.zeros((len(phi), 6, apart.shape[2]))
+    matrix[:, :2, :2] = frames @ ((bends[0] + bends[1]) / s) @ across
+    matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
+    right[:, :2] = frames @ (apart + bends[0] @ turn[0] + bends[1] @ turn[1]) / s
+    for F, k, w, first, sign in zip(free, curved, turn, (2, 4), (1, -1), strict=True):
+        own, at = F @ across, slice(first, first + 2)
+        matrix[:, :2, at], matrix[:, at, :2] = sign * own.transpose(0, 2, 1), own
+        matrix[:, at, at] = np.eye(2) * (np.abs(F).max(axis=2) == 0)[:, :, None]
+        matrix[:, first, first] -= sign * k * size
+        right[:, at] = F @ w
+    return matrix, right
+
+
+def _padded(features: list[Feature]) -> Array:
+    """The free directions of features, or that of a rim, (N, 2, 3), filled up by zeros."""
+    padded = np.zeros((len(features), 2, 3))
+    for own, f in zip(padded, features, strict=True):
+        own[: len(f.free)] = f.free
+        own[: len(f.arc)] = f.arc
+    return padded

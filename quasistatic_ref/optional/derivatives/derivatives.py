@@ -1,0 +1,121 @@
+"""The derivatives of a step: of the map q+ = F(q, q_bar_a, tau, parameters).
+
+In tangent coordinates on both sides: column j of dq_dq is the derivative at eps = 0 of
+F(q (+) eps e_j) (-) F(q). The formula is exact, and evaluated in float64 from the exact optimum and
+its working set. docs/derivatives.md says what the numbers mean, how right they are, and where
+there are none.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.derivatives.gradient import Derivatives, OneSided, combined, directed
+from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons, out_of_reach
+from quasistatic_ref.optional.derivatives.program_reasons import (
+    forbidden,
+    row_reasons,
+    target_reasons,
+)
+from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
+from quasistatic_ref.optional.derivatives.step.touching import touching_rows
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array
+
+__all__ = ["Derivatives", "derivatives"]
+
+
+def derivatives(
+    simulator: Simulator,
+    q: Array,
+    q_bar_a: Array,
+    force: Array | float = 0.0,
+    towards: Mapping[str, Array | float] | None = None,
+) -> Derivatives:
+    """The derivatives of the step that a simulator would take.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        Of a polyhedral cone, without an extension.
+    q : ndarray, shape (n_q,)
+    q_bar_a : ndarray, shape (n_q_a,)
+    force : ndarray, shape (n_v,), optional
+        External generalised force in addition to gravity, which does not depend on q [N, N m].
+    towards : mapping, optional
+        A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
+        [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
+        derivatives are then those next to the kink, on the side to which it points.
+
+    Returns
+    -------
+    Derivatives
+
+    Raises
+    ------
+    InputError
+        If the cone is no polyhedron, the simulator has an extension, or a name or a shape of the
+        direction is wrong.
+    StepNotSolved
+        As :meth:`~quasistatic_ref.simulate.simulator.Simulator.step` does.
+    """
+    check_derivable(simulator)
+    q = np.asarray(q, dtype=np.float64)
+    result = _certified(simulator, q, q_bar_a, force)
+    rates = StepRates(simulator, q, result)
+    touching = touching_rows(result.step, result.solution, rates.far)
+    equations = Equations(touching)
+    if towards is not None:
+        widths = {name: stop - start for name, (start, stop) in rates.places.items()}
+        one = combined(rates.data, directed(widths, towards, "towards"))
+        touching = equations.beyond(one)
+        equations = Equations(touching)
+    found = equations.rates(rates.data)
+
+    safe = out_of_reach(result, rates.couples, rates.motion.J)
+    reasons = [
+        *geometry_reasons(simulator, result, rates, touching, safe),
+        *target_reasons(simulator, result.step.delta_q_bar_a),
+        *row_reasons(simulator, result, touching, found, rates.places),
+    ]
+    columns = rates.onward @ found.x
+    columns[:, : len(columns)] += rates.carried
+    pairs = [pair.name for pair in simulator.pairs]
+    columns[:, forbidden(found, reasons, rates.places, pairs)] = np.nan
+    parts = OneSided(equations.along, rates.data, rates.carried, rates.onward)
+    return Derivatives(
+        **rates.shaped(columns),
+        differentiable=not reasons,
+        reasons=tuple(reasons),
+        result=result,
+        _parts=parts,
+    )
+
+
+def check_derivable(simulator: Simulator) -> None:
+    """Refuse what has no derivatives.
+
+    Raises
+    ------
+    InputError
+        If the cone is no polyhedron, or the simulator has an extension.
+    """
+    if not cone(simulator.cone).polyhedral:
+        raise InputError("must be a polyhedron for derivatives", field="cone", value=simulator.cone)
+    if simulator.extension is not None:
+        raise InputError("has no derivative: its rows may be any function of q", field="extension")
+
+
+def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float) -> StepResult:
+    """The step with its exact optimum, whatever the simulator certifies."""
+    result = simulator.step(q, q_bar_a, force)
+    if result.solution.certificate.kind == "exact":
+        return result
+    solution = solve_step(result.step.replace(contacts=result.step.contacts.dense()), "none")
+    q_next = simulator.system.integrate(q, solution.delta_q)
+    return StepResult(q_next, solution.step, solution, result.points, result.seconds)

@@ -1,0 +1,123 @@
+"""Which kinks of the contacts' geometry the step after q feels."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.optional.derivatives.contact.kinks import kinks
+from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
+from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
+from quasistatic_ref.optional.derivatives.model.motion_rates import crossed
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step.touching import Touching
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.optional.derivatives.turned_tangents import stays
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.friction import cone_matrix
+
+FIELDS = ("dq_dq",)
+
+
+def geometry_reasons(
+    simulator: Simulator,
+    result: StepResult,
+    rates: StepRates,
+    touching: Touching | None,
+    safe: Mask,
+) -> list[Reason]:
+    """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    result : StepResult
+    rates : StepRates
+    touching : Touching or None
+        The rows without slack; None if the step feels every contact, however far.
+    safe : ndarray of bool, shape (n_c,)
+        Contacts that it would not feel wherever they were.
+    """
+    contacts, kept = result.step.contacts, rates.couples
+    frames = np.stack([contacts.d1, contacts.d2], axis=1)
+    quarters = _quarters(simulator.cone)
+    felt = range(contacts.n_c) if touching is None else touching.contacts
+    reasons = []
+    for kink in kinks(kept, rates.contacts, frames, rates.motion.J, quarters):
+        if kink.contact not in felt and (not kink.jumps or safe[kink.contact]):
+            continue
+        name = contacts.name[kink.contact]
+        frictionless = (
+            not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
+        )
+        if kink.kind == reason.TANGENTS and (
+            frictionless
+            or (touching and stays(result.step, result.solution.delta_q, touching, kink.contact))
+        ):
+            continue
+        fields = tuple(rates.places) if kink.blurs else FIELDS
+        reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
+    return [*reasons, *_ties(simulator, result, rates, safe)]
+
+
+def _ties(
+    simulator: Simulator, result: StepResult, rates: StepRates, safe: Mask
+) -> Iterator[Reason]:
+    """What other points a motion may bring in, pair by pair."""
+    kept, at = rates.couples, 0
+    for pair in simulator.pairs:
+        own = slice(at, at + pair.n_c)
+        at += pair.n_c
+        if safe[own].all():
+            continue
+        points = result.points.chosen(np.arange(own.start, own.stop))
+        inside, outside = tied_points(kept[own], points)
+        if outside:
+            where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
+            says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
+            yield Reason(reason.POINTS, where, FIELDS, says)
+        jump = spare_pair(kept[own], points, rates.motion.J)
+        if jump is not None:
+            yield Reason(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
+
+
+def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
+    """Contacts whose pair cannot close its distance in this step, whichever points it has.
+
+    Parameters
+    ----------
+    result : StepResult
+    kept : sequence of Couple, length n_c
+        Its contacts.
+    J : ndarray, shape (L, 6, n_v)
+        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+
+    Returns
+    -------
+    ndarray of bool, shape (n_c,)
+    """
+    twist, mu = J @ result.solution.delta_q, result.step.contacts.mu
+    spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
+    phi = np.array([couple.phi for couple in kept])
+    motion, turn = np.zeros(len(kept)), np.zeros(len(kept))
+    for side in (0, 1):
+        link = [(couple.pair.alpha, couple.pair.beta)[side].link for couple in kept]
+        end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
+        extents = np.array([couple.extents[side] for couple in kept])
+        v = twist[link, :3] + crossed(twist[link, 3:], end)
+        turn += spin[link]
+        motion += np.sqrt(np.sum(v * v, axis=1))
+        turning = spin[link] > 0  # any other point of the shape is this far from the end
+        motion[turning] += np.sqrt(3) * spin[link][turning] * extents[turning]
+    return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
+
+
+def _quarters(name: str) -> bool:
+    """Whether a cone's rows are the same after a quarter turn about the normal."""
+    rows = cone_matrix(name)
+    turned = rows[:, [0, 2, 1, 3]] * [1, -1, 1, 1]
+    return all(np.abs(rows - row).max(axis=1).min() < 1e-15 for row in turned)

@@ -1,0 +1,1 @@
+"""Derivatives of masses, gravity and Jacobians by q."""

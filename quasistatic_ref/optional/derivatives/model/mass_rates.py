@@ -1,0 +1,75 @@
+"""How the mass matrix and gravity's force change with q and with the masses of links: (R32)."""
+
+import numpy as np
+
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates, crossed
+from quasistatic_ref.step.arrays import Array
+
+
+class MassRates:
+    """Derivatives of M x and of gravity's generalised force at one configuration.
+
+    Parameters
+    ----------
+    system : System
+    kinematics : Kinematics
+    motion : MotionRates
+        Both at that configuration.
+    """
+
+    def __init__(self, system: System, kinematics: Kinematics, motion: MotionRates) -> None:
+        self.motion, self.masses = motion, system.masses
+        R = kinematics.R
+        self.centre = np.einsum("lab,lb->la", R, system.centres) + kinematics.t
+        self.inertia = R @ system.inertias @ R.transpose(0, 2, 1)
+        nu, omega = motion.J[:, :3], motion.J[:, 3:]
+        self.omega = omega
+        self.moved = nu + crossed(omega, self.centre[:, :, None])  # of the centres
+
+    def inertial_force_rates(self, x: Array) -> Array:
+        """Derivative by q of M x, shape (n_v, n_v), for a fixed x of shape (n_v,) [m, rad]."""
+        c, m = self.centre, self.masses[:, None]
+        twist, rates = self.motion.twists(x), self.motion.twist_rates(x)
+        nu, omega, d_nu, d_omega = twist[:, :3], twist[:, 3:], rates[:, :3], rates[:, 3:]
+        p = m * (nu + crossed(omega, c))
+        spin = np.einsum("lab,lb->la", self.inertia, omega)
+        wrench = np.concatenate([p, crossed(c, p) + spin], axis=1)
+        d_c = self.moved
+        d_p = m[:, None] * (
+            d_nu + crossed(d_omega, c[:, :, None]) + crossed(omega[:, :, None], d_c)
+        )
+        d_spin = crossed(self.omega, spin[:, :, None]) + self.inertia @ (
+            d_omega - crossed(self.omega, omega[:, :, None])
+        )
+        d_moment = crossed(d_c, p[:, :, None]) + crossed(c[:, :, None], d_p) + d_spin
+        return self.motion.force_rates(wrench, np.concatenate([d_p, d_moment], axis=1))
+
+    def gravity_rates(self, gravity: Array) -> Array:
+        """Derivative by q of gravity's generalised force, shape (n_v, n_v).
+
+        Parameters
+        ----------
+        gravity : ndarray, shape (3,)
+            [m/s^2], world frame.
+        """
+        weight = self.masses[:, None] * gravity
+        wrench = np.concatenate([weight, crossed(self.centre, weight)], axis=1)
+        rates = np.zeros((*wrench.shape, self.moved.shape[2]))
+        rates[:, 3:] = crossed(self.moved, weight[:, :, None])
+        return self.motion.force_rates(wrench, rates)
+
+    def by_masses(self, vector: Array) -> Array:
+        """Generalised force of `vector` (3,) at each link's centre of mass, shape (n_v, L).
+
+        Of gravity [m/s^2] it is the derivative of its force by the link's mass.
+        """
+        return np.asarray(np.einsum("lai,a->il", self.moved, vector))
+
+    def inertial_by_masses(self, x: Array) -> Array:
+        """Derivative of M x by each link's mass, shape (n_v, L), for x of shape (n_v,) [m, rad].
+
+        The inertia about the link's centre of mass stays as it is.
+        """
+        return np.asarray(np.einsum("lai,la->il", self.moved, self.moved @ x))

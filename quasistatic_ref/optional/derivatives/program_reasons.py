@@ -1,0 +1,119 @@
+"""Which rows of the program, and which targets, stand in the way of derivatives."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from quasistatic_ref.optional.derivatives.model.tangent import half_turns
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
+from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step.touching import Touching
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import ON_RIM
+
+Places = Mapping[str, tuple[int, int]]
+"""Which columns each field has, among all: from the first to one beyond the last."""
+
+
+def target_reasons(simulator: Simulator, change: Array) -> list[Reason]:
+    """Joints whose target is half a turn away.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    change : ndarray, shape (n_a,)
+        q_bar_a (-) q_a [m, rad].
+    """
+    names = half_turns(simulator.system.joints, change, ON_RIM)
+    says = "the target is half a turn away, where (-) jumps"
+    return [
+        Reason(reason.HALF_TURN, (name,), ("dq_dq", "dq_dq_bar_a"), f"{name}: {says}")
+        for name in names
+    ]
+
+
+def row_reasons(
+    simulator: Simulator,
+    result: StepResult,
+    touching: Touching,
+    found: OptimumRates,
+    places: Places,
+) -> list[Reason]:
+    """Rows that stand in the way of some parameters.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    result : StepResult
+    touching : Touching
+    found : OptimumRates
+    places : Mapping
+        As `Places`.
+    """
+    names, row_names = result.step.contacts.name, cone(result.step.cone).row_names
+    reasons = []
+
+    def fields(bad: Mask) -> tuple[str, ...]:
+        return tuple(name for name, place in places.items() if bad[slice(*place)].any())
+
+    together: dict[tuple[str, ...], Mask] = {}
+    for contacts, bad in found.contradicts:
+        where = tuple(names[j] for j in sorted(contacts))
+        together[where] = together.get(where, np.zeros_like(bad)) | bad
+    for where, bad in together.items():
+        says = f"the equations of {_listed(where)} would contradict each other"
+        reasons.append(Reason(reason.CONTRADICTION, where, fields(bad), says))
+    for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
+        if bad.any():
+            where = names[j], row_names[i]
+            says = (
+                f"row {row_names[i]} of {names[j]} touches without load: it holds on one side only"
+            )
+            reasons.append(Reason(reason.WEAK, where, fields(bad), says))
+    touched = {names[j].rpartition("/")[0] for j in touching.contacts}
+    for pair in simulator.pairs:
+        for key, used in (("mu_v", True), ("mu_omega", pair.rows == 6)):
+            if pair.name in touched and used and getattr(pair, key) == 0:
+                says = f"{key} of {pair.name} is zero, cannot be smaller, and the pair touches"
+                reasons.append(Reason(reason.ZERO_FRICTION, (pair.name,), (f"dq_d{key}",), says))
+    return reasons
+
+
+def forbidden(
+    found: OptimumRates, reasons: Sequence[Reason], places: Places, pairs: Sequence[str]
+) -> Mask:
+    """Which columns have no derivative.
+
+    Parameters
+    ----------
+    found : OptimumRates
+    reasons : sequence of Reason
+    places : Mapping
+        As `Places`.
+    pairs : sequence of str
+        Their names, in the order of the columns by their friction.
+
+    Returns
+    -------
+    ndarray of bool, shape (P,)
+    """
+    bad = np.asarray(found.opens.any(axis=0))
+    for _, own in found.contradicts:
+        bad = bad | own
+    by_field = (reason.WEAK, reason.CONTRADICTION)
+    for why in reasons:
+        for name in why.fields if why.kind not in by_field else ():
+            first, last = places[name]
+            if why.kind == reason.ZERO_FRICTION:  # that of the pair alone
+                first += list(pairs).index(why.where[0])
+                last = first + 1
+            bad[first:last] = True
+    return np.asarray(bad)
+
+
+def _listed(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,0 +1,89 @@
+"""The smoothed step as a differentiable map: contacts push from afar, and none lets go."""
+
+from functools import partial
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.derivatives.derivatives import check_derivable
+from quasistatic_ref.optional.derivatives.gradient import Derivatives, OneSided
+from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons
+from quasistatic_ref.optional.derivatives.program_reasons import target_reasons
+from quasistatic_ref.optional.derivatives.step.barrier import Barrier, barrier_rates, barrier_step
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
+
+
+def smoothed(
+    simulator: Simulator, q: Array, q_bar_a: Array, kappa: float, force: Array | float = 0.0
+) -> Derivatives:
+    """The step with barriers in place of rows, and its derivatives.
+
+    They tend to those of the exact step as kappa tends to zero, where these exist. What of the
+    geometry has kinks has them still.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        Of a polyhedral cone, without an extension.
+    q : ndarray, shape (n_q,)
+    q_bar_a : ndarray, shape (n_q_a,)
+    kappa : float
+        Weight of the barriers, > 0 [N m s]: a contact at the distance s pushes with the impulse
+        kappa / s.
+    force : ndarray, shape (n_v,), optional
+        External generalised force in addition to gravity, which does not depend on q [N, N m].
+
+    Returns
+    -------
+    Derivatives
+        Its ``result`` is the smoothed step, with nothing claimed about it.
+
+    Raises
+    ------
+    InputError
+        If kappa is not positive, the cone no polyhedron, or the simulator has an extension.
+    StepNotSolved
+        If nothing lies strictly inside of all rows.
+    """
+    check_derivable(simulator)
+    if not kappa > 0:
+        raise InputError("must be greater than 0", field="kappa", value=kappa)
+    q = np.asarray(q, dtype=np.float64)
+    kinematics = simulator.system.kinematics(q)
+    points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
+    found = barrier_step(step, kappa)
+    said = SolverStatistics("barrier", "solved", None, None, kappa, engine="none")
+    solution = step_solution(step, found.x, found.lam, Certificate("none"), said)
+    q_next = simulator.system.integrate(q, found.x)
+    result = StepResult(q_next, step, solution, points, {})
+    rates = StepRates(simulator, q, result)
+
+    nowhere = np.zeros(step.contacts.n_c, dtype=bool)
+    reasons = [
+        *geometry_reasons(simulator, result, rates, None, nowhere),
+        *target_reasons(simulator, step.delta_q_bar_a),
+    ]
+    columns = rates.onward @ barrier_rates(step, found, rates.data)
+    columns[:, : len(columns)] += rates.carried
+    for why in reasons:
+        for name in why.fields:
+            columns[:, slice(*rates.places[name])] = np.nan
+    return Derivatives(
+        **rates.shaped(columns),
+        differentiable=not reasons,
+        reasons=tuple(reasons),
+        result=result,
+        _parts=OneSided(
+            partial(_displacement, step, found), rates.data, rates.carried, rates.onward
+        ),
+    )
+
+
+def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:
+    return barrier_rates(step, found, one)[:, 0]

@@ -1,0 +1,1 @@
+"""Derivatives of the optimum of one step by its data."""

@@ -1,0 +1,131 @@
+r"""The smoothed step: every row replaced by a logarithmic barrier, and how its answer changes.
+
+.. math:: \min_x \tfrac12 x^T H x - g^T x - \kappa \sum_i \log(a_i x - b_i)
+
+Its minimiser is unique, strictly inside of all rows, and a smooth function of the data. Each row
+pushes with :math:`\lambda_i = \kappa / s_i`, whatever its slack :math:`s_i` is. With rates of the
+data at fixed x and :math:`\lambda`, (R36):
+
+.. math:: (H + A^T S\,A)\,dx = d(g - Hx) + dA^T\lambda - A^T S\,(dA\,x - db), \qquad
+          S = \mathrm{diag}(\lambda_i / s_i) .
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.standard_form import standard_form
+
+STEPS = 200
+"""Most Newton steps; twenty are usual."""
+
+SHORTEN = 0.99
+"""Share of the way that a Newton step may take, until the first slack or multiplier is zero."""
+
+NOTHING = 1e-200
+"""Newton's step in the H norm at which the method is done if nothing moves [(N m s)^0.5]."""
+
+SETTLED = 1e-14
+"""Newton's step over the displacement, in the H norm, at which the method is done [-]: rounding."""
+
+
+class Barrier(NamedTuple):
+    """The minimiser.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n_v,)
+        delta_q [m, rad].
+    lam, slack : ndarray, shape (m,)
+        kappa / s [N s], and s = A x - b [m], both positive.
+    """
+
+    x: Array
+    lam: Array
+    slack: Array
+
+
+def barrier_step(step: StepData, kappa: float) -> Barrier:
+    """The minimiser of a step with barriers, by a primal-dual Newton method.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    kappa : float
+        [N m s], > 0.
+
+    Returns
+    -------
+    Barrier
+
+    Raises
+    ------
+    StepNotSolved
+        If there is no displacement strictly inside of all rows, as far as the method can tell.
+    """
+    with np.errstate(all="ignore"):  # numbers that leave their range end the method
+        found = _newton(*standard_form(step), kappa)
+    if found is None:
+        raise StepNotSolved("barrier", "nothing lies strictly inside of all rows", step, kappa)
+    return found
+
+
+def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | None:
+    L = np.linalg.cholesky(H)
+    x = np.linalg.solve(H, g)
+    slack = np.maximum(A @ x - b, np.abs(A @ x - b).max(initial=0.0) + kappa**0.5)
+    mu = float(max(kappa, np.abs(slack).max(initial=0.0) * np.abs(L.T @ x).max(initial=0.0)))
+    lam = mu / slack
+    least, size, nearest = np.inf, 0.0, None
+    for _ in range(STEPS):
+        mu = max(kappa, 0.1 * float(lam @ slack) / max(len(lam), 1))
+        off, short = g + A.T @ lam - H @ x, b + slack - A @ x
+        weight = lam / slack
+        push = mu / slack - lam
+        K = H + A.T @ (weight[:, None] * A)
+        if not np.isfinite(K).all():
+            break
+        dx = np.linalg.lstsq(K, off + A.T @ (push + weight * short), rcond=None)[0]
+        d_slack = A @ dx - short
+        d_lam = push - weight * d_slack
+        share = min(_share(slack, d_slack), _share(lam, d_lam))
+        x, slack, lam = x + share * dx, slack + share * d_slack, lam + share * d_lam
+        length, size = float(np.linalg.norm(L.T @ dx)), float(np.linalg.norm(L.T @ x))
+        if mu == kappa and share == 1 and length <= SETTLED * size + NOTHING:
+            return Barrier(x, lam, slack)
+        least, nearest = (length, Barrier(x, lam, slack)) if length < least else (least, nearest)
+    if nearest is not None and mu == kappa and least <= 1e5 * SETTLED * size:
+        return nearest
+    return None
+
+
+def _share(values: Array, changes: Array) -> float:
+    falling = changes < 0
+    if not falling.any():
+        return 1.0
+    return float(min(1.0, SHORTEN * (-values[falling] / changes[falling]).min()))
+
+
+def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
+    """How the minimiser changes with P parameters, shape (n_v, P) [m, rad per unit].
+
+    Parameters
+    ----------
+    step : StepData
+    found : Barrier
+    data : DataRates
+        At the minimiser.
+    """
+    form, table = standard_form(step), cone_matrix(step.cone)
+    every = np.argwhere(step.mask)
+    multipliers = np.zeros((step.contacts.n_c, 4))
+    np.add.at(multipliers, every[:, 0], found.lam[:, None] * table[every[:, 1]])
+    moved = np.einsum("ki,kip->kp", table[every[:, 1]], data.motion[every[:, 0]])
+    weighted = form.A.T * (found.lam / found.slack)
+    right = data.load + data.pull(multipliers) - weighted @ moved
+    return np.asarray(np.linalg.solve(form.H + weighted @ form.A, right))

@@ -1,0 +1,231 @@
+r"""The derivative of the exact optimum along changes of a step's data, in float64: (R33).
+
+Let S be the rows that bear load in some optimal lam. Of one contact they say that some combinations
+of gap, slip_1, slip_2 and spin are zero: E of them, independent. With G what those are of delta_q,
+and y the multipliers of gap, slips and spin, delta_q changes by
+
+.. math:: H\,dx - (EG)^T d\eta = d\ell + dG^T y, \qquad EG\,dx = -E\,(dG\,x + d\phi) ,
+
+where l is g - H x. If the rows of EG depend on each other, with :math:`\nu^T E G = 0`, that must
+go on: :math:`\nu^T E\,(dG\,x + d\phi) = 0`, and :math:`dG^T E^T \nu` combines the rows. A row that
+touches without load must keep its slack of zero. Where one of these fails there is no
+derivative, but one on each side.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.optimize import nnls
+
+from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
+
+
+@dataclass(frozen=True, eq=False)
+class DataRates:
+    """Derivatives of a step's data by P parameters.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n_v, P)
+        Of g - H x, x being fixed [N s per unit].
+    motion : ndarray, shape (n_c, 4, P)
+        Of gap, slip_1, slip_2 and spin, x being fixed [m per unit].
+    pull : callable
+        y (n_c, 4) -> derivatives of G'y, shape (n_v, P): of what multipliers y [N s] of gap, slips
+        and spin exert.
+    terms : ndarray, shape (P,)
+        How large the terms are whose sum is `motion` [m per unit]: its rounding is relative to it.
+    """
+
+    load: Array
+    motion: Array
+    terms: Array
+    pull: Callable[[Array], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class OptimumRates:
+    """Derivatives of the optimum by P parameters.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n_v, P)
+        Right for the parameters that nothing forbids [m, rad per unit].
+    contradicts : list of (set of int, ndarray of bool)
+        Contacts whose rows depend on each other and would not any more, and for which of the
+        parameters, shape (P,).
+    opens : ndarray of bool, shape (idle rows, P)
+        Which rows that touch without load would open on one side.
+    closing : ndarray, shape (idle rows, P)
+        How fast the slacks of these rows would change [m per unit].
+    """
+
+    x: Array
+    contradicts: list[tuple[set[int], Mask]]
+    opens: Mask
+    closing: Array
+
+
+class Equations:
+    """The equations that the optimum keeps.
+
+    Parameters
+    ----------
+    touching : Touching
+    """
+
+    def __init__(self, touching: Touching) -> None:
+        self.of, L = touching, touching.L
+        self.blocks = [
+            (j, _combinations(touching, j)) for j in sorted({*touching.strict[:, 0].tolist()})
+        ]
+        parts = [E @ touching.generators[j] for j, E in self.blocks]
+        rows = np.concatenate([np.zeros((0, len(L))), *parts])
+        rows = np.linalg.solve(L, rows.T).T
+        self.length = np.linalg.norm(rows, axis=1)
+        self.length[self.length == 0] = 1.0
+        self.rows = rows / self.length[:, None]
+        U, s, V = np.linalg.svd(self.rows)
+        rank = int(np.count_nonzero(s > INDEPENDENT))
+        self.U, self.s, self.V, self.free = U[:, :rank], s[:rank], V[:rank], V[rank:]
+        self.null = U[:, rank:].T  # combinations that vanish, but for what is left of each
+        self.left = np.zeros(len(self.null))
+        self.left[: len(s) - rank] = s[rank:]
+
+    def rates(self, data: DataRates) -> OptimumRates:
+        """The derivatives, and what forbids them."""
+        t = self.of
+        needed = [-(E @ data.motion[j]) for j, E in self.blocks]
+        right = (
+            np.concatenate([np.zeros((0, data.motion.shape[2])), *needed]) / self.length[:, None]
+        )
+        forces = np.linalg.solve(t.L, data.load + data.pull(t.multipliers))
+        y = self.V.T @ ((self.U.T @ right) / self.s[:, None]) + self.free.T @ (self.free @ forces)
+        x = np.linalg.solve(t.L.T, y)
+        rows = t.rows(t.idle)
+        moved = np.einsum("ki,kip->kp", t.table[t.idle[:, 1]], data.motion[t.idle[:, 0]])
+        closing = rows @ x + moved
+        scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
+        return OptimumRates(
+            x, self._contradictions(data, right, y), np.abs(closing) > CONSISTENT * scale, closing
+        )
+
+    def _contradictions(
+        self, data: DataRates, right: Array, y: Array
+    ) -> list[tuple[set[int], Mask]]:
+        """Dependent rows that a parameter would set against each other."""
+        found = []
+        terms = data.terms / self.length.min(initial=1.0)
+        size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
+        owner = np.array([j for j, E in self.blocks for _ in E], dtype=np.int64)
+        for nu, left in zip(self.null, self.left, strict=True):
+            bad = (np.abs(nu @ right) > CONSISTENT * size) | (left > SPLIT)
+            multipliers = np.zeros((len(data.motion), 4))
+            weights, at = nu / self.length, 0
+            for j, E in self.blocks:
+                multipliers[j] = weights[at : at + len(E)] @ E
+                at += len(E)
+            if len(self.free):
+                pulled = np.linalg.solve(self.of.L, data.pull(multipliers))
+                across = np.linalg.norm(self.free @ pulled, axis=0)
+                bad |= across > CONSISTENT * np.maximum(np.linalg.norm(pulled, axis=0), 1.0)
+            if bad.any():
+                found.append((set(owner[np.abs(nu) > DEPENDENT].tolist()), bad))
+        return found
+
+    def along(self, data: DataRates) -> Array:
+        """The derivative along a single parameter as it grows, shape (n_v,) [m, rad per unit]."""
+        return self.one_sided(self.rates(data), 0)
+
+    def one_sided(self, rates: OptimumRates, column: int) -> Array:
+        """The derivative along one parameter as it grows, shape (n_v,) [m, rad per unit].
+
+        The rows that touch without load keep their slack from falling below zero: the projection
+        of the derivative without them on that cone, in the H norm.
+
+        Parameters
+        ----------
+        rates : OptimumRates
+            Of parameters, the column of which no equation contradicts.
+        column : int
+        """
+        t, x = self.of, rates.x[:, column]
+        if not len(t.idle):
+            return x
+        rows, pushes = self._pushes(rates, column)
+        return np.asarray(x + np.linalg.solve(t.L.T, self.free.T @ (rows.T @ pushes)))
+
+    def _pushes(self, rates: OptimumRates, column: int) -> tuple[Array, Array]:
+        """Rows without load that the other equations leave, and what keeps each from closing."""
+        t = self.of
+        rows = np.linalg.solve(t.L, t.rows(t.idle).T).T @ self.free.T
+        return rows, _complementary(rows, rates.closing[:, column])
+
+    def beyond(self, data: DataRates) -> Touching:
+        """What touches, and bears load, as soon as a single parameter has grown.
+
+        Of the rows that touch without load, those that the growth presses then bear it, and those
+        that it opens touch no more. Rows that it leaves as they are go on without load.
+
+        Parameters
+        ----------
+        data : DataRates
+            Of one parameter.
+        """
+        t, rates = self.of, self.rates(data)
+        if not len(t.idle):
+            return t
+        rows, pushes = self._pushes(rates, 0)
+        slack = rates.closing[:, 0] + rows @ (rows.T @ pushes)
+        opened = slack > CONSISTENT * np.abs(rates.closing[:, 0]).max()
+        length = np.linalg.norm(rows, axis=1)
+        length[length == 0] = 1.0
+        size = float(np.linalg.norm(rows.T @ pushes))
+        pressed = np.zeros(len(rows), dtype=bool)
+        if size:
+            unit = rows[~opened] / length[~opened, None]
+            pressed[~opened] = bearing(unit, (pushes * length)[~opened], size)
+        strict = np.concatenate([t.strict, t.idle[pressed]])
+        return replace(t, strict=strict, idle=t.idle[~pressed & ~opened])
+
+
+def _complementary(rows: Array, slack: Array) -> Array:
+    """Pushes p >= 0, shape (k,), with slack + rows rows' p >= 0 and no product of both."""
+    # The least motion z with rows z >= -slack is rows' p: the dual of a least-distance problem.
+    k, n = rows.shape
+    stacked = np.vstack([rows.T, -slack[None]])
+    target = np.zeros(n + 1)
+    target[n] = 1.0
+    u, _ = nnls(stacked, target)
+    residual = stacked @ u - target
+    return np.asarray(u / -residual[n]) if -residual[n] > 0 else np.zeros(k)
+
+
+def _combinations(touching: Touching, j: int) -> Array:
+    """Independent combinations of gap, slips and spin that a contact's strict rows make zero."""
+    own = touching.strict[touching.strict[:, 0] == j, 1]
+    used = np.abs(touching.generators[j]).max(axis=1) > 0
+    rows: Array = touching.table[own] * used
+    _, s, V = np.linalg.svd(rows)
+    return np.asarray(V[: len(s)][s > DEPENDENT * s[0]])
+
+
+def parameters(*parts: DataRates) -> DataRates:
+    """Several groups of parameters as one.
+
+    Parameters
+    ----------
+    parts : DataRates
+    """
+    load = np.concatenate([part.load for part in parts], axis=1)
+    motion = np.concatenate([part.motion for part in parts], axis=2)
+    pull = partial(_pulled, [part.pull for part in parts])
+    return DataRates(load, motion, np.concatenate([part.terms for part in parts]), pull)
+
+
+def _pulled(pulls: Sequence[Callable[[Array], Array]], y: Array) -> Array:
+    return np.concatenate([pull(y) for pull in pulls], axis=1)

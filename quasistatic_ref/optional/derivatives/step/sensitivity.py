@@ -1,0 +1,231 @@
+r"""Derivatives of the exact optimum, and where there are none.
+
+Let S be the strictly active rows, those positive in *some* optimal multiplier. While they stay
+without slack and the others do not lose theirs, delta_q is the minimiser on A_S x = b_S, and
+
+.. math:: H\,dx - A_W^T d\lambda = dg - dH\,x + dA_W^T \lambda, \qquad
+          A_W\,dx = db_W - dA_W\,x
+
+for independent rows W that span S. Whether they stay is decided for each parameter by itself:
+
+- The equations of S must stay consistent. They do iff the rank of [A_S b_S] does not grow with the
+  parameter; it grows everywhere else or nowhere, so one other value decides. (All six rows of a
+  sticking contact change together and keep their rank of four; the gap of one of two equal contacts
+  breaks it.)
+- A row without slack that is not strictly active must keep its slack of zero: otherwise it would
+  hold on one side and let go on the other. Its equation then stays consistent with those of S.
+- A friction coefficient that is zero cannot become smaller.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from flint import fmpq, fmpq_mat
+
+from quasistatic_ref.certify.degeneracy import strictly_active
+from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.certify.rows import flat_rows, row_owners
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import Certificate
+
+FIELDS = ("delta_q_bar_a", "tau_a", "K_q", "tau_u", "phi", "mu_v", "mu_omega", "h")
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """d delta_q by each parameter of a step, correctly rounded; NaN where there is none.
+
+    Parameters
+    ----------
+    delta_q_bar_a, tau_a, K_q : ndarray, shape (n_v, n_a)
+        K_q: by its diagonal.
+    tau_u : ndarray, shape (n_v, n_u)
+    phi, mu_v, mu_omega : ndarray, shape (n_v, n_c)
+    h : ndarray, shape (n_v, 1)
+    why_not : mapping of str to str
+        For each parameter without a derivative, e.g. ``"phi[left/17]"``, a sentence that names the
+        contacts.
+    """
+
+    delta_q_bar_a: Array
+    tau_a: Array
+    K_q: Array
+    tau_u: Array
+    phi: Array
+    mu_v: Array
+    mu_omega: Array
+    h: Array
+    why_not: Mapping[str, str]
+
+
+@dataclass(frozen=True, eq=False)
+class Active:
+    """The rows without slack at an optimum, sorted.
+
+    Parameters
+    ----------
+    basis : tuple of int
+        Independent rows that span the strictly active ones.
+    strict, idle : tuple of int
+        Those positive in some optimal multiplier, and the others.
+    """
+
+    basis: tuple[int, ...]
+    strict: tuple[int, ...]
+    idle: tuple[int, ...]
+
+
+def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
+    """Derivatives of the optimum of a step in a polyhedral cone.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    certificate : Certificate
+        Of kind ``"exact"``; its working set is what is believed of it.
+
+    Returns
+    -------
+    Sensitivity
+
+    Raises
+    ------
+    InputError
+        If the certificate is of another kind, or the cone no polyhedron.
+    """
+    if certificate.kind != "exact" or not cone(step.cone).polyhedral:
+        raise InputError(
+            "needs an exact certificate in a polyhedral cone; solve with certify = 'full'",
+            field="certificate",
+            value=f"{certificate.kind}, {step.cone}",
+        )
+    form = exact_form(step)
+    active = _active(form, flat_rows(step, certificate.active))
+    changes = parameter_changes(step)
+    dx = _derivatives(form, active, changes)
+    why_not: dict[str, str] = {}
+    columns: dict[str, list[Array]] = {}
+    for p, change in enumerate(changes):
+        derivative = [dx[v, p] for v in range(form.n)]
+        reason = _obstacle(step, form, active, change, derivative)
+        if reason:
+            why_not[change.name] = reason
+        values = [nearest_fraction(v * form.x_unit) for v in derivative]
+        column = np.full(form.n, np.nan) if reason else np.array(values, dtype=np.float64)
+        columns.setdefault(change.group, []).append(column)
+    shaped = {name: np.array(columns.get(name, [])).reshape(-1, form.n).T for name in FIELDS}
+    return Sensitivity(**shaped, why_not=why_not)
+
+
+def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
+    spanned, unspanned = idle_rows(form, working, rational_solution(form, working).slack)
+    also = strictly_active(form, working, unspanned)
+    strict = (*working, *spanned, *also)
+    idle = tuple(i for i in unspanned if i not in also)
+    return Active(independent_rows(form, strict), strict, idle)
+
+
+def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> fmpq_mat:
+    """Return dx for every change, in the form's units per SI unit of the parameter."""
+    n, basis = form.n, active.basis
+    k = len(basis)
+    solution = rational_solution(form, basis)
+    x = [fmpq(v) / solution.denominator for v in solution.x]
+    lam = dict(zip(basis, (fmpq(v) / solution.denominator for v in solution.lam), strict=True))
+    K = fmpq_mat(n + k, n + k)
+    for i in range(n):
+        for j in range(n):
+            K[i, j] = fmpq(form.H[i, j])
+    for r, i in enumerate(basis, start=n):
+        for j in range(n):
+            K[r, j], K[j, r] = fmpq(form.A[i, j]), fmpq(-form.A[i, j])
+    right = fmpq_mat(n + k, len(changes))
+    per_H, per_g = form.x_unit / form.net_unit, 1 / form.net_unit
+    per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+    for p, change in enumerate(changes):
+        top = [dg * per_g for dg in change.g] or [fmpq(0)] * n
+        for (i, j), dH in change.H.items():
+            top[i] -= dH * per_H * x[j]
+        for i, row in change.A.items():
+            if i in lam:
+                top = [t + a * per_A * lam[i] for t, a in zip(top, row, strict=True)]
+        for v, t in enumerate(top):
+            right[v, p] = t
+        for r, i in enumerate(basis, start=n):
+            right[r, p] = _gap_rate(change, i, x, per_A, per_b)
+    return K.solve(right) if changes and n else fmpq_mat(n, len(changes))
+
+
+def _gap_rate(change: Change, i: int, x: Sequence[fmpq], per_A: fmpq, per_b: fmpq) -> fmpq:
+    """Return db_i - dA_i x."""
+    rate = change.b.get(i, fmpq(0)) * per_b
+    if i in change.A:
+        rate -= per_A * sum((a * v for a, v in zip(change.A[i], x, strict=True)), fmpq(0))
+    return rate
+
+
+def _obstacle(
+    step: StepData, form: ExactForm, active: Active, change: Change, dx: Sequence[fmpq]
+) -> str:
+    """Return why there is no derivative, or nothing."""
+    touched = [i for i in (*active.strict, *active.idle) if i in change.A or i in change.b]
+    if change.at_zero and touched:
+        return f"it is zero, cannot be smaller, and {_names(step, touched)} touches"
+    if any(i in active.strict for i in touched):
+        tied = _inconsistent(form, active.strict, change)
+        if tied:
+            return f"the equations of {_names(step, tied)} would contradict each other"
+    if active.idle:
+        solution = rational_solution(form, active.basis)
+        x = [fmpq(v) / solution.denominator for v in solution.x]
+        per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+        opening = [
+            i
+            for i in active.idle
+            if sum((a * v for a, v in zip(form.row(i), dx, strict=True)), fmpq(0))
+            != _gap_rate(change, i, x, per_A, per_b)
+        ]
+        if opening:
+            return f"{_names(step, opening)} touches without load: it holds on one side only"
+    return ""
+
+
+def _inconsistent(form: ExactForm, rows: Sequence[int], change: Change) -> list[int]:
+    """Return rows whose equations would contradict each other; empty if all stay consistent."""
+    moving = [i for i in rows if i in change.A or i in change.b]
+    still = independent_rows(form, [i for i in rows if i not in moving])
+    basis = independent_rows(form, (*still, *moving))
+    per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+    held = [[fmpq(v) for v in (*form.row(i), form.b[i, 0])] for i in still]
+    changed = []
+    for i in moving:  # by one unit of the parameter
+        dA = change.A.get(i) or [fmpq(0)] * form.n
+        row = [a + per_A * d for a, d in zip(form.row(i), dA, strict=True)]
+        changed.append([*row, form.b[i, 0] + per_b * change.b.get(i, fmpq(0))])
+    if _rank([*held, *changed]) <= len(basis):
+        return []
+    tied = set(moving)
+    for i in moving:
+        c = None if i in basis else combination(form, basis, i)
+        tied |= {j for j, c_j in zip(basis, c or (), strict=False) if c_j}
+    return sorted(tied)
+
+
+def _rank(rows: list[list[fmpq]]) -> int:
+    numerators, _ = fmpq_mat(
+        len(rows), len(rows[0]), [v for row in rows for v in row]
+    ).numer_denom()
+    return int(numerators.rank())
+
+
+def _names(step: StepData, rows: Sequence[int]) -> str:
+    owners = list(row_owners(step, rows))
+    return owners[0] if len(owners) == 1 else f"{', '.join(owners[:-1])} and {owners[-1]}"

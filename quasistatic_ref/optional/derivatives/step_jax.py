@@ -1,0 +1,214 @@
+"""A step as a function that JAX differentiates, forwards and backwards, with its verdict.
+
+The step itself runs outside of JAX, in float64 on the CPU. JAX is given the derivatives by the
+entries of q: with E as in
+:func:`~quasistatic_ref.optional.derivatives.model.tangent.entry_rates`, those of q+ by q are
+E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradient.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from importlib import import_module
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, NotDifferentiable
+from quasistatic_ref.model.configuration import normalised
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import check_derivable, derivatives
+from quasistatic_ref.optional.derivatives.gradient import Derivatives
+from quasistatic_ref.optional.derivatives.model.tangent import entry_rates
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
+
+BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")
+"""The derivatives by what a step is given: q, q_bar_a and the force."""
+
+AT_KINKS = ("raise", "one-sided", "smoothed")
+
+Found = Callable[[Array, Array, Array, float], Derivatives]
+"""q, q_bar_a, force, kappa -> the step with its derivatives."""
+
+
+def step_jax(
+    simulator: Simulator,
+    kinks: str = "raise",
+    *,
+    towards: Mapping[str, Array | float] | None = None,
+    kappa: float | None = None,
+) -> Callable[..., Any]:
+    """The exact step as a function of JAX.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        Of a polyhedral cone, without an extension.
+    kinks : str
+        What JAX is given where the step has no derivative: ``"raise"``, nothing but an error;
+        ``"one-sided"``, the derivatives on the side to which `towards` points; ``"smoothed"``,
+        those of the smoothed step. An error where there are none of these either.
+    towards : mapping, optional
+        For ``"one-sided"``, with names, shapes (n_v,), (n_a,), ... and units [of the parameter] as
+        in :func:`~quasistatic_ref.optional.derivatives.derivatives.derivatives`.
+    kappa : float, optional
+        For ``"smoothed"``, > 0, as in
+        :func:`~quasistatic_ref.optional.derivatives.smoothed.smoothed` [N m s].
+
+    Returns
+    -------
+    callable
+        (q, q_bar_a, force=0) -> (q after the step, verdict), the arguments as those of
+        :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`, in float64. The verdict is an
+        array of bool: which of the ``KINDS`` of
+        :mod:`~quasistatic_ref.optional.derivatives.step.reason` stand in the way.
+
+    Raises
+    ------
+    InputError
+        If JAX is not installed, the option is unknown or lacks what it needs, or the step has no
+        derivatives anywhere. The function raises it if its arguments are not float64.
+    NotDifferentiable
+        By the function, where a derivative that JAX needs does not exist.
+    """
+    if kinks not in AT_KINKS:
+        raise InputError(f"must be one of {', '.join(AT_KINKS)}", field="kinks", value=kinks)
+    for name, value, needs in (("towards", towards, "one-sided"), ("kappa", kappa, "smoothed")):
+        if (value is not None) != (kinks == needs):
+            raise InputError(f"goes with kinks={needs!r}, and with that only", field=name)
+
+    def exact(q: Array, q_bar_a: Array, force: Array, _: float) -> Derivatives:
+        return derivatives(simulator, q, q_bar_a, force)
+
+    def instead(q: Array, q_bar_a: Array, force: Array, _: float) -> Derivatives:
+        if kappa is not None:
+            return smoothed(simulator, q, q_bar_a, kappa, force)
+        return derivatives(simulator, q, q_bar_a, force, towards)
+
+    step = _differentiable(simulator, exact, None if kinks == "raise" else instead)
+    return lambda q, q_bar_a, force=0.0: step(q, q_bar_a, force, 0.0)
+
+
+def smoothed_jax(simulator: Simulator) -> Callable[..., Any]:
+    """The smoothed step as a function of JAX: where it ends, and the derivatives of that.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        Of a polyhedral cone, without an extension.
+
+    Returns
+    -------
+    callable
+        (q, q_bar_a, kappa, force=0) -> (q after the step, verdict), otherwise as that of
+        :func:`step_jax`. It has no derivative by kappa, the weight of the barriers [N m s].
+
+    Raises
+    ------
+    InputError
+        As :func:`step_jax` does.
+    NotDifferentiable
+        By the function, at kinks of the geometry.
+    """
+
+    def found(q: Array, q_bar_a: Array, force: Array, kappa: float) -> Derivatives:
+        return smoothed(simulator, q, q_bar_a, kappa, force)
+
+    step = _differentiable(simulator, found, None)
+    return lambda q, q_bar_a, kappa, force=0.0: step(q, q_bar_a, force, kappa)
+
+
+def jax_package() -> Any:
+    """The package JAX.
+
+    Raises
+    ------
+    InputError
+        If it is not installed.
+    """
+    try:
+        return import_module("jax")
+    except ImportError:
+        problem = "a step in JAX needs it: pip install 'quasistatic-ref[jax]'"
+        raise InputError(problem) from None
+
+
+def _differentiable(
+    simulator: Simulator, found: Found, instead: Found | None
+) -> Callable[..., Any]:
+    """A function of (q, q_bar_a, force, kappa) for JAX; at kinks its derivatives are others."""
+    check_derivable(simulator)
+    jax = jax_package()
+    system, lock = simulator.system, Lock()
+    shaped, n_q = jax.ShapeDtypeStruct, system.n_q
+    ends = (shaped((n_q,), np.float64), shaped((len(KINDS),), bool))
+    matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
+    symbolic = jax.custom_derivatives.SymbolicZero
+
+    def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
+        q, q_bar_a, force, kappa = map(np.asarray, given)
+        with lock:  # a system is for one thread, and JAX has several
+            return _rates(system, found, instead, names, q, q_bar_a, force, float(kappa))
+
+    def called(names: tuple[str, ...], *given: Any) -> Any:
+        if not any(isinstance(one, jax.core.Tracer) for one in given):
+            return tuple(map(jax.numpy.asarray, computed(names, *given)))  # errors come as they are
+        what = ends + (matrices if names else ())
+        return jax.pure_callback(partial(computed, names), what, *given, vmap_method="sequential")
+
+    step = jax.custom_jvp(partial(called, ()))
+
+    def rule(primals: tuple[Any, ...], tangents: tuple[Any, ...]) -> Any:
+        *moves, by_kappa = [not isinstance(tangent, symbolic) for tangent in tangents]
+        if by_kappa:
+            raise InputError("has no derivative of a step in JAX", field="kappa")
+        names = tuple(name for name, moved in zip(BY, moves, strict=True) if moved)
+        q_next, verdict, *by = called(names, *primals)
+        change = sum(M @ t for M, t, on in zip(by, tangents, moves, strict=False) if on)
+        none = jax.custom_derivatives.zero_from_primal(verdict, symbolic_zeros=True)
+        return (q_next, verdict), (change, none)
+
+    step.defjvp(rule, symbolic_zeros=True)
+
+    def checked(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
+        given = [jax.numpy.asarray(one) for one in (q, q_bar_a, force, kappa)]
+        if any(one.dtype != np.float64 for one in given):
+            problem = "must be float64: jax.config.update('jax_enable_x64', True)"
+            raise InputError(problem, field="step in JAX")
+        given[2] = jax.numpy.broadcast_to(given[2], (system.n_v,))
+        return step(*given)
+
+    return checked
+
+
+def _rates(
+    system: System, found: Found, instead: Found | None, names: tuple[str, ...],
+    q: Array, q_bar_a: Array, force: Array, kappa: float,
+) -> tuple[Array, ...]:  # fmt: skip
+    """Where the step ends, its verdict, and the derivatives by the entries of `names`."""
+    at = system.checked(normalised(system.joints, q))
+    whole = system.with_actuated(at, q_bar_a)
+    goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
+    of = found(at, goal, force, kappa)
+    kinds = {why.kind for why in _lacking(of, BY)}
+    end, verdict = of.result.q, np.array([kind in kinds for kind in KINDS])
+    if not names:
+        return end, verdict
+    if instead is not None and _lacking(of, names):
+        of = instead(at, goal, force, kappa)
+    if lacking := _lacking(of, names):
+        raise NotDifferentiable(lacking)
+    onto = entry_rates(system.joints, end)
+    back = np.linalg.pinv(entry_rates(system.joints, q))
+    aim = np.linalg.pinv(entry_rates(system.joints, whole)[: system.n_q_a, : system.n_a])
+    by = (back, aim, np.eye(system.n_v))
+    given = [onto @ getattr(of, name) @ own for name, own in zip(BY, by, strict=True)]
+    return end, verdict, *given
+
+
+def _lacking(of: Derivatives, names: tuple[str, ...]) -> tuple[Reason, ...]:
+    """Why the derivatives by some of `names` do not exist."""
+    return tuple(why for why in of.reasons if {*why.fields} & {*names})

@@ -1,0 +1,67 @@
+"""How everything that a step is made of changes, at one configuration."""
+
+import numpy as np
+
+from quasistatic_ref.optional.derivatives.contact.contact_rates import contact_rates
+from quasistatic_ref.optional.derivatives.contact.couples import couples
+from quasistatic_ref.optional.derivatives.data_rates import data_rates
+from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.optional.derivatives.model.tangent import sum_rates
+from quasistatic_ref.optional.derivatives.row_rates import RowRates
+from quasistatic_ref.optional.derivatives.step.optimum_rates import parameters
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
+
+
+class StepRates:
+    """The rates of a step at its displacement.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+    result : StepResult
+        The step from q.
+
+    Attributes
+    ----------
+    motion : MotionRates
+    couples : list of Couple
+        The contacts.
+    contacts : ContactRates
+    data : DataRates
+        By all parameters.
+    places : dict
+        Which columns of them each field of the derivatives has.
+    carried, onward : ndarray, shape (n_v, n_v)
+        Derivatives of q (+) delta_q by q and by delta_q.
+    far : ndarray, shape (n_c,)
+        How far the closest points are from the world's origin [m].
+    """
+
+    def __init__(self, simulator: Simulator, q: Array, result: StepResult) -> None:
+        system, step, points = simulator.system, result.step, result.points
+        x = result.solution.delta_q
+        kinematics = system.kinematics(q)
+        self.motion = MotionRates(kinematics, system.motion)
+        self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
+        tangents = step.contacts.d1, step.contacts.d2
+        self.contacts = contact_rates(self.couples, tangents, self.motion.J)
+        dense = step.contacts.dense()
+        rows = RowRates(dense, points, simulator.layout, self.contacts, self.motion)
+        masses = MassRates(system, kinematics, self.motion)
+        data = data_rates(simulator, step, x, rows, masses)
+        self.data = parameters(*data.values())
+        ends = np.cumsum([part.load.shape[1] for part in data.values()]).tolist()
+        self.places = dict(zip(data, zip([0, *ends[:-1]], ends, strict=True), strict=True))
+        self.carried, self.onward = sum_rates(system.joints, x)
+        both = np.abs(np.stack([points.alpha, points.beta]))
+        self.far: Array = both.max(axis=(0, 2), initial=0.0)
+
+    def shaped(self, columns: Array) -> dict[str, Array]:
+        """All columns, shape (n_v, P) [per unit of each parameter], by fields."""
+        fields = {name: columns[:, slice(*place)] for name, place in self.places.items()}
+        fields["dq_dh"] = fields["dq_dh"][:, 0]
+        return fields

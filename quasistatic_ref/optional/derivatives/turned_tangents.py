@@ -1,0 +1,67 @@
+"""Whether a step stays as it is where the tangents of a contact turn to another axis of the world.
+
+Where two axes are as far from the normal, tangents jump by a finite angle, and the polyhedral cone
+turns with them. A contact that slides is held by other rows then. One that sticks stays, if what it
+bears is inside of both cones: its gap, slips and spin are zero in whatever frame. So does one
+without load whose motion is inside of both.
+"""
+
+import numpy as np
+from scipy.optimize import nnls
+
+from quasistatic_ref.optional.derivatives.step.touching import Touching
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.tolerances import INSIDE, TIED
+
+
+def stays(step: StepData, x: Array, touching: Touching, j: int) -> bool:
+    """Whether a displacement is optimal with each of the frames that contact j may have.
+
+    Parameters
+    ----------
+    step : StepData
+        Of a polyhedral cone.
+    x : ndarray, shape (n_v,)
+        Its displacement [m, rad].
+    touching : Touching
+        Its rows without slack.
+    j : int
+    """
+    contacts = step.contacts
+    table = touching.table[step.mask[j]]
+    motion, load = touching.generators[j] @ x, touching.multipliers[j]
+    motion[0] += contacts.phi[j]
+    strict, idle = (int(np.sum(rows[:, 0] == j)) for rows in (touching.strict, touching.idle))
+    frames = [_turn(contacts.d1[j], contacts.d2[j], other) for other in _others(contacts.n[j])]
+    if strict == len(table):
+        return all(_inside(table, turn @ load) for turn in frames)
+    if strict or idle:
+        return False
+    room = INSIDE * np.abs(motion).max()
+    return all(bool((table @ turn @ motion > room).all()) for turn in frames)
+
+
+def _others(n: Array) -> list[Array]:
+    """The frames (2, 3) [-] of the axes of the world that are as far from n as the first."""
+    size = np.abs(n)
+    tied = np.flatnonzero(size - size.min() <= TIED)
+    found = []
+    for axis in np.eye(3)[tied[tied != size.argmin()]]:
+        d1 = axis - (axis @ n) * n
+        d1 = d1 / np.sqrt(d1 @ d1)
+        found.append(np.stack([d1, np.cross(n, d1)]))
+    return found
+
+
+def _turn(d1: Array, d2: Array, frame: Array) -> Array:
+    """What takes gap, slips and spin, or their multipliers, to another frame, shape (4, 4)."""
+    turn = np.eye(4)
+    turn[1:3, 1:3] = frame @ np.stack([d1, d2], axis=1)
+    return turn
+
+
+def _inside(table: Array, load: Array) -> bool:
+    """Whether multipliers are combined from all rows of a table (R, 4), each with a part of it."""
+    share = INSIDE * load[0] * table.mean(axis=0)
+    _, miss = nnls(table.T, load - share)
+    return bool(miss <= INSIDE**2 * load[0])

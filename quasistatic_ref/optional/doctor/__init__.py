@@ -1,0 +1,1 @@
+"""What a run shows of the model's artifacts, in words."""

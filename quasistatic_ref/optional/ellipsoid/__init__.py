@@ -1,0 +1,1 @@
+"""The ellipsoidal friction cone: its solvers, its enclosures and their verification."""

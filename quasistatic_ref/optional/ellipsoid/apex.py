@@ -1,0 +1,102 @@
+r"""The ellipsoid where it is rational: every contact that bears load sticks, at the cone's apex.
+
+There A_j x = b_j holds for all rows of those contacts: x is the minimiser on independent ones
+among them, a solution of linear equations. The rows of all these contacts may be dependent, so lam
+is not unique; given one in float64, changes of its entries on the independent rows alone make
+
+.. math:: H x - g = A^T \lambda
+
+exact. Whether x and the changed lam are inside of their cones, and lam'(A x - b) = 0, is then
+decided in rational numbers: by convexity nothing else has to be checked.
+"""
+
+from collections.abc import Sequence
+
+from flint import fmpq, fmpq_mat, fmpz_mat
+
+from quasistatic_ref.certify.dependence import independent_rows
+from quasistatic_ref.certify.gap import fractions
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
+from quasistatic_ref.step.data import Array, StepData
+
+
+def apex_rows(step: StepData, form: ExactForm, lam: Array) -> tuple[int, ...]:
+    """The first independent rows among all rows of the contacts that bear load.
+
+    Parameters
+    ----------
+    step : StepData
+    form : ExactForm
+        That of the step.
+    lam : ndarray, shape (m,)
+
+    Returns
+    -------
+    tuple of int
+        In increasing order. Directions without friction are left out: they bear nothing.
+    """
+    rows = [
+        i
+        for _, block, c in cone_blocks(step)
+        if lam[block[0]] > 0
+        for i, mu in zip(block, [ONE, *c], strict=True)
+        if mu > 0
+    ]
+    return independent_rows(form, rows)
+
+
+def apex_refutation(
+    step: StepData, form: ExactForm, working: Sequence[int], lam: Array
+) -> str | None:
+    """Why the minimiser on some rows is not the optimum of a step in the ellipsoid; None if it is.
+
+    Parameters
+    ----------
+    step : StepData
+    form : ExactForm
+        That of the step.
+    working : sequence of int
+        Rows of A on which x is the minimiser.
+    lam : ndarray, shape (m,)
+        Impulses; those of the working rows need to be right but for rounding.
+
+    Returns
+    -------
+    str or None
+    """
+    try:
+        solution = rational_solution(form, tuple(working))
+    except ZeroDivisionError:
+        return "the rows of the working set are not independent"
+    slack = [fmpq(s) / solution.denominator for s in solution.slack]
+    net = [fmpq(v) / solution.denominator for v in solution.net]
+    impulse = _balanced(form, working, fractions(lam, form.lam_unit), net)
+    if impulse is None:
+        return "no multipliers on the working set balance the step"
+    for name, rows, c in cone_blocks(step):
+        if not inside(slack[rows[0]], [m * slack[i] for m, i in zip(c, rows[1:], strict=True)]):
+            return f"{name} is violated by the minimiser on the working set"
+    if name := outside_of_cones(step, impulse):
+        return f"the force at {name} is outside of its cone"
+    work = sum((s * f for s, f in zip(slack, impulse, strict=True)), fmpq(0))
+    return "a contact that is open bears load" if work else None
+
+
+def _balanced(
+    form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
+) -> list[fmpq] | None:
+    """Return lam changed on the working rows so that A'lam = net; None if that does not do."""
+    A = fmpq_mat(form.A)
+    short = fmpq_mat(form.n, 1, net) - A.transpose() * fmpq_mat(form.m, 1, lam)
+    if not working:
+        return None if any(short.entries()) else lam
+    W = fmpq_mat(fmpz_mat([form.row(i) for i in working]))
+    change = (W * W.transpose()).solve(W * short)
+    if any((W.transpose() * change - short).entries()):
+        return None
+    changed = list(lam)
+    for i, d in zip(working, change.entries(), strict=True):
+        changed[i] += d
+    return changed

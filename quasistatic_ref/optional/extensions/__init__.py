@@ -1,0 +1,1 @@
+"""Constraints and costs of a user's own, written in CVXPY."""

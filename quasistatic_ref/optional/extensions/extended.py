@@ -1,0 +1,224 @@
+"""Steps with a user's own constraints and costs.
+
+An extension that is nothing but linear equations and inequalities is read once, as rows of the
+step: they are then certified like any others, and travel in the step's file. Anything else (costs,
+curved constraints, further variables) is solved as a conic program whose residuals are reported.
+"""
+
+import warnings
+from dataclasses import asdict
+from functools import cache
+
+import cvxpy as cp
+import numpy as np
+
+from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
+from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
+from quasistatic_ref.solve.backends import backend, cone_backend
+from quasistatic_ref.solve.solver import RELAXED
+from quasistatic_ref.solve.through_cvxpy import CANON
+from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array, Extra, StepData
+from quasistatic_ref.step.extension import Extension, Own, Symbols
+from quasistatic_ref.step.friction import cone_function, frictionless
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.solution import (
+    Certificate,
+    SolverStatistics,
+    StepSolution,
+    step_solution,
+)
+from quasistatic_ref.tolerances import RESIDUAL_LIMIT
+
+
+def extension_rows(step: StepData, extension: Extension) -> Extra | None:
+    """The rows A delta_q >= b of an extension that holds linear constraints only, else None.
+
+    An equation becomes two rows. The numbers are the float64 numbers that CVXPY makes of it.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    extension : Extension
+
+    Returns
+    -------
+    Extra or None
+        The extension's rows alone.
+    """
+    problem = cone_problem(step)
+    constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
+    if costs(problem) or extension.without_stiffness:
+        return None
+    unknowns = (problem.delta_q_a, problem.delta_q_u)
+    problem.fill(step)
+    for x in unknowns:
+        x.value = np.zeros(x.shape)
+    names: list[str] = []
+    A, b = [np.zeros((0, step.n_v))], [np.zeros(0)]
+    for k, constraint in enumerate(constraints(problem)):
+        equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
+        plain = equation or isinstance(constraint, cp.constraints.Inequality)
+        if not plain or not constraint.expr.is_affine():
+            return None
+        if {v.id for v in constraint.expr.variables()} - {x.id for x in unknowns}:
+            return None
+        value = np.atleast_1d(np.asarray(constraint.expr.value, dtype=np.float64)).ravel("F")
+        row = -_coefficients(constraint.expr, unknowns)  # expr <= 0
+        labels = [f"extension {k}[{i}]" for i in range(len(value))]
+        for sign, end in ((1.0, ""), (-1.0, " reversed"))[: 1 + equation]:
+            names += [label + end for label in labels]
+            A.append(sign * row)
+            b.append(sign * value)
+    return Extra(tuple(names), np.vstack(A), np.concatenate(b))
+
+
+def with_rows(step: StepData, own: Extra) -> StepData:
+    """A step with further rows after those that it has."""
+    A, b = np.vstack([step.extra.A, own.A]), np.concatenate([step.extra.b, own.b])
+    return step.replace(extra=Extra(step.extra.names + own.names, A, b))
+
+
+def extended_solution(
+    step: StepData, extension: Extension, name: str, accuracy: float, certify: str
+) -> StepSolution:
+    """The optimum of a step with an extension that holds nonlinear constraints or costs.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    extension : Extension
+    name : str
+        A backend that takes cones.
+    accuracy : float
+        In natural units [-].
+    certify : str
+        ``"off"``, or anything else for a certificate of kind ``"residual"``.
+
+    Returns
+    -------
+    StepSolution
+        lam and wrench are those of the step's own rows; what an extension pushes with is not in
+        them, nor what its costs do in place of a contact.
+
+    Raises
+    ------
+    BackendError
+        If the backend takes no cones.
+    StepNotSolved
+        If it does not solve the problem, or its residuals are not small.
+    """
+    cone_backend(name, "an extension with nonlinear constraints or costs")
+    units = natural_units(step)
+    if units.size <= STANDSTILL:  # nothing but the extension drives the step
+        units = units._replace(size=1.0)
+    natural = to_natural(step, units)
+    problem = cone_problem(natural, *_own_terms(extension, step, units))
+    problem.fill(natural)
+    for parameter in problem.parameters if extension.without_stiffness else ():
+        if parameter.name() in ("K_q", "tau_k"):  # nothing is left of Eq. (1)
+            parameter.value = np.zeros(parameter.shape)
+    failure: StepNotSolved | None = None
+    for relaxed in (k * accuracy for k in RELAXED):
+        for options in backend(name).attempts(relaxed):
+            try:
+                certificate, statistics = _solved(step, problem, name, relaxed, dict(options))
+            except StepNotSolved as failed:
+                failure = failed
+                continue
+            delta_q, lam = from_natural(problem.primal(), problem.dual(), units)
+            claimed = Certificate("none") if certify == "off" else certificate
+            return step_solution(step, delta_q, lam, claimed, statistics)
+    assert failure is not None  # a backend has at least one set of options
+    raise failure
+
+
+def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own, Own]:
+    """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
+
+    @cache  # its terms are formed once: further variables of its own are in both
+    def terms(problem: StepProblem) -> list[cp.Constraint | cp.Expression]:
+        return list(extension.terms(_symbols(problem, step, units)))
+
+    def constraints(problem: StepProblem) -> list[cp.Constraint]:
+        return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
+
+    def costs(problem: StepProblem) -> list[cp.Expression]:
+        return [t / units.size**2 for t in terms(problem) if not isinstance(t, cp.Constraint)]
+
+    return constraints, costs
+
+
+def _symbols(problem: StepProblem, step: StepData, units: Units) -> Symbols:
+    """The symbols of a problem in SI units."""
+    coordinate, length = units.size * units.coordinate, units.size * units.length
+    rows = frictionless if step.cone == ELLIPSOID else cone_function(step.cone)  # the gap alone
+    return Symbols(
+        delta_q=cp.multiply(coordinate, problem.delta_q),
+        delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
+        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u),
+        delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
+        slack=tuple(
+            length * row[j] for row, j in zip(rows(*problem.motion), step.mask.T, strict=False)
+        ),
+    )
+
+
+def _solved(
+    step: StepData, problem: StepProblem, name: str, accuracy: float, options: dict[str, object]
+) -> tuple[Certificate, SolverStatistics]:
+    """Solve the conic program and judge the raw answer; its values are left in the problem."""
+    solver = name.upper()
+    try:
+        data, chain, inverse = problem.problem.get_problem_data(
+            solver, canon_backend=CANON, solver_opts=options
+        )
+        raw = chain.solve_via_data(problem.problem, data, False, False, options)
+        with warnings.catch_warnings():
+            # "Solution may be inaccurate" is dealt with below, by the status.
+            warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
+            problem.problem.unpack_results(raw, chain, inverse)
+    except cp.error.DCPError as error:
+        raise InputError(f"is not convex by CVXPY's rules: {error}", field="extension") from error
+    except Exception as error:  # whatever another package raises
+        raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
+    status = str(problem.problem.status)
+    if status != cp.OPTIMAL:
+        raise StepNotSolved(name, status, step, accuracy)
+    x, z = (raw["x"], raw["y"]) if isinstance(raw, dict) else (raw.x, raw.z)
+    dims = data["dims"]
+    n = len(data["c"])
+    P = data["P"].toarray() if data.get("P") is not None else np.zeros((n, n))
+    program = ConicProgram(
+        P=np.triu(P) + np.triu(P, 1).T,
+        c=data["c"],
+        A=data["A"].toarray(),
+        b=data["b"],
+        zero=int(dims.zero),
+        nonnegative=int(dims.nonneg),
+        second_order=[int(k) for k in dims.soc],
+        exponential=int(dims.exp),
+    )
+    residuals = conic_residuals(program, np.array(x), np.array(z))
+    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
+        said = f"it said {status}, but its worst residual is {residuals.worst:.1e}"
+        raise StepNotSolved(name, said, step, accuracy, residuals)
+    stats = problem.problem.solver_stats
+    statistics = SolverStatistics(name, status, stats.num_iters, stats.solve_time, accuracy)
+    return Certificate("residual", asdict(residuals)), statistics
+
+
+def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Array:
+    """Return the matrix of an affine expression, shape (size, n_v)."""
+    gradient = expr.grad
+    size = int(expr.size)
+    blocks = []
+    for x in unknowns:
+        block = gradient.get(x, np.zeros((x.size, size)))
+        dense = block.toarray() if hasattr(block, "toarray") else np.asarray(block)
+        blocks.append(dense.reshape(x.size, size).T)
+    return np.asarray(np.hstack(blocks), dtype=np.float64)

@@ -1,0 +1,60 @@
+"""A backend's own answer, of which nothing is claimed, in few calls."""
+
+import numpy as np
+
+from quasistatic_ref.optional.large.uncertified import NOTHING_CLAIMED
+from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import Units, from_natural
+from quasistatic_ref.step.arrays import QUIET, finite
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import SolverStatistics, StepSolution
+
+NONE_OF_OWN = np.zeros(0)
+"""Multipliers of rows of a user's own."""
+
+
+def as_said(
+    step: StepData, solver: Solver, units: Units | None, accuracy: float
+) -> StepSolution | None:
+    """The solution of a step whose program compiled code has written, as the backend gives it.
+
+    Parameters
+    ----------
+    step : StepData
+    solver : Solver
+    units : Units or None
+        In which its program is written; None if it is not.
+    accuracy : float
+        In natural units [-].
+
+    Returns
+    -------
+    StepSolution or None
+        That of :func:`~quasistatic_ref.solve.solve.solved` with ``certify="off"``, to the last bit;
+        None where `solved` has more to do: further options to try, rows out of reach, or a step to
+        refuse.
+    """
+    if units is None or not isinstance(solver, NativeSolver) or solver.adapter.NEAR:
+        return None
+    return QUIET.copy().run(_as_said, step, solver, units, accuracy)
+
+
+def _as_said(
+    step: StepData, solver: NativeSolver, units: Units, accuracy: float
+) -> StepSolution | None:
+    attempt = solver.attempts(accuracy)[0]
+    try:
+        reply = solver.reply(attempt, None)
+    except Exception:  # whatever another package raises: `solved` tries again
+        return None
+    if not reply.solved or reply.x is None or reply.lam is None:
+        return None
+    delta_q, lam = from_natural(reply.x, reply.lam, units)
+    if not (finite(delta_q) and finite(lam)):
+        return None
+    solver.written = None
+    cost = reply.iterations, reply.seconds, attempt.accuracy
+    statistics = SolverStatistics(solver.name, "optimal", *cost, None, solver.engine)
+    of_step = step, solver.name, NOTHING_CLAIMED, statistics
+    return StepSolution(delta_q, lam, NONE_OF_OWN, *of_step)

@@ -1,0 +1,139 @@
+"""The C files of this folder, compiled once for each user and machine, and loaded with ctypes.
+
+A compiler is looked for in this order: the command that ``QUASISTATIC_REF_CC`` names (``none`` asks
+for no compiled code at all), the system's ``cc``, ``gcc`` or ``clang``, and the Python package
+``ziglang``, which the extra ``[fast]`` brings. The library is kept in the user's cache folder,
+``XDG_CACHE_HOME`` or ``~/.cache``, under a name that follows from the source and the command.
+"""
+
+import ctypes
+import hashlib
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+from quasistatic_ref.optional.fast.compiled.products import FUSED, products
+
+VARIABLE = "QUASISTATIC_REF_CC"
+NONE = "none"
+SOURCES = (
+    "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
+    "span.c", "rounding.c",
+)  # fmt: skip
+HEADERS = ("scene.h", "proof.h", "fixed_point.h")
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
+"""The third: no compiler may join a product and a sum that the source keeps apart."""
+
+
+FUNCTIONS = {
+    "closest_points": ctypes.c_int,
+    "step_data": ctypes.c_double,
+    "reach": ctypes.c_double,
+    "positions": None,
+    "changes": None,
+    "natural_program": ctypes.c_int,
+    "hessian": ctypes.c_int,
+    "proof": ctypes.c_int,
+}
+"""What each function returns; its one argument is the address of a structure."""
+
+
+class CompileError(Exception):
+    """Why there is no library, in words."""
+
+
+def library() -> ctypes.CDLL:
+    """The compiled functions.
+
+    Raises
+    ------
+    CompileError
+    """
+    found = _found()
+    if isinstance(found, str):
+        raise CompileError(found)
+    return found
+
+
+def why_not() -> str | None:
+    """Why there is no library, in words; None if there is one."""
+    found = _found()
+    return found if isinstance(found, str) else None
+
+
+@cache
+def _found() -> ctypes.CDLL | str:
+    if platform.system() == "Windows" or sys.maxsize < 2**32:
+        return "it is made for 64-bit Linux and macOS only"
+    try:
+        command = compiler()
+        found = ctypes.CDLL(str(_made(command)))
+    except CompileError as reason:
+        return str(reason)
+    except OSError as failure:
+        return f"it could not be compiled: {failure}"
+    for name, result in FUNCTIONS.items():
+        function = getattr(found, name)
+        function.argtypes, function.restype = [ctypes.c_void_p], result
+    return found
+
+
+def compiler() -> list[str]:
+    """The command that compiles C, with what it needs to know of the processor.
+
+    Raises
+    ------
+    CompileError
+        If there is none.
+    """
+    fused = ["-mfma"] if platform.machine() in ("x86_64", "AMD64") else []
+    named = os.environ.get(VARIABLE, "")
+    if named == NONE:
+        raise CompileError(f"{VARIABLE} says {NONE}")
+    command = shlex.split(named)
+    for name in ("cc", "gcc", "clang"):
+        command = command or [path for path in [shutil.which(name)] if path]
+    if not command:
+        if find_spec("ziglang") is None:
+            raise CompileError(
+                "there is no C compiler: install one, or the extra: "
+                'pip install "quasistatic-ref[fast]"'
+            )
+        command = [sys.executable, "-m", "ziglang", "cc"]
+        fused = ["-mcpu=x86_64_v3"] if fused else []
+    return [*command, *(["-DFUSED", *fused] if products() == FUSED else [])]
+
+
+def _made(command: list[str]) -> Path:
+    """The library's file, made if it is not there."""
+    here = Path(__file__).parent
+    text = b"".join((here / name).read_bytes() for name in (*SOURCES, *HEADERS))
+    key = hashlib.sha256(
+        text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
+    ).hexdigest()
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "quasistatic_ref"
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if folder.stat().st_uid != os.getuid():
+        raise CompileError(f"{folder} belongs to another user")
+    file = folder / f"fast-{key[:16]}.so"
+    if not file.exists():
+        print("quasistatic_ref: compiling, once ...", file=sys.stderr, flush=True)
+        with tempfile.TemporaryDirectory(dir=folder) as made:
+            out = Path(made) / file.name
+            sources = [str(here / name) for name in SOURCES]
+            done = subprocess.run(
+                [*command, *FLAGS, "-o", str(out), *sources, "-lm"],
+                capture_output=True, text=True, check=False,
+            )  # fmt: skip
+            if done.returncode:
+                said = (done.stderr.strip().splitlines() or ["without a word"])[-1]
+                raise CompileError(f"{command[0]} could not compile it: {said}")
+            os.replace(out, file)
+    return file

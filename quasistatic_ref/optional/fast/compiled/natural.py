@@ -1,0 +1,88 @@
+"""A step's program in natural units, written into the arrays of its solver."""
+
+import numpy as np
+
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.scene import Scene
+from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.solve.adapters.program import Program
+from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import Metric, Units
+from quasistatic_ref.step.data import StepData
+
+NUMBERS = ("n", "m", "row", "column")
+ARRAYS = (
+    "g", "A", "b", "coordinate", "squared", "inverse",
+    "squares", "scale", "units", "f", "natural_A", "natural_b",
+)  # fmt: skip
+"""The fields of ``Natural`` in natural.c."""
+
+MOST = 1024
+"""Most coordinates for which ``OFF`` in natural.c is enough."""
+
+
+class NaturalProgram:
+    """The arrays of one solver, for steps of one H.
+
+    Parameters
+    ----------
+    scene : Scene
+        Holds the steps' g, A and b.
+    solver : NativeSolver
+    program : Program
+        That of the solver.
+    metric : Metric
+        Of H.
+    """
+
+    def __init__(
+        self, scene: Scene, solver: NativeSolver, program: Program, metric: Metric
+    ) -> None:
+        found = library()
+        self._write, self._solver, self._metric = found.natural_program, solver, metric
+        self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
+        m, n = program.A.shape
+        row, column = (stride // program.A.itemsize for stride in program.A.strides)
+        s.put(
+            {
+                "n": n, "m": m, "row": row, "column": column,
+                **{name: scene[name] for name in ("g", "A", "b")},
+                "coordinate": metric.coordinate, "squared": metric.squared,
+                "inverse": metric.inverse,
+                "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
+                "f": program.f, "natural_b": program.b,
+                # In either order of memory; `row` and `column` say in which:
+                "natural_A": program.A.ravel(order="K"),
+            }
+        )  # fmt: skip
+        self._units = s["units"]
+        assert all(np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b"))
+
+    def fits(self, solver: Solver, step: StepData) -> bool:
+        """Whether a step can be written into a solver's arrays: both have the H of this program."""
+        own, metric = self._solver, self._metric
+        return solver is own and own.metric is metric and metric.H is step.H
+
+    def written(self) -> Units | None:
+        """Write the program of the step that the scene holds, and return its natural units.
+
+        Returns
+        -------
+        Units or None
+            None where the rounding of a sum, which depends on its order, decides on a unit.
+        """
+        if not self._write(self._structure.address):
+            return None
+        units = Units(self._metric.coordinate, *self._units.tolist())
+        self._solver.written = units
+        return units
+
+
+def natural_program(scene: Scene, solver: Solver, step: StepData) -> NaturalProgram | None:
+    """What writes the steps of a scene that are like one into the arrays of a solver, or None."""
+    if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
+        return None
+    if solver.metric is None or solver.metric.H is not step.H or step.n_v > MOST:
+        return None
+    return NaturalProgram(scene, solver, solver.program, solver.metric)

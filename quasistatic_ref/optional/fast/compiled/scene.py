@@ -1,0 +1,176 @@
+"""A simulator's contacts as the structures of scene.h."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.poses import Poses
+from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.posed import Constants
+from quasistatic_ref.optional.fast.tracker.batch import bounds
+from quasistatic_ref.optional.fast.tracker.cloud_tracker import CloudTracker
+from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.friction import cone_function, cone_matrix
+
+ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
+"""Kinds of solids, as scene.h counts them."""
+
+NUMBERS = ("pairs", "n_c", "n_v", "n_a", "n_x", "links", "mimics")
+ARRAYS = (
+    "R", "t", "column",
+    "link_solid", "link_cloud", "on_solid", "on_cloud",
+    "kind", "size", "sign",
+    "first", "length", "index", "x", "y", "z", "bounds", "slope", "offset",
+    "start", "count",
+    "owner", "moves_alpha", "moves_beta", "mu_v", "mu_omega", "rows",
+    "coefficient", "has",
+    "world", "nearest", "rank", "point",
+    "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
+    "h", "weighs", "gravity", "force", "tau_k", "tau", "g",
+)  # fmt: skip
+"""The fields of ``Scene`` in scene.h, one for one."""
+
+
+def known(shape: shapes.Shape) -> bool:
+    """Whether compiled code knows the distance to a solid."""
+    return isinstance(shape, Rounded | shapes.HalfSpace | shapes.Cylinder)
+
+
+class Scene(Structure):
+    """``Scene`` of scene.h.
+
+    Parameters
+    ----------
+    poses : Poses
+        Where pinocchio writes the poses of the links.
+    geometry : ContactGeometry
+    constant : Constants
+        In a polyhedral cone.
+    weighs : ndarray, shape (n_v,)
+        1.0 for each coordinate that feels gravity, else 0.0 [-].
+    clouds : CloudTracker or None
+        Of all pairs, where each has a cloud and a solid that is :func:`known`.
+    """
+
+    def __init__(
+        self,
+        poses: Poses,
+        geometry: ContactGeometry,
+        constant: Constants,
+        weighs: Array,
+        clouds: CloudTracker | None,
+    ) -> None:
+        motion, layout = geometry.motion, constant.layout
+        n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
+        n_x, n_v = len(motion.owner), motion.n_v
+        super().__init__(NUMBERS, ARRAYS, library().scene_size)
+        self.given = given = np.dtype(
+            [
+                ("point", np.int64, (n_c,)), ("phi", np.float64, (n_c,)),
+                *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
+                ("J", np.float64, (n_c, 4, n_v)), ("tau", np.float64, (n_v,)),
+                ("g", np.float64, (n_v,)),
+            ]
+        )  # fmt: skip
+        self._bytes = np.zeros(given.itemsize, np.uint8)
+        written = np.ndarray((), given, self._bytes)
+        self.clouds, self.lists_made = clouds, 0
+        alpha, beta = geometry.moves[:, :, 0]
+        self.put(
+            {
+                "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
+                "links": len(poses.R), "mimics": int(motion.mimics),
+                "R": poses.R, "t": poses.t, "column": poses.columns,
+                "owner": motion.owner,
+                "moves_alpha": alpha, "moves_beta": beta,
+                "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
+                **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
+                "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),
+                "h": np.array([constant.h]), "weighs": weighs, "gravity": poses.gravity,
+                "force": np.zeros(n_v), "tau_k": np.zeros(n_a),
+            },
+        )  # fmt: skip
+        if clouds is not None:
+            self._put_pairs(clouds)
+
+    def taken(self) -> NDArray[np.void]:
+        """What C has written of a step, of shape (): its arrays by their names."""
+        # A copy of the bytes is read-only; copying field by field takes ten times as long.
+        return np.ndarray((), self.given, self._bytes.tobytes())
+
+    @property
+    def listed(self) -> bool:
+        """Whether there are short lists of all pairs."""
+        return self.lists_made > 0
+
+    def relist(self) -> None:
+        """Take over the tracker's short lists, where it has made new ones."""
+        clouds = self.clouds
+        if clouds is None or clouds.lists_made == self.lists_made:
+            return
+        self.lists_made = clouds.lists_made
+        index = [made.index for made in clouds.lists]
+        points = [cloud.points[i] for cloud, i in zip(clouds.clouds, index, strict=True)]
+        of_lists = [
+            bounds(made, tree.box) for made, tree in zip(clouds.lists, clouds.trees, strict=True)
+        ]
+        x, y, z = np.concatenate(points).T
+        length = np.array([len(i) for i in index])
+        self.put(
+            {
+                "first": starts(length)[:-1], "length": length, "index": np.concatenate(index),
+                "x": x, "y": y, "z": z,
+                "bounds": starts(np.array([len(offset) for _, offset in of_lists])),
+                "slope": np.concatenate([slope for slope, _ in of_lists]),
+                "offset": np.concatenate([offset for _, offset in of_lists]),
+            },
+        )  # fmt: skip
+
+    def _put_pairs(self, clouds: CloudTracker) -> None:
+        """What does not change of the pairs, in the tracker's order."""
+        P, places = len(clouds.solids), clouds.placements
+        count = np.array(clouds.n_c)
+        start = np.zeros(P, np.int64)
+        start[np.argsort(clouds.pair)] = starts(count[np.argsort(clouds.pair)])[:-1]
+        kinds, sizes = zip(*map(solid_numbers, clouds.solids), strict=True)
+        self.put(
+            {
+                "pairs": P, "link_solid": places.link[:P], "link_cloud": places.link[P:],
+                "on_solid": places.on_link[:P], "on_cloud": places.on_link[P:],
+                "kind": np.array(kinds), "size": np.array(sizes), "sign": clouds.signs,
+                "start": start, "count": count,
+                "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
+                "rank": np.zeros(count.max(), np.int64),
+            },
+        )  # fmt: skip
+
+
+def starts(lengths: Indices) -> Indices:
+    """Where each of some parts begins, and where the last ends, shape (parts + 1,)."""
+    return np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])
+
+
+def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:
+    """The kind of a solid, and the four numbers [m] that scene.h wants of that kind."""
+    match shape:
+        case shapes.HalfSpace():
+            return HALF_SPACE, [*shape.normal.tolist(), shape.offset]
+        case shapes.Cylinder():
+            return CYLINDER, [shape.radius, shape.half_length, 0.0, 0.0]
+        case _:
+            assert isinstance(shape, Rounded)
+            half_extents, ball = shape.core
+            return ROUNDED_BOX, [*half_extents.tolist(), ball]
+
+
+def cone_terms(name: str) -> dict[str, Array | Indices]:
+    """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which terms exist; (R, 3).
+
+    A term with coefficient zero differs from no term: it can change the sign of a zero.
+    """
+    of_nan = cone_function(name)(0.0, *np.where(np.eye(3) > 0, np.nan, 0.0))
+    has = np.isnan(np.array([np.broadcast_to(row, 3) for row in of_nan]))
+    return {"coefficient": cone_matrix(name)[:, 1:], "has": has.astype(np.int64)}

@@ -1,0 +1,227 @@
+"""A simulator's step in compiled code: the same algorithm, the same numbers to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.fast.compiled.answer import as_said
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
+from quasistatic_ref.optional.fast.compiled.poses import Poses
+from quasistatic_ref.optional.fast.compiled.products import products
+from quasistatic_ref.optional.fast.compiled.scene import Scene, known
+from quasistatic_ref.optional.fast.compiled.screws import Screws
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.simulator import Simulator
+
+TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
+"""The fields of a step among those that C has written."""
+
+SURELY = 1 - 2.0**-40
+"""Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
+
+
+def taken_by(simulator: Simulator) -> str:
+    """What takes a simulator's steps, in words."""
+    if (reason := unknown(simulator)) is not None:
+        return f"NumPy: {reason}"
+    names = ", ".join(dict.fromkeys(measured_by_numpy(simulator)))
+    return "compiled code" + (f"; closest points by NumPy, which {names} need" if names else "")
+
+
+def unknown(simulator: Simulator) -> str | None:
+    """Why compiled code does not take a simulator's steps, in words; None if it does."""
+    if simulator.engine != "native":
+        return f"the engine is {simulator.engine!r}"
+    if simulator.extension is not None:
+        return "the scene has an extension"
+    if not cone(simulator.cone).polyhedral:
+        return f"the {simulator.cone} has no rows"
+    if not simulator.pairs:
+        return "nothing can touch"
+    if not isinstance(simulator.geometry, ContactGeometry):
+        return "contacts are handed over in blocks"
+    if products() is None:
+        return "NumPy multiplies matrices here in an order that is not known"
+    return None
+
+
+def measured_by_numpy(simulator: Simulator) -> list[str]:
+    """Names of the pairs whose closest points compiled code does not know."""
+    return [
+        pair.name
+        for pair in simulator.pairs
+        if not (pair.has_cloud and (known(pair.alpha.shape) or known(pair.beta.shape)))
+    ]
+
+
+def compiled_step(simulator: Simulator) -> CompiledStep | None:
+    """What takes a simulator's steps, or None: :func:`unknown` says why."""
+    return CompiledStep(simulator) if unknown(simulator) is None else None
+
+
+T = TypeVar("T", PosedContacts, PosedStep)
+
+
+def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
+    """Posed data of a `kind`: of fields that are the `same` at each step, and of their `own`.
+
+    The arrays must be read-only.
+    """
+    made = kind.__new__(kind)
+    fields = vars(made)
+    fields.update(same)
+    fields.update(own)
+    return made
+
+
+class CompiledStep:
+    """The step of one simulator.
+
+    The first step's numbers are formed by NumPy, too, and compared.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    """
+
+    def __init__(self, simulator: Simulator) -> None:
+        assert isinstance(simulator.geometry, ContactGeometry)
+        self.poses, self.geometry = Poses(simulator.system), simulator.geometry
+        clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
+        constant, weighs = simulator.constant, simulator.gravity_acts
+        self.scene = Scene(self.poses, self.geometry, constant, weighs, clouds)
+        self.force, self.tau_k = self.scene["force"], self.scene["tau_k"]
+        found = library()
+        self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
+        self.screws = Screws(simulator.system, self.poses)
+        self.program: NaturalProgram | None = None
+        self.equal: bool | None = None
+        layout, mu = self.geometry.layout, self.geometry.mu
+        self.of_contacts = {
+            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
+        }  # fmt: skip
+        self.constant: Constants | None = None
+        self.of_steps: dict[str, Any] = {}
+        self.solver: Solver | None = None
+
+    def __call__(
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> StepResult | None:
+        """The step of :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`.
+
+        Returns
+        -------
+        StepResult or None
+            None where NumPy has to take the step: the first step's matrices differ from NumPy's,
+            the simulator has an extension, or the force has another shape.
+        """
+        shape = () if isinstance(force, float) else np.shape(force)
+        if simulator.extension is not None or (shape and shape != self.force.shape):
+            return None
+        lap, system = Stopwatch(), simulator.system
+        q = np.asarray(q, dtype=np.float64)
+        self.poses.move(q)
+        self.find_points(simulator, q)
+        lap("distances")
+        points, step, form, gap = self.step_data(simulator, q, q_bar_a, force)
+        if self.equal is None:
+            self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
+            if not self.equal:
+                simulator.fast = None
+                return None
+        lap("rows")
+        try:
+            solution = self.solution(simulator, step, form)  # Eq. (13)
+        except StepNotSolved as failure:
+            solution = simulator.spare.answer(step, failure)
+        limits = simulator.limits
+        if not gap >= -limits.penetration:
+            limits.check_penetration(step)
+        lap("solve")
+        q_next = self.screws.integrate(solution.delta_q)
+        self.poses.move(q_next)
+        if not self.reach(self.scene.address) <= SURELY * limits.reach**2:
+            limits.check_reach(step, system.links, system.kinematics(q_next).t)
+        lap("integrate")
+        return StepResult(q_next, step, solution, points, lap.seconds)
+
+    def find_points(self, simulator: Simulator, q: Array) -> None:
+        """Write the closest points at q: from the short lists; NumPy's where these prove none."""
+        scene = self.scene
+        scene.relist()
+        if scene.clouds is not None and scene.listed and self.find(scene.address):
+            scene.clouds.steps += 1
+            return
+        kinematics = simulator.system.kinematics(q)
+        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        for name, values in points._asdict().items():
+            scene[name][:] = values
+
+    def step_data(
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> tuple[ClosestPoints, StepData, StandardForm, float]:
+        """The closest points, the problem of one step, its matrices and its least gap [m].
+
+        The arrays A and b of the matrices are overwritten by the next step.
+        """
+        scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
+        delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
+        delta_q_bar_a.setflags(write=False)
+        constant.K_q.dot(delta_q_bar_a, self.tau_k)  # in BLAS's order
+        self.poses.weigh(simulator.gravity)
+        self.force[:] = force
+        gap = self.form(scene.address)
+        phi, alpha, beta, n, point, d1, d2, J, tau, g = TAKEN(scene.taken())
+        points = ClosestPoints(phi, alpha, beta, n, point)
+        own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
+        contacts = posed(PosedContacts, self.of_contacts, own)
+        if constant is not self.constant:
+            self.constant, self.of_steps, self.solver = constant, constant._asdict(), None
+        n_a = len(delta_q_bar_a)
+        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
+        step = posed(PosedStep, self.of_steps, {**loads, "contacts": contacts})
+        return points, step, StandardForm(constant.H, g, scene["A"], scene["b"]), gap
+
+    def solution(self, simulator: Simulator, step: StepData, form: StandardForm) -> StepSolution:
+        """The solution of the step whose matrices are there; StepNotSolved if there is none."""
+        solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
+        if solver is None or solver is not simulator.solver:  # what fits one fits all of them
+            self.solver = solver = simulator.fitting(step)
+        units = self.units(solver, step)
+        said = as_said(step, solver, units, accuracy) if certify == "off" else None
+        return solved(step, solver, accuracy, certify, form, units) if said is None else said
+
+    def units(self, solver: Solver, step: StepData) -> Units | None:
+        """The natural units in which the program of the step is written; None if it is not."""
+        program = self.program
+        if program is None or not program.fits(solver, step):
+            self.program = program = natural_program(self.scene, solver, step)
+        return None if program is None else program.written()
+
+    def by_numpy(
+        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+    ) -> StandardForm:
+        """The matrices of the same step without compiled code."""
+        kinematics = simulator.system.kinematics(q)
+        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        return standard_form(simulator.step_data(q, q_bar_a, force, points, kinematics))

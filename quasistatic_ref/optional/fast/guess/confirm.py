@@ -1,0 +1,216 @@
+r"""The optimum on a working set that was guessed right, confirmed in balls without forming A.
+
+Where a backend answers well, the rows whose multipliers exceed their slacks are mostly a working
+set of the optimum. Sums and products of the step's numbers give h H and h g. With
+:math:`y = h\lambda` the minimiser on :math:`A_W x = b_W` is
+
+.. math:: A_W (hH)^{-1} A_W^T y = b_W - A_W (hH)^{-1} hg, \qquad
+          x = (hH)^{-1} (hg + A_W^T y).
+
+It is the optimum if the first matrix is regular (the rows of W are then independent), y > 0, and
+no other row has a negative slack. Balls show all of that but the slacks that are zero. These, and
+coordinates that are zero, follow from how the rows of a contact are combined, from the rank of
+exact rows, or from the rational solution on W
+(:mod:`~quasistatic_ref.optional.fast.guess.zeros`). What stays open is left to
+:mod:`~quasistatic_ref.certify.exact`, which decides everything.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+
+from quasistatic_ref.certify.balls import PRECISION, inverse
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.rational import h_times_hessian, matrix
+from quasistatic_ref.certify.rounding import all_nearest
+from quasistatic_ref.certify.rows import places
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
+from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
+
+
+class BallHessian:
+    """The inverse of h H in balls, and a proof that H is positive definite; kept while H stays.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Attributes
+    ----------
+    norm : EnergyNorm
+        Of H in float64.
+    rough : ndarray, shape (n_v, n_v)
+        The inverse of H in float64.
+
+    Raises
+    ------
+    StepDataError
+        If H, formed without rounding, is not positive definite.
+    """
+
+    def __init__(self, step: StepData) -> None:
+        self.of = step.h, step.K_q, step.M_u
+        H = h_times_hessian(step)
+        with ctx.workprec(PRECISION):
+            self.inverse = inverse(matrix(H.m)) * arb(2) ** -H.e
+            self.h = arb(step.h)
+            self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
+            self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
+        self.norm = energy_norm(step.H)
+        self.rough: Array = np.linalg.inv(step.H).astype(np.float64)
+
+    def fits(self, step: StepData) -> bool:
+        """Whether a step has the same h, and the same arrays K_q and M_u."""
+        h, K_q, M_u = self.of
+        return h == step.h and K_q is step.K_q and M_u is step.M_u
+
+    def load(self, step: StepData) -> arb_mat:
+        """The load h g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
+        tau_k = self.K_q * _column(step.delta_q_bar_a)  # Eq. (1)
+        tau = (tau_k + _column(step.tau_a)).entries() + step.tau_u.tolist()
+        return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
+
+    def net(self, step: StepData, delta_q: list[arb]) -> list[arb]:
+        """H delta_q - g = A'lam of Eq. :eq:`eq-9`: exact where H couples zeros only."""
+        n_a, n_u = step.n_a, step.n_u
+        off = arb_mat(n_a, 1, delta_q[:n_a]) - _column(step.delta_q_bar_a)
+        actuated = (self.K_q * off - _column(step.tau_a)) * self.h
+        moved = self.M_u * arb_mat(n_u, 1, delta_q[n_a:])
+        parts = zip(moved.entries(), step.tau_u.tolist(), strict=True)
+        return actuated.entries() + [p / self.h - self.h * tau for p, tau in parts]
+
+
+class BallStep:
+    """A step in balls: what the proofs of all guesses of its working set have in common.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    hessian : BallHessian
+        That of the step.
+    """
+
+    def __init__(self, step: StepData, hessian: BallHessian) -> None:
+        self.step, self.hessian, J = step, hessian, step.contacts.J
+        with ctx.workprec(PRECISION):
+            self.J = arb_mat(4 * len(J), step.n_v, J.ravel().tolist())
+            self.free = hessian.inverse * hessian.load(step)
+
+    def confirmed(self, guess: Sequence[int] | Indices) -> Proof:
+        """The exact optimum, if a guess of its working set is right and balls show it.
+
+        Parameters
+        ----------
+        guess : sequence of int
+            Rows, as from :func:`~quasistatic_ref.certify.warm.warm_rows`.
+
+        Returns
+        -------
+        ExactOptimum, Violated or None
+            Violated if a slack is proved negative; None where something stays open. Rows
+            whose multipliers are not surely positive are dropped; nothing else is mended here.
+        """
+        step, hessian = self.step, self.hessian
+        working = sorted({int(i) for i in guess})
+        with ctx.workprec(PRECISION):
+            A, b = _rows(step, working)
+            reached = A * hessian.inverse
+            try:
+                y = (reached * A.transpose()).solve(b - A * self.free)
+            except ZeroDivisionError:
+                return None
+            pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
+            if pressed != working:
+                return self.confirmed(pressed)
+            x = self.free + reached.transpose() * y
+            lam, slacks = y * (1 / hessian.h), _slacks(step, self.J, x)
+            violated = [i for i, slack in enumerate(slacks) if slack < 0]
+            if violated:
+                point = [np.array([float(v) for v in part.entries()]) for part in (lam, x)]
+                return Violated(violated[0], np.array(working, dtype=np.int64), *point)
+            net = A.transpose() * lam
+            numbers, shown = all_nearest((*lam.entries(), *net.entries(), *x.entries(), *slacks))
+        ends = np.cumsum([len(working), step.n_v, step.n_v])
+        lam_w, impulse, delta_q, slack = np.split(numbers, ends)
+        open_lam, open_impulse, open_x, open_slack = np.split(~shown, ends)
+        slack[open_slack] = slack[working] = 0.0  # the open ones: to be proved
+        idle = sorted(set(np.flatnonzero(slack == 0).tolist()) - set(working))
+        still = np.flatnonzero(open_x).tolist()
+        delta_q[still] = 0.0
+        if open_lam.any():
+            return None
+        if not zeros_hold(step, working, idle, still):
+            return None
+        if open_impulse.any():
+            at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
+            with ctx.workprec(PRECISION):
+                impulse, shown = all_nearest(hessian.net(step, at))
+            if not shown.all():
+                return None
+        every = np.zeros(len(slack))
+        every[working] = lam_w
+        return ExactOptimum(
+            delta_q=delta_q,
+            lam=every,
+            net=impulse,
+            slack=slack,
+            working_set=tuple(working),
+            multipliers_unique=not idle,
+            differentiable=True,  # zeros_hold: all rows without slack are strictly active
+            smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
+            smallest_active_multiplier=min(lam_w.tolist(), default=None),
+            walks=0,
+        )
+
+
+def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
+    """A_W and b_W: (n~ + d~_i)'J of Eq. (8) for each row of the working set, the user's last."""
+    contacts, m = step.contacts, int(step.offsets[-1])
+    contact, row = places(step, [i for i in working if i < m])
+    own = [i - m for i in working if i >= m]
+    used = list(dict.fromkeys(contact.tolist()))
+    directions, at = arb_mat(len(contact), 4 * len(used)), {j: 4 * i for i, j in enumerate(used)}
+    frames = zip(contact.tolist(), contacts.n[contact].tolist(), contacts.d1[contact].tolist(),
+                 contacts.d2[contact].tolist(), strict=True)  # fmt: skip
+    table, mu = cone_matrix(step.cone)[row].tolist(), contacts.mu[contact].tolist()
+    for k, (j, n, d1, d2) in enumerate(frames):
+        gap, slip_1, slip_2, spin = table[k]
+        along_1, along_2, first = arb(slip_1) * mu[k][0], arb(slip_2) * mu[k][1], at[j]
+        for i in range(3):
+            directions[k, first + i] = gap * arb(n[i]) + along_1 * d1[i] + along_2 * d2[i]
+        directions[k, first + 3] = arb(spin) * mu[k][2]
+    J = arb_mat(4 * len(used), step.n_v, contacts.J[used].ravel().tolist())
+    entries = (directions * J).entries() + step.extra.A[own].ravel().tolist()
+    gaps = (-row_gaps(contacts, step.cone)[contact, row]).tolist()
+    b = gaps + step.extra.b[own].tolist()
+    return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
+
+
+def _slacks(step: StepData, J: arb_mat, x: arb_mat) -> list[arb]:
+    """A x - b of all rows: the cone's function of gap, slip and spin of each contact, from J."""
+    contacts, rows = step.contacts, cone_function(step.cone)
+    v, found = (J * x).entries(), list[arb]()
+    of_contacts = zip(contacts.phi.tolist(), contacts.n.tolist(), contacts.d1.tolist(),
+                      contacts.d2.tolist(), contacts.mu.tolist(), step.counts.tolist(),
+                      strict=True)  # fmt: skip
+    for j, (phi, n, d1, d2, (mu_v, _, mu_omega), count) in enumerate(of_contacts):
+        nu, spin = v[4 * j : 4 * j + 3], v[4 * j + 3]
+        gap, slip_1, slip_2 = _dot(n, nu) + phi, _dot(d1, nu) * mu_v, _dot(d2, nu) * mu_v
+        found += rows(gap, slip_1, slip_2, spin * mu_omega)[:count]  # Eq. (4)
+    if step.extra.names:
+        A = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
+        found += (A * x - _column(step.extra.b)).entries()
+    return found
+
+
+def _column(values: Array) -> arb_mat:
+    return arb_mat(len(values), 1, values.tolist())
+
+
+def _dot(direction: list[float], nu: list[arb]) -> arb:
+    return nu[0] * direction[0] + nu[1] * direction[1] + nu[2] * direction[2]

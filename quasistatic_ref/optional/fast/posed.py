@@ -1,0 +1,177 @@
+"""Steps as a simulator poses them: right by construction, and so not checked number by number.
+
+They are read like any other :class:`~quasistatic_ref.step.data.StepData`, and are equal to one with
+the same numbers. A step that a user makes of their parts, also through ``replace``, is checked.
+"""
+
+import math
+from typing import NamedTuple
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.optional.large.blocks import whole
+from quasistatic_ref.step.arrays import Array, Indices, definite, frozen, positive_definite
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.data import (
+    Extra,
+    RowLayout,
+    StepData,
+    hessian,
+    hessian_blocks,
+    no_rows,
+    row_layout,
+    seconds,
+)
+
+
+class Constants(NamedTuple):
+    """What the steps of a simulator have in common, checked and formed once.
+
+    Parameters
+    ----------
+    h : float
+        Time step [s].
+    cone : str
+    K_q, M_u : ndarray, shapes (n_a, n_a) and (n_u, n_u)
+        As in :class:`~quasistatic_ref.step.data.StepData`; of many bodies M_u is kept in diagonal
+        blocks, shape (n_u / 6, 6, 6).
+    extra : Extra
+        No rows of a user's own.
+    H : ndarray, shape (n_v, n_v)
+        Of Eq. :eq:`eq-13`; where M_u is in blocks, these blocks over h and nothing else.
+    layout : RowLayout
+    """
+
+    h: float
+    cone: str
+    K_q: Array
+    M_u: Array
+    extra: Extra
+    H: Array
+    layout: RowLayout
+
+    @property
+    def kind(self) -> "type[PosedStep]":
+        """The class of the steps, which keep M_u as it is kept here."""
+        return PosedStep if self.M_u.ndim == 2 else BlockStep
+
+    def at(self, M_u: Array) -> "Constants":
+        """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
+        if M_u is self.M_u:
+            return self
+        return self._replace(M_u=M_u, H=hessian(self.h, self.K_q, M_u))
+
+
+def constants(
+    h: float, K_q: Array, n_a: int, M_u: Array, rows: Indices, cone: str = PYRAMID
+) -> Constants:
+    """The constants of steps of n_c contacts with `rows`, shape (n_c,); M_u whole or in blocks.
+
+    Raises
+    ------
+    StepDataError
+        If h is not positive, or K_q or M_u not symmetric positive definite.
+    """
+    n_u = math.prod(M_u.shape[:-1])
+    h, K_q = seconds(h), definite("K_q", K_q, n_a)
+    try:
+        positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
+    except StepDataError:
+        definite("M_u", whole(M_u), n_u)  # whose sentence shows all of M_u
+    layout = row_layout(cone, rows.tobytes())
+    H = hessian(h, K_q, M_u) if M_u.ndim == 2 else hessian_blocks(h, K_q, M_u)[1]
+    return Constants(h, cone, K_q, M_u, no_rows(n_a + n_u), H, layout)
+
+
+class PosedContacts(Contacts):
+    """Contacts of a layout that was checked, at points and normals that were measured.
+
+    Parameters
+    ----------
+    name, phi, n, d1, d2, J, mu_v, mu_omega, rows
+        As in :class:`~quasistatic_ref.step.contacts.Contacts`; not copied, but made read-only.
+    mu : ndarray, shape (n_c, 3), optional
+        ``mu`` of the contacts [-, -, m], if it was formed before.
+    """
+
+    def __init__(
+        self,
+        name: tuple[str, ...],
+        phi: Array,
+        n: Array,
+        d1: Array,
+        d2: Array,
+        J: Array,
+        mu_v: Array,
+        mu_omega: Array,
+        rows: Indices,
+        mu: Array | None = None,
+    ) -> None:
+        for array in (phi, n, d1, d2, J):
+            array.setflags(write=False)
+        vars(self).update(name=name, phi=phi, n=n, d1=d1, d2=d2, J=J)
+        vars(self).update(mu_v=mu_v, mu_omega=mu_omega, rows=rows)
+        if mu is not None:
+            vars(self)["mu"] = mu
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """They are compared as :class:`~quasistatic_ref.step.contacts.Contacts`."""
+        return Contacts
+
+
+class PosedStep(StepData):
+    """A step of a simulator.
+
+    Parameters
+    ----------
+    constant : Constants
+    tau_a, tau_u, delta_q_bar_a, contacts
+        As in :class:`~quasistatic_ref.step.data.StepData`; not copied, but made read-only.
+    """
+
+    def __init__(
+        self,
+        constant: Constants,
+        tau_a: Array,
+        tau_u: Array,
+        delta_q_bar_a: Array,
+        contacts: Contacts | SparseContacts,
+    ) -> None:
+        for array in (tau_a, tau_u, delta_q_bar_a):
+            array.setflags(write=False)
+        own = tau_a, tau_u, delta_q_bar_a, contacts
+        vars(self).update(zip(NAMES, (*constant, *own), strict=True))
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """It is compared as :class:`~quasistatic_ref.step.data.StepData`."""
+        return StepData
+
+
+class BlockStep(PosedStep):
+    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks.
+
+    Parameters
+    ----------
+    constant, tau_a, tau_u, delta_q_bar_a, contacts
+        As in :class:`PosedStep`.
+    """
+
+    @property
+    def M_u(self) -> Array:
+        """All of M_u, shape (n_u, n_u): formed whenever it is read, and not kept."""
+        return whole(self.kept_M_u)
+
+    @property
+    def H(self) -> Array:
+        """All of H of Eq. :eq:`eq-13`, shape (n_v, n_v): formed whenever it is read, too."""
+        return hessian(self.h, self.K_q, self.M_u)
+
+    def momentum(self, delta_q: Array) -> Array:
+        """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
+        blocks = self.kept_M_u
+        return (blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)).ravel()
+
+
+NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")

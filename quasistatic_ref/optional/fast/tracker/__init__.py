@@ -1,0 +1,1 @@
+"""Closest points of clouds that are followed from step to step."""

@@ -1,0 +1,71 @@
+"""J of Eq. :eq:`eq-3` and M_u without their zeros, for steps of many bodies."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.step.arrays import Array, Indices, freeze, read_only
+
+
+def whole(M: Array) -> Array:
+    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
+
+    An M that is whole is returned as it is.
+    """
+    if M.ndim == 2:
+        return M
+    k, size, _ = M.shape
+    wide = np.zeros((k, size, k, size))
+    wide[np.arange(k), :, np.arange(k)] = M
+    return read_only(wide.reshape(k * size, k * size))
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks(Plain):
+    """Of each contact, the columns of the coordinates that move one of its two bodies.
+
+    Parameters
+    ----------
+    column : ndarray of int, shape (n_c, w)
+        Which columns, ascending; n_v, one beyond the last, where a contact has fewer than w. A
+        read-only array is kept and not copied: two steps that share it have their entries in the
+        same places, and one sees so without comparing numbers.
+    J : ndarray, shape (n_c, 4, w)
+        Those columns of the J of ``Contacts``; zero where a contact has fewer than w.
+    n_v : int
+        Number of coordinates.
+
+    Raises
+    ------
+    StepDataError
+        If a shape is wrong, or a number is not finite.
+    """
+
+    column: Indices
+    J: Array
+    n_v: int
+
+    def __post_init__(self) -> None:
+        column = np.asarray(self.column)
+        if column.ndim != 2 or column.dtype.kind != "i":
+            problem = "must hold whole numbers, w for each contact"
+            raise StepDataError(problem, field="blocks.column", value=column.shape)
+        if column.flags.writeable:
+            column = column.astype(np.int64)
+            column.setflags(write=False)
+            object.__setattr__(self, "column", column)
+        freeze(self, {"J": (len(column), 4, column.shape[1])}, "blocks.")
+
+    def dense(self) -> Array:
+        """All columns, shape (n_c, 4, n_v)."""
+        n_c = len(self.column)
+        wide = np.zeros((n_c, 4, self.n_v + 1))
+        np.put_along_axis(wide, np.broadcast_to(self.column[:, None], self.J.shape), self.J, axis=2)
+        return np.ascontiguousarray(wide[:, :, : self.n_v])
+
+    def motion(self, delta_q: Array) -> Array:
+        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
+        own = np.append(delta_q, 0.0)[self.column]
+        return np.asarray((self.J @ own[:, :, None])[:, :, 0])

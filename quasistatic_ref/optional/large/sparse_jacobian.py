@@ -1,0 +1,93 @@
+"""Contact Jacobians of many bodies: of each contact only the columns that move it."""
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
+from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.step.data import Indices, Mask, SparseContacts
+
+
+class BlockGeometry:
+    """As :class:`~quasistatic_ref.contact.jacobian.ContactGeometry`, J in blocks.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+    """
+
+    in_blocks = True
+
+    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+        self.layout = layout
+        # Joints' columns in the order of their coordinates; a mimic's is that of another.
+        owner = motion.owner
+        by_coordinate = np.argsort(owner, kind="stable")
+        owner, moves = owner[by_coordinate], motion.moves[:, 0, by_coordinate] > 0
+        a, b = moves[layout.link_alpha], moves[layout.link_beta]
+        contact, rank, joint_column = _ragged(a | b)
+        shape = (len(a), 1 + int(rank.max(initial=-1)))
+        self.joint_column, (self.alpha, self.beta) = np.zeros(shape, int), np.zeros((2, *shape))
+        self.joint_column[contact, rank] = by_coordinate[joint_column]
+        self.alpha[contact, rank] = a[contact, joint_column]
+        self.beta[contact, rank] = b[contact, joint_column]
+        self.n_v = motion.n_v
+        coordinate = np.zeros((len(a), self.n_v), dtype=bool)
+        coordinate[contact, owner[joint_column]] = True
+        at, place, column = _ragged(coordinate)
+        self.column = np.full((len(a), 1 + int(place.max(initial=-1))), self.n_v)
+        self.column[at, place] = column
+        self.column.setflags(write=False)  # one array for all steps
+        self.sums = None
+        if motion.mimics:  # the columns of one coordinate add up
+            self.sums = np.zeros((*shape, self.column.shape[1]))
+            position = coordinate.cumsum(axis=1) - 1
+            self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0
+
+    def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> SparseContacts:
+        """The contacts of one step, from the closest points of all pairs."""
+        phi, n, layout = points.phi, points.n, self.layout
+        d1, d2 = tangents(n)
+        blocks, names = self.jacobian(kinematics, points), layout.contact_names(points.point)
+        return SparseContacts(
+            names, phi, n, d1, d2, blocks, layout.mu_v, layout.mu_omega, layout.rows
+        )
+
+    def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
+        """J of Eq. :eq:`eq-3`, those columns."""
+        twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
+        nu, omega = twist[:, :3], twist[:, 3:]
+        a, b = self.alpha[:, None], self.beta[:, None]
+        at_alpha = nu - cross_matrix(points.alpha) @ omega  # nu_origin + omega x r
+        at_beta = nu - cross_matrix(points.beta) @ omega
+        spin = points.n[:, None] @ (omega * (b - a))
+        J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
+        return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
+
+
+def contact_geometry(
+    layout: ContactLayout, motion: Motion, sparse_from: int
+) -> ContactGeometry | BlockGeometry:
+    """The geometry of contacts: in blocks where J is large.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+    sparse_from : int
+        Entries of J from which the steps' solver takes blocks; 0 if it takes none.
+    """
+    entries = 4 * len(layout.rows) * motion.n_v
+    form = BlockGeometry if 0 < sparse_from <= entries else ContactGeometry
+    return form(layout, motion)
+
+
+def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
+    """Row, rank in the row and column of each mark."""
+    row, column = np.nonzero(marked)
+    count = marked.sum(axis=1)
+    return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), column

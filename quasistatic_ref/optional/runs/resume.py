@@ -1,0 +1,124 @@
+"""A run resumed: its saved steps taken over, and its solver brought to where it was."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.simulate.recorder import Part, Recorder, program
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.extension import Extension
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.runs.saved import SavedRun
+    from quasistatic_ref.simulate.goals import Checked
+    from quasistatic_ref.simulate.simulator import Simulator
+
+
+def resumed(
+    saved: SavedRun,
+    recorder: Recorder,
+    simulator: Simulator,
+    target: Checked,
+    force: Checked,
+    steps: int,
+    stretch: int,
+) -> None:
+    """Hand the saved steps to the recorder, and to the solver those since it last started cold.
+
+    Parameters
+    ----------
+    saved : SavedRun
+    recorder : Recorder
+        At the start of the run.
+    simulator : Simulator
+    target, force : callable
+        Of (t, q), shapes (n_q_a,) and (n_v,) of their results.
+    steps : int
+        Of the whole run; no more are taken over.
+    stretch : int
+        Steps after which the solver starts cold.
+
+    Raises
+    ------
+    InputError
+        If the saved steps are of another run.
+    """
+    parts, taken = [], 0
+    for part, extra in saved.parts():
+        kept = {key: array[: steps - taken] for key, array in part.items()}
+        if len(kept["t"]):
+            parts.append((kept, extra))
+            taken += len(kept["t"])
+    start_cold(simulator)
+    for part, extra in parts:
+        again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)
+        recorder.take(part | again.posed(part, recorder), extra)
+
+
+def start_cold(simulator: Simulator) -> None:
+    """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
+    if simulator.solver is not None and simulator.solver.remembers:
+        simulator.solver = None
+
+
+@dataclass(frozen=True)
+class _Again:
+    """How saved steps are posed again: all of a full record, of a light one those from `cold`."""
+
+    simulator: Simulator
+    target: Checked
+    force: Checked
+    record: str
+    cold: int
+
+    def posed(self, part: Part, recorder: Recorder) -> Part:
+        """What a full record adds to the steps of a part, which follow those of the recorder."""
+        rows: list[dict[str, Array]] = []
+        for i, q in enumerate([recorder.q, *part["q"][:-1]]):
+            k = recorder.steps + i
+            t = (k + 1) * recorder.h
+            goal, pushed = self.target(t, q), self.force(t, q)
+            _check("target", k, part["q_bar_a"][i], goal)
+            _check("force", k, part["tau"][i], self._tau(q, pushed))
+            if self.record == "full" or k >= self.cold:
+                step, own = self._step(q, goal, pushed)
+                _check("scene", k, part["phi"][i], step.contacts.phi)
+                rows.append(program(step) if self.record == "full" else {})
+                if k >= self.cold:
+                    self._ask(step, own)
+        return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
+
+    def _tau(self, q: Array, pushed: Array) -> Array:
+        simulator = self.simulator
+        return (
+            simulator.gravity_acts * simulator.system.gravity_force(q, simulator.gravity) + pushed
+        )
+
+    def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, Extension | None]:
+        simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
+        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        return simulator.extended(simulator.step_data(q, goal, pushed, points, kinematics), q)
+
+    def _ask(self, step: StepData, own: Extension | None) -> None:
+        """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
+        simulator, solver = self.simulator, self.simulator.solver
+        if own is None and (solver is None or solver.remembers) and simulator.backend != NONE:
+            if solver is None or not solver.fits(step):
+                solver = solver_for(step, simulator.backend, simulator.engine)
+                simulator.solver = solver
+            with suppress(StepNotSolved):
+                solve_step(step, solver, accuracy=simulator.accuracy, certify="off")
+
+
+def _check(what: str, k: int, then: Array, now: Array) -> None:
+    if not np.array_equal(then, now):
+        problem = f"is not what the saved steps were taken with, from step {k} on; give the same"
+        raise InputError(problem, field=what)

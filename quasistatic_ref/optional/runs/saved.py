@@ -1,0 +1,243 @@
+"""The steps of a run on disk while it goes on: what is left of one that was killed.
+
+Next to the trajectory's file, ``run.npz``, stands a folder ``run.npz.part``. Each save adds a file
+with the steps since the save before, written whole or not at all. What a full record adds is not in
+it: it is a function of q, and made again. docs/guides/file_formats.md describes the files.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from quasistatic_ref import __version__
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.npz import json_array, npz_record
+from quasistatic_ref.formats.plain import fingerprint
+from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
+from quasistatic_ref.solve.backends import QPSOLVERS
+from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.recorder import Part, Recorder
+    from quasistatic_ref.simulate.simulator import Simulator
+
+FORMAT, VERSION = "quasistatic-ref/saved-steps", 1
+WHAT = "a file of saved steps"
+EVERY = 60.0
+"""Time between two saves [s]."""
+HASHED = "sha256 "
+"""What the value of a setting begins with that is too long to be shown."""
+
+
+def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, str]:
+    """What decides the bits of a run, by name, but for its target and its force.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    start : ndarray, shape (n_q,)
+        Where the run starts [m, rad, -].
+    record : str
+    """
+    system = simulator.system
+    settings = {
+        "version of quasistatic_ref": __version__,
+        "version of NumPy": np.__version__,
+        "h": repr(simulator.h),
+        "gravity": repr(simulator.gravity),
+        "cone": simulator.cone,
+        "record": record,
+        "certify": simulator.certify,
+        "backend": simulator.backend,
+        "version of the backend": _version(simulator.backend.removeprefix(QPSOLVERS)),
+        "engine": simulator.engine,
+        "accuracy": repr(simulator.accuracy),
+        "limits.penetration": repr(simulator.limits.penetration),
+        "limits.reach": repr(simulator.limits.reach),
+        "extension": "none" if simulator.extension is None else "one",
+    }
+    for body, text in zip(system.bodies, system.texts, strict=True):
+        said = (text, body.base, body.actuated, body.xyz, body.rpy)
+        settings[f"bodies.{body.name}"] = HASHED + fingerprint(said)
+    settings["the order of the bodies"] = ", ".join(body.name for body in system.bodies)
+    for pair in simulator.pairs:
+        for field in ("mu_v", "mu_omega", "rows", "k"):
+            settings[f"{field} of {pair.name}"] = repr(getattr(pair, field))
+        settings[f"shapes of {pair.name}"] = HASHED + fingerprint((pair.alpha, pair.beta))
+    settings["the order of the contacts"] = ", ".join(pair.name for pair in simulator.pairs)
+    arrays = {"K_q": simulator.K_q, "gravity_compensated": simulator.gravity_acts, "start": start}
+    return settings | {name: HASHED + fingerprint(array) for name, array in arrays.items()}
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "unknown"
+
+
+class SavedRun:
+    """The saved steps of one run: begun, added to, read, removed.
+
+    The run itself is never ended by a save that fails, such as on a full disk: one sentence on
+    standard error says so, and the next save tries again. Files guard against a process that ends,
+    not against a machine that does.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the trajectory; the folder is next to it.
+    settings : mapping of str to str
+        Of :func:`run_settings`.
+    every : float
+        Time between two saves [s], at least 0.
+
+    Raises
+    ------
+    InputError
+        If the time is no number of seconds.
+    """
+
+    def __init__(self, path: str | Path, settings: Mapping[str, str], every: float = EVERY) -> None:
+        if not every >= 0:
+            raise InputError("must be at least 0", field="save_every", value=every)
+        self.path, self.settings, self.every = Path(path), dict(settings), every
+        self.folder = saved_folder(path)
+        self._saved = 0  # parts of the recorder that are on disk
+        self._begun = self._latest = time.monotonic()
+        self._failing = False
+
+    def check_none(self) -> None:
+        """Refuse to begin a run where another one left its steps.
+
+        Raises
+        ------
+        InputError
+        """
+        if steps := saved_steps(self.path):
+            problem = (
+                f"holds the first {steps} steps of a run that did not end; go on from there with "
+                "--resume (in Python: resume=True), or remove that folder"
+            )
+            raise InputError(problem, file=self.folder)
+
+    def parts(self) -> Iterator[tuple[Part, tuple[str, ...]]]:
+        """The saved steps in order, each part with the names of an extension's rows.
+
+        Raises
+        ------
+        InputError
+            If they are of another run, naming what differs, or a file is spoilt.
+        """
+        expected = 0
+        for path in _files(self.folder):
+            header, part = npz_record(path, WHAT)
+            with about_file(path):
+                extra = self._checked(Fields(header), part, expected)
+            expected += len(part["t"])
+            yield part, extra
+            self._saved += 1
+
+    def _checked(self, top: Fields, part: Part, expected: int) -> tuple[str, ...]:
+        """Names of an extension's rows, of a part that begins with the expected step."""
+        top.text("format", choices=(FORMAT,))
+        fits = top.integer("version") == VERSION and top.integer("first") == expected
+        self._check_settings(top.take("settings"))
+        steps = top.integer("steps", least=1)
+        missing = not {*PER_STEP, "q", "tau", "gap"} <= set(part)
+        if not fits or missing or any(a.ndim == 0 or len(a) != steps for a in part.values()):
+            raise InputError(f"is not what follows step {expected}; remove it and later files")
+        return tuple(top.words("extra"))
+
+    def _check_settings(self, then: Any) -> None:
+        if not isinstance(then, dict):
+            raise InputError("must be a table", field="settings")
+        for name in {**then, **self.settings}:
+            was, now = then.get(name), self.settings.get(name)
+            if was != now:
+                shown = f": {was or 'nothing'} then, {now or 'nothing'} now"
+                values = "" if HASHED in f"{was}{now}" else shown
+                problem = (
+                    f"was saved by a run that differs in {name}{values}; run what it is of, or "
+                    "remove that folder to begin from the start"
+                )
+                raise InputError(problem, file=self.folder)
+
+    def save_in_time(self, recorder: Recorder) -> None:
+        """Save what a recorder has, if it is time."""
+        if time.monotonic() - self._latest >= self.every:
+            self.save(recorder)
+
+    def save_last(self, recorder: Recorder) -> None:
+        """Save what the recorder of an interrupted run has, if that was worth a save before."""
+        if time.monotonic() - self._begun >= self.every or self._saved:
+            self.save(recorder)
+
+    def save(self, recorder: Recorder) -> None:
+        """Write the steps since the save before into a file of their own."""
+        parts = recorder.packed()
+        new = parts[self._saved :]
+        if new:
+            keys = [key for key in new[0] if key not in (*PROGRAM, *EXTRA[1:])]
+            arrays: dict[str, Any] = {key: np.concatenate([p[key] for p in new]) for key in keys}
+            steps = len(arrays["t"])
+            header = {
+                "format": FORMAT,
+                "version": VERSION,
+                "first": recorder.steps - steps,
+                "steps": steps,
+                "extra": list(recorder.extra),
+                "settings": self.settings,
+            }
+            arrays["header"] = json_array(header)
+            path = self.folder / f"{recorder.steps - steps:09d}.npz"
+            try:
+                written_whole(path, lambda file: np.savez(file, **arrays))
+                self._saved, self._failing = len(parts), False
+            except InputError as error:
+                if not self._failing:
+                    print(f"quasistatic-ref: {error}; the run goes on", file=sys.stderr)
+                self._failing = True
+        self._latest = time.monotonic()
+
+    def remove(self) -> None:
+        """Remove the saved steps, the last ones first: what is left is whole at any time."""
+        for path in reversed(_files(self.folder)):
+            path.unlink(missing_ok=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def saved_folder(path: str | Path) -> Path:
+    """The folder of the saved steps of a run whose trajectory's file is `path`."""
+    return Path(f"{path}.part")
+
+
+def saved_steps(path: str | Path) -> int:
+    """How many steps are saved of a run whose trajectory's file is `path`.
+
+    Raises
+    ------
+    InputError
+        If the last file is spoilt.
+    """
+    files = _files(saved_folder(path))
+    if not files:
+        return 0
+    header, _ = npz_record(files[-1], WHAT)
+    with about_file(files[-1]):
+        top = Fields(header)
+        return top.integer("first", least=0) + top.integer("steps", least=0)
+
+
+def _files(folder: Path) -> list[Path]:
+    return sorted(folder.glob("[0-9]*.npz"))

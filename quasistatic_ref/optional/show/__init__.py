@@ -1,0 +1,1 @@
+"""Objects shown in words and as HTML, tables, figures and the viewer."""

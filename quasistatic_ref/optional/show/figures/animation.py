@@ -1,0 +1,104 @@
+"""A trajectory as a film: an animated GIF, or MP4 where ffmpeg is there."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import bytes_written
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
+from quasistatic_ref.optional.show.figures.moments import extent, frames
+from quasistatic_ref.optional.show.figures.style import figure_style, sized
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.simulate.trajectory import Trajectory
+
+VIEW = Camera(azimuth=-62, elevation=12)
+FRAMES_PER_SECOND = 20
+DOTS_PER_INCH = 110
+WRITERS: dict[str, Callable[..., AbstractMovieWriter]] = {
+    ".gif": PillowWriter,
+    ".mp4": FFMpegWriter,
+}
+
+
+def animate(
+    scenario: Scenario,
+    run: Trajectory,
+    path: str | Path,
+    *,
+    view: str | Camera = VIEW,
+    fps: float = FRAMES_PER_SECOND,
+    speed: float = 1.0,
+    **options: Any,
+) -> Path:
+    """Write a film of a run, in real time or slower or faster, with the scale of its forces.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Whose bodies and shapes these are.
+    run : Trajectory
+    path : str or Path
+        Ending in .gif or .mp4; without an ending, MP4 where ffmpeg is there and GIF elsewhere.
+    view : str or Camera
+    fps : float
+        Frames in a second of the film [1/s]; no more than there are steps.
+    speed : float
+        Seconds of the run in a second of the film [-]: 0.25 is slow motion.
+    options
+        Further arguments of :func:`~quasistatic_ref.optional.show.figures.draw.draw_scene`.
+
+    Returns
+    -------
+    Path
+        The file, written whole or not at all.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one, the run has no steps, the speed is not positive, or ffmpeg is
+        not there for MP4.
+    """
+    path = _with_ending(Path(path))
+    if not 0 < speed < np.inf:
+        raise InputError("must be positive and finite", field="speed", value=speed)
+    moments, shown = frames(scenario, run, fps / speed)
+    boxes = np.array([extent(m) for m in moments])
+    centre = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
+    half = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) / 2
+    fixed: dict[str, Any] = {
+        "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
+        "metres_per_newton": force_scale(moments, view, half),
+    } | options  # fmt: skip
+    writer: Any = WRITERS[path.suffix](fps=speed * shown)
+    pace = "" if speed == 1 else f", speed {speed:g}"
+    with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
+        figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")
+        draw_scene(axes, moments[0], **fixed)  # before there is a film: a wrong option says so
+        film = Path(folder) / path.name
+        with writer.saving(figure, str(film), DOTS_PER_INCH):
+            for m in moments:
+                axes.clear()
+                draw_scene(axes, m, **fixed)
+                figure.suptitle(f"t = {m.t:.2f} s{pace}")
+                writer.grab_frame()
+        plt.close(figure)
+        return bytes_written(path, film.read_bytes())
+
+
+def _with_ending(path: Path) -> Path:
+    ffmpeg = shutil.which("ffmpeg") is not None
+    if not path.suffix:
+        path = path.with_name(path.name + (".mp4" if ffmpeg else ".gif"))
+    if path.suffix not in WRITERS:
+        raise InputError("must end in .gif or .mp4", field="path", value=str(path))
+    if path.suffix == ".mp4" and not ffmpeg:
+        raise InputError("cannot be written without ffmpeg; install it, or write .gif", file=path)
+    return path

@@ -1,0 +1,187 @@
+"""Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
+
+from collections.abc import Collection, Sequence
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.moments import BEARING, DrawnContact, Moment, extent
+from quasistatic_ref.optional.show.figures.pens import (
+    CONE_EDGE,
+    CONE_FACE,
+    CONTACT,
+    MILLI,
+    PLANES,
+    Pen,
+    Pen2D,
+    Pen3D,
+)
+from quasistatic_ref.optional.show.figures.style import room, scaled
+from quasistatic_ref.step.data import Array
+
+PARTS: Final = ("contacts", "frames", "cones", "forces")
+LONGEST, FRAME = 0.4, 0.1
+"""Of the scene's size: the longest force, where no scale is given; the axes of a contact frame."""
+
+MARGIN, PADDING = 1.1, 0.1
+"""Around everything, as a factor; and on each side, as a share of half the scene's size."""
+
+ABOVE_AXES: Final = 0.85
+"""Share of a cell's width that is above the axes, not above the labels at its side [-]."""
+
+SIGNS: Final = np.array([[-1.0], [1.0]])
+FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
+
+
+def draw_scene(
+    axes: Any,
+    of: Moment,
+    *,
+    view: str | Camera = "xz",
+    parts: Collection[str] = PARTS,
+    metres_per_newton: float | None = None,
+    around: tuple[Array, float] | None = None,
+    legend: bool = True,
+) -> None:
+    """Draw a moment on axes, in millimetres: in 3D if the axes are, else as a camera sees it.
+
+    Bodies are grey, clouds blue dots. At each contact that bears load: its frame (n solid, d1
+    dashed, d2 dotted), the cone of forces that friction allows at its normal force, and the force
+    on beta's body. Where mu_omega is not zero, a circle of that radius in the tangent plane: drawn
+    in full when the torque about n is at its limit, in part below.
+
+    Parameters
+    ----------
+    axes : Axes or Axes3D
+    of : Moment
+    view : str or Camera
+        Of axes that are not 3D: ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose
+        axes have no coordinates.
+    parts : collection of str
+        Of ``PARTS``.
+    metres_per_newton : float, optional
+        Length of a force of 1 N [m/N]; by default the largest in view fits.
+    around : tuple of ndarray and float, optional
+        Centre, shape (3,), and half the width [m] of what is shown; everything by default.
+    legend : bool
+        Whether to write above the axes what is what, and the scale of forces.
+    """
+    box = extent(of)
+    if around is not None:
+        box = around[0] + around[1] * SIGNS
+    centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
+    flat = axes.name != "3d"
+    if metres_per_newton is None:
+        metres_per_newton = force_scale([of], view if flat else None, half)
+    pen: Pen = Pen2D(axes, camera_of(view)) if flat else Pen3D(axes)
+    pen.bodies(of, centre, half)
+    for contact, bears in zip(of.contacts, of.bearing, strict=True):
+        if "contacts" in parts:
+            pen.dot(contact.beta, bool(bears))
+        if bears:
+            _draw_contact(pen, contact, parts, metres_per_newton, 2 * FRAME * half)
+    if around is None:
+        tips = [c.beta + metres_per_newton * at for c in of.contacts for at in _tips(c, parts)]
+        every = np.array([*box, *tips])
+        box = np.array([every.min(axis=0), every.max(axis=0)])
+        centre = box.mean(axis=0)
+    pen.finish(centre + (box - centre) * MARGIN + PADDING * half * SIGNS, view)
+    if legend and of.contacts:
+        _legend(axes, of, parts, metres_per_newton)
+
+
+def _tips(of: DrawnContact, parts: Collection[str]) -> list[Array]:
+    """Forces up to which a contact is drawn, each of shape (3,) [N]."""
+    rim = list(of.rim) if "cones" in parts and of.mu_v > 0 else []
+    return [*rim, of.force] if "forces" in parts else rim
+
+
+def _draw_contact(
+    pen: Pen, of: DrawnContact, parts: Collection[str], scale: float, size: float
+) -> None:
+    if "cones" in parts and of.mu_v > 0 and len(of.rim) > 2:
+        pen.hull(np.vstack([of.beta, of.beta + scale * of.rim]))
+    if "frames" in parts:
+        for axis, (_, dashes) in zip(of.frame, FRAME_LINES, strict=True):
+            pen.line(np.stack([of.beta, of.beta + size * axis]), "black", dashes, 0.9)
+    if "cones" in parts and of.mu_omega > 0:
+        used = min(abs(of.torque) / (of.mu_omega * of.f_n), 1.0)
+        turn = np.linspace(0, 2 * np.pi * used * np.sign(of.torque), 60)
+        d1, d2, _ = of.frame
+        circle = np.outer(np.cos(turn), d1) + np.outer(np.sin(turn), d2)
+        pen.line(of.beta + of.mu_omega * circle, CONE_EDGE, "-", 1.4)
+    if "forces" in parts:
+        pen.arrow(of.beta, scale * of.force)
+
+
+def camera_of(view: str | Camera) -> Camera:
+    """The camera of a view: one of ``PLANES`` by its name, or that which is given."""
+    return PLANES[view] if isinstance(view, str) else view
+
+
+def force_scale(moments: Sequence[Moment], view: str | Camera | None, half: float) -> float:
+    """Length at which a force of 1 N is drawn so that the largest in view fits [m/N].
+
+    Zero where there are no forces.
+
+    Parameters
+    ----------
+    moments : sequence of Moment
+    view : str, Camera or None
+        None in three dimensions. What of a force is along the view cannot be seen.
+    half : float
+        Half the scene's size [m].
+    """
+    forces = np.array([c.force for m in moments for c in m.contacts]).reshape(-1, 3)
+    most = seen = float(np.linalg.norm(forces, axis=1).max(initial=0.0))
+    if view is not None:
+        seen = float(np.linalg.norm(camera_of(view).seen(forces)[:, :2], axis=1).max(initial=0.0))
+    if seen < BEARING * most:  # every force is along the view
+        seen = most
+    return round_scale(2 * LONGEST * half / seen) if seen > 0 else 0.0
+
+
+def round_scale(scale: float) -> float:
+    """Largest of 1, 2, 5 times a power of ten that is not above `scale` [of the same unit]."""
+    power = 10.0 ** np.floor(np.log10(scale))
+    return float(power * max(m for m in (1, 2, 5) if m <= scale / power + 1e-9))
+
+
+def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None:
+    """What is what, above the axes, in as few lines as there is room for."""
+    handles: list[Any] = []
+    if "forces" in parts and scale > 0:
+        label = f"1 N is {MILLI * scale:g} mm"
+        handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=scaled(4), label=label))
+    rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
+    if "cones" in parts and rough:
+        label = "friction cone"
+        handles.append(Patch(facecolor=CONE_FACE, edgecolor=CONE_EDGE, alpha=0.5, label=label))
+    if "frames" in parts and of.bearing.any():
+        for label, dashes in FRAME_LINES:
+            handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
+    legend_above(axes, handles)
+
+
+def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
+    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
+
+    Parameters
+    ----------
+    axes : Axes
+    handles : sequence of Artist
+        With their labels.
+    title : str
+        Above the entries.
+    """
+    for columns in range(len(handles), 0, -1):
+        legend = axes.legend(
+            handles=handles, title=title, ncols=columns,
+            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
+            handlelength=1.8, borderaxespad=0.2,
+        )  # fmt: skip
+        if legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
+            return

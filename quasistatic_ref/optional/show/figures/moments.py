@@ -1,0 +1,178 @@
+"""One instant of a run as something that can be drawn: bodies placed, contacts, forces."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.show.figures.surfaces import surface_points
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.friction import cone_matrix
+
+BEARING = 1e-3
+"""A contact is drawn as bearing load above this share of the largest normal force [-]."""
+
+ROUND = 48
+"""Corners of a circle, as drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnContact:
+    """One contact: the frame of Fig. 2 at beta, and the force on beta's body there.
+
+    Parameters
+    ----------
+    alpha, beta : ndarray, shape (3,)
+        [m], world frame.
+    frame : ndarray, shape (3, 3)
+        Rows d1, d2, n [-].
+    force : ndarray, shape (3,)
+        [N], world frame.
+    torque : float
+        About n [N m].
+    f_n, mu_v, mu_omega : float
+        [N], [-], [m].
+    rim : ndarray, shape (N, 3)
+        Forces on the edge of the friction cone, without torque, at this normal force [N].
+    """
+
+    alpha: Array
+    beta: Array
+    frame: Array
+    force: Array
+    torque: float
+    f_n: float
+    mu_v: float
+    mu_omega: float
+    rim: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """Where everything is at the start of a step, and the forces of that step.
+
+    Parameters
+    ----------
+    t : float
+        [s].
+    shapes : tuple of PlacedShape
+        Every shape once.
+    R, t_links : ndarray, shapes (L, 3, 3) and (L, 3)
+        Poses of the links [-], [m].
+    contacts : tuple of DrawnContact
+    """
+
+    t: float
+    shapes: tuple[PlacedShape, ...]
+    R: Array
+    t_links: Array
+    contacts: tuple[DrawnContact, ...]
+
+    def world(self, placed: PlacedShape, points: Array) -> Array:
+        """Points of a shape's own frame, (N, 3), in the world [m]."""
+        R, t = self.R[placed.link], self.t_links[placed.link]
+        return np.asarray((points @ placed.R.T + placed.t) @ R.T + t)
+
+    @property
+    def bearing(self) -> Mask:
+        """Which contacts bear load, shape (n_c,)."""
+        f_n = np.array([c.f_n for c in self.contacts])
+        return np.asarray(f_n > BEARING * max(f_n.max(initial=0.0), 1e-12))
+
+
+def moment(scenario: Scenario, run: Trajectory, k: int) -> Moment:
+    """Step k of a run: the poses and contacts that it starts from, and its forces.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Whose bodies and shapes these are.
+    run : Trajectory
+    k : int
+        From 0; from the end, if negative.
+
+    Raises
+    ------
+    InputError
+        If there is no such step.
+    """
+    if not -run.steps <= k < run.steps:
+        raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)
+    k = k % run.steps
+    kinematics = scenario.system.kinematics(run["q"][k])
+    return Moment(
+        t=float(run["t"][k]) - scenario.h,
+        shapes=drawn_shapes(scenario),
+        R=kinematics.R,
+        t_links=kinematics.t,
+        contacts=tuple(_contact(run, k, j) for j in range(run["phi"].shape[1])),
+    )
+
+
+def frames(scenario: Scenario, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
+    """Moments of a film in real time, and how many of them a second.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    run : Trajectory
+    fps : float
+        Frames a second that are wanted [1/s]; there are no more than steps.
+
+    Raises
+    ------
+    InputError
+        If the run has no steps.
+    """
+    if not run.steps:
+        raise InputError("has no steps to show", field="trajectory")
+    every = max(round(1 / (fps * scenario.h)), 1)
+    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
+
+
+def drawn_shapes(scenario: Scenario) -> tuple[PlacedShape, ...]:
+    """Every shape of a scenario once: those of URDFs, clouds, and what is fixed in the world.
+
+    A body with a cloud is drawn as that cloud.
+    """
+    pairs = [shape for pair in scenario.pairs for shape in (pair.alpha, pair.beta)]
+    clouded = {shape.link for shape in pairs if isinstance(shape.shape, PointCloud)}
+    own = [shape for shape in scenario.system.shapes if shape.link not in clouded]
+    return tuple({id(shape): shape for shape in (*own, *pairs)}.values())
+
+
+def extent(of: Moment) -> Array:
+    """Least and greatest coordinates of what is bounded, shape (2, 3) [m]."""
+    points = [
+        of.world(placed, surface_points(placed))
+        for placed in of.shapes
+        if not isinstance(placed.shape, HalfSpace)
+    ]
+    every = np.concatenate([*points, *([c.beta] for c in of.contacts)])
+    return np.array([every.min(axis=0), every.max(axis=0)])
+
+
+def _contact(run: Trajectory, k: int, j: int) -> DrawnContact:
+    frame = np.stack([run["d1"][k, j], run["d2"][k, j], run["n"][k, j]])
+    f_1, f_2, f_n, torque = run["wrench"][k, j]
+    mu_v = float(run["mu_v"][j])
+    rim = _rim(str(run.header["cone"])) * [mu_v * f_n, mu_v * f_n, f_n]
+    return DrawnContact(
+        run["alpha"][k, j], run["beta"][k, j], frame, np.array([f_1, f_2, f_n]) @ frame,
+        float(torque), float(f_n), mu_v, float(run["mu_omega"][j]), rim @ frame,
+    )  # fmt: skip
+
+
+def _rim(name: str) -> Array:
+    """(f_1, f_2, f_n) over (mu_v, mu_v, 1) f_n around a cone where tau_n = 0, shape (N, 3)."""
+    kind = cone(name)
+    if not kind.polyhedral:  # the ellipsoid's is a circle
+        angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
+        return np.stack([np.cos(angle), np.sin(angle), np.ones(ROUND)], axis=1)
+    flat = cone_matrix(name)[: kind.short, 1:3]
+    flat = flat[np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))]
+    return np.column_stack([flat, np.ones(len(flat))])

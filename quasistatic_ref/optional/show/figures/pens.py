@@ -1,0 +1,244 @@
+"""Pens: world points drawn in millimetres, as a camera sees them or in three dimensions."""
+
+from abc import ABC, abstractmethod
+from contextlib import suppress
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.patches import Polygon
+from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from scipy.spatial import ConvexHull, QhullError
+
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.legible import DRAWING
+from quasistatic_ref.optional.show.figures.moments import Moment
+from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.step.data import Array
+
+PLANES: Final = {"xy": Camera(-90, 90), "xz": Camera(-90, 0), "yz": Camera(0, 0)}
+"""Views along an axis of the world, named by what is to the right and what is up."""
+
+CONE_FACE, CONE_EDGE = "#E69F00", "#8a5f00"
+CLOUD, SOLID, FLOOR, CONTACT = "#0072B2", "0.55", "0.93", "#D55E00"
+MILLI = 1e3
+
+
+class Pen(ABC):
+    """Draws world points on matplotlib's axes [mm].
+
+    Parameters
+    ----------
+    axes : Axes or Axes3D
+    """
+
+    def __init__(self, axes: Any) -> None:
+        self.axes = axes
+
+    @abstractmethod
+    def seen(self, points: Array) -> Array:
+        """Points [m] in the coordinates of the axes [mm], shape (N, 2) or (N, 3)."""
+
+    @abstractmethod
+    def bodies(self, of: Moment, centre: Array, half: float) -> None:
+        """Everything that is solid, clouds, and patches of half-spaces.
+
+        What is shown lies within `half` [m] of the `centre`, shape (3,) [m].
+        """
+
+    @abstractmethod
+    def hull(self, points: Array) -> None:
+        """The convex hull of points [m], as a friction cone is drawn."""
+
+    @abstractmethod
+    def arrow(self, start: Array, along: Array) -> None:
+        """A force that starts at a point: `start` and `along`, shape (3,) [m]."""
+
+    @abstractmethod
+    def finish(self, box: Array, view: str | Camera) -> None:
+        """Limits of a box, its corners of shape (2, 3) [m]; labels and view."""
+
+    def dot(self, point: Array, bears: bool) -> None:
+        """A contact point, shape (3,) [m], filled where it bears load."""
+        self.axes.plot(
+            *self.seen(point).T, marker="o", linestyle="", color="black", markeredgewidth=0.6,
+            markersize=scaled(4 if bears else 2.5), markerfacecolor=CONTACT if bears else "white",
+            zorder=9 + bears, gid=DRAWING,
+        )  # fmt: skip
+
+    def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
+        """A line through points [m]."""
+        style = {"color": colour, "linestyle": dashes, "linewidth": scaled(width)}
+        self.axes.plot(*self.seen(points).T, **style, zorder=7, gid=DRAWING)
+
+
+class Pen2D(Pen):
+    """Draws world points as an orthographic camera sees them."""
+
+    def __init__(self, axes: Any, camera: Camera) -> None:
+        super().__init__(axes)
+        self.camera = camera
+
+    def seen(self, points: Array) -> Array:
+        """To the right and upwards [mm], shape (N, 2)."""
+        return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
+
+    def bodies(self, of: Moment, centre: Array, half: float) -> None:
+        """From the farthest to the nearest, half-spaces first.
+
+        Parameters
+        ----------
+        of : Moment
+        centre : ndarray, shape (3,)
+            Of what is drawn of a half-space [m].
+        half : float
+            Half the length of its edges [m].
+        """
+        bounded = []
+        for placed in of.shapes:
+            if isinstance(placed.shape, HalfSpace):
+                self._floor(patch(placed.shape, centre, 3 * half))
+            else:
+                nearness = self.camera.seen(of.world(placed, np.zeros((1, 3))))[0, 2]
+                bounded.append((nearness, placed))
+        bounded.sort(key=lambda pair: float(pair[0]))
+        for layer, (_, placed) in enumerate(bounded):
+            points = self.camera.seen(of.world(placed, surface_points(placed)))
+            self._body(placed, points, 1 + layer / len(bounded))
+
+    def _body(self, placed: PlacedShape, seen: Array, zorder: float) -> None:
+        """Draw a cloud as dots, shaded by depth; a solid as its outline, filled."""
+        if not isinstance(placed.shape, PointCloud):
+            outline = MILLI * seen[ConvexHull(seen[:, :2]).vertices, :2]
+            self._fill(outline, SOLID, "black", linewidth=0.7, alpha=0.6, zorder=zorder)
+            return
+        x, y, depth = seen[seen[:, 2].argsort()].T
+        near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
+        size, opacity = scaled(1) ** 2 * (0.8 + 1.1 * near), 0.25 + 0.6 * near
+        style = {"c": CLOUD, "alpha": opacity, "linewidths": 0, "zorder": zorder}
+        self.axes.scatter(MILLI * x, MILLI * y, s=size, **style)
+
+    def _floor(self, corners: Array) -> None:
+        outline = self.seen(corners)
+        flat = np.linalg.svd(outline - outline.mean(axis=0))[1][-1] < 1e-6 * np.ptp(outline)
+        if flat:  # seen from its side
+            ends = outline[[np.lexsort(outline.T)[0], np.lexsort(outline.T)[-1]]]
+            style = {"color": "0.5", "linewidth": 1.4, "linestyle": "-"}
+            self.axes.plot(*ends.T, **style, zorder=0.5, gid=DRAWING)
+        else:
+            self._fill(outline, FLOOR, "0.6", zorder=0)
+
+    def _fill(self, outline: Array, face: str, edge: str, **style: Any) -> None:
+        style = {"linewidth": 0.6} | style
+        self.axes.add_patch(Polygon(outline, facecolor=face, edgecolor=edge, **style))
+
+    def hull(self, points: Array) -> None:
+        """Its outline, filled; nothing where it is seen edge on."""
+        outline = self.seen(points)
+        with suppress(QhullError):
+            outline = outline[ConvexHull(outline).vertices]
+            self._fill(outline, CONE_FACE, CONE_EDGE, alpha=0.35, zorder=6)
+
+    def arrow(self, start: Array, along: Array) -> None:
+        """An arrow whose head keeps its size.
+
+        Parameters
+        ----------
+        start, along : ndarray, shape (3,)
+            Its tail, and the way from there to its head [m].
+        """
+        (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
+        self.axes.annotate(
+            "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
+            arrowprops={"arrowstyle": "-|>", "color": CONTACT, "linewidth": scaled(1.6),
+                        "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(8)},
+        )  # fmt: skip
+
+    def finish(self, box: Array, view: str | Camera) -> None:
+        """Coordinates along an axis of the world only.
+
+        Parameters
+        ----------
+        box : ndarray, shape (2, 3)
+            Least and largest coordinates of what is drawn [m].
+        view : str or Camera
+        """
+        corners = self.seen(np.array(np.meshgrid(*box.T)).reshape(3, -1).T)
+        (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
+        self.axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
+        self.axes.grid(visible=False)
+        if isinstance(view, str):
+            self.axes.set(xlabel=f"{view[0]} [mm]", ylabel=f"{view[1]} [mm]")
+        else:
+            self.axes.set(xticks=[], yticks=[])
+            self.axes.spines[:].set_visible(False)
+
+
+class Pen3D(Pen):
+    """Draws world points in matplotlib's 3D axes."""
+
+    def seen(self, points: Array) -> Array:
+        """Coordinates in the world [mm], shape (N, 3)."""
+        return MILLI * np.atleast_2d(points)
+
+    def bodies(self, of: Moment, centre: Array, half: float) -> None:
+        """Solids as the faces of their hulls.
+
+        Parameters
+        ----------
+        of : Moment
+        centre : ndarray, shape (3,)
+            Of what is drawn of a half-space [m].
+        half : float
+            Half the length of its edges [m].
+        """
+        for placed in of.shapes:
+            if isinstance(placed.shape, HalfSpace):
+                corners = self.seen(patch(placed.shape, centre, half))
+                self._polygons([corners], FLOOR, "0.6", 0.5)
+            elif isinstance(placed.shape, PointCloud):
+                points = self.seen(of.world(placed, placed.shape.points))
+                self.axes.scatter(*points.T, s=1.5, c=CLOUD, linewidths=0)
+            else:
+                points = self.seen(of.world(placed, surface_points(placed, around=24, up=9)))
+                self._polygons(faces(points), SOLID, "0.2", 0.3)
+
+    def _polygons(self, polygons: list[Array], face: str, edge: str, alpha: float) -> None:
+        style = {"facecolor": face, "edgecolor": edge, "linewidth": 0.4, "alpha": alpha}
+        self.axes.add_collection3d(Poly3DCollection(polygons, **style))
+
+    def hull(self, points: Array) -> None:
+        """Its faces; nothing where so little force makes it flat."""
+        with suppress(QhullError):
+            self._polygons(faces(self.seen(points)), CONE_FACE, CONE_EDGE, 0.3)
+
+    def arrow(self, start: Array, along: Array) -> None:
+        """An arrow whose head is a share of its length.
+
+        Parameters
+        ----------
+        start, along : ndarray, shape (3,)
+            Its tail, and the way from there to its head [m].
+        """
+        ends = *self.seen(start)[0], *self.seen(along)[0]
+        self.axes.quiver(*ends, color=CONTACT, linewidth=scaled(1.6), arrow_length_ratio=0.2)
+
+    def finish(self, box: Array, view: str | Camera) -> None:
+        """A cube about the box.
+
+        Parameters
+        ----------
+        box : ndarray, shape (2, 3)
+            Least and largest coordinates of what is drawn [m].
+        view : str or Camera
+        """
+        centre, half = box.mean(axis=0), np.ptp(box, axis=0).max() / 2
+        low, high = MILLI * (centre - half), MILLI * (centre + half)
+        for k, name in enumerate("xyz"):
+            self.axes.set(**{f"{name}lim": (low[k], high[k]), f"{name}label": f"{name} [mm]"})
+            getattr(self.axes, f"{name}axis").set_major_locator(MaxNLocator(4))
+        self.axes.set_box_aspect((1, 1, 1), zoom=0.85)  # labels are not laid out: leave room
+        camera = view if isinstance(view, Camera) else Camera(-60, 20)
+        self.axes.view_init(elev=camera.elevation, azim=camera.azimuth)

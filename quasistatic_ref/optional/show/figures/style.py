@@ -1,0 +1,204 @@
+"""Looks of figures for papers, slides and posters; where figures are drawn; writing them."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+
+if "matplotlib.pyplot" not in sys.modules and not os.environ.get("MPLBACKEND"):
+    mpl.use("Agg")  # files need no window; a session that has chosen keeps its choice
+
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.quoting import suggestion
+
+PAGE: Final = 6.3
+"""Width of the text on a page [in]: A4 or letter with the usual margins."""
+
+TEXT: Final = 9.0
+"""Size of text in the style for paper [pt], in which the sizes of figures are given."""
+
+STYLES: Final = ("paper", "slides", "poster")
+"""Styles that come along, each a file of rcParams next to this module."""
+
+NARROW: Final = 16.0
+"""Panels narrower than this [sizes of the text] stand below each other."""
+
+CROWDED: Final = 1.3
+"""Width over height [-] at which a panel is as cramped across as it is up: labels lie below it."""
+
+FORMATS = ("png", "pdf")
+_current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
+
+
+@contextmanager
+def figure_style(name: str | Path | None = None) -> Iterator[None]:
+    """Draw in one of the styles inside this block.
+
+    Parameters
+    ----------
+    name : str or Path, optional
+        One of ``STYLES``, one of matplotlib's own, or a file of rcParams such as
+        ``"my.mplstyle"``; that of the enclosing block by default, or else paper.
+
+    Raises
+    ------
+    InputError
+        If there is no such style.
+    """
+    chosen = _current.get() if name is None else name
+    context = plt.style.context(style_file(chosen))
+    token = _current.set(chosen)
+    try:
+        with context:
+            yield
+    finally:
+        _current.reset(token)
+
+
+def style_file(name: str | Path) -> str | Path:
+    """The rcParams of a style, for ``matplotlib.pyplot.style.use`` in figures of one's own.
+
+    Raises
+    ------
+    InputError
+        If there is no such style.
+    """
+    if str(name) in STYLES:
+        return Path(__file__).parent / f"{name}.mplstyle"
+    if name in plt.style.available or name == "default" or Path(name).is_file():
+        return name
+    raise InputError(f"is no style{suggestion(str(name), STYLES)}", field="style", value=str(name))
+
+
+def sized(width: float, height: float) -> tuple[float, float]:
+    """Size of a figure [in] that is `width` x `height` on paper, under the present rcParams.
+
+    It grows with ``font.size``, and is no wider than ``figure.figsize``.
+    """
+    return min(scaled(width), float(plt.rcParams["figure.figsize"][0])), scaled(height)
+
+
+def scaled(size: float) -> float:
+    """A `size` on paper [pt or in], in proportion to the present rcParams' text [the same]."""
+    return size * float(plt.rcParams["font.size"]) / TEXT
+
+
+def panels(
+    width: float = 4.6,
+    height: float = 2.8,
+    columns: int = 1,
+    *,
+    rows: int = 1,
+    within: Any = None,
+    narrow: float = NARROW,
+    **options: Any,
+) -> tuple[Figure, list[Any]]:
+    """Axes in a grid: those of a figure of their own, or in what is given.
+
+    Where a row has no room for its panels, some or all stand below each other.
+
+    Parameters
+    ----------
+    width, height : float
+        Of a figure of their own, on paper [in].
+    columns, rows : int
+    within : Axes, SubFigure or Figure, optional
+        Where to draw. One panel is drawn into given axes; several take their place in a grid.
+    narrow : float
+        Least width of a panel [sizes of the text].
+    options
+        Further arguments of ``matplotlib.pyplot.subplots``.
+
+    Returns
+    -------
+    tuple of Figure and list of Axes
+        The whole figure; row by row.
+
+    Raises
+    ------
+    InputError
+        If several panels are to take the place of axes that are in no grid.
+    """
+    wanted = (options.get("subplot_kw") or {}).get("projection", "rectilinear")
+    if isinstance(within, Axes) and rows * columns == 1 and within.name == wanted:
+        return _whole(within), [within]
+    count, em = rows * columns, float(plt.rcParams["font.size"]) / 72
+    if within is None:
+        size = sized(width, height)
+        if size[0] < columns * narrow * em:
+            rows, columns, size = count, 1, (size[0], size[1] * columns)
+        within = plt.figure(figsize=size, layout="constrained")
+    else:
+        within = _place(within)
+        if narrow:
+            rows, columns = _arrangement(count, *within.bbox.size)
+    grid = list(within.subplots(rows, columns, squeeze=False, **options).flat)
+    for spare in grid[count:]:
+        spare.remove()
+    return _whole(within), grid[:count]
+
+
+def _arrangement(count: int, across: float, up: float) -> tuple[int, int]:
+    """Rows and columns of panels in a place of a given size, so that they are least cramped."""
+    choices = [(-(-count // columns), columns) for columns in range(1, count + 1)]
+    return max(choices, key=lambda c: min(across / c[1], CROWDED * up / c[0]))
+
+
+def _whole(within: Any) -> Figure:
+    whole: Figure = within.get_figure(root=True)
+    return whole
+
+
+def _place(within: Any) -> Any:
+    """A figure or part of one to draw into; that of axes is theirs, which go."""
+    if not isinstance(within, Axes):
+        return within
+    spec = within.get_subplotspec()
+    if spec is None:
+        problem = "are in no grid: pass axes of plt.subplots or a SubFigure"
+        raise InputError(problem, field="ax")
+    parent: Any = within.get_figure(root=False)
+    within.remove()
+    return parent.add_subfigure(spec)
+
+
+def room(axes: Axes) -> tuple[float, float]:
+    """Width and height of the cell that axes and their labels have in a grid [pixels]."""
+    spec, parent = axes.get_subplotspec(), axes.get_figure(root=False)
+    assert parent is not None
+    whole = np.array(parent.bbox.size)
+    if spec is None:
+        place = axes.get_position()
+        return float(whole[0] * place.width), float(whole[1] * place.height)
+    rows, columns = spec.get_gridspec().get_geometry()
+    width, height = whole * [len(spec.colspan) / columns, len(spec.rowspan) / rows]
+    return float(width), float(height)
+
+
+def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
+    """Write a figure as PNG and PDF, each whole or not at all, and close it.
+
+    Returns
+    -------
+    list of Path
+    """
+    paths = []
+    with figure_style():
+        for kind in FORMATS:
+            metadata = {"CreationDate": None} if kind == "pdf" else None
+            save = partial(figure.savefig, format=kind, metadata=metadata)
+            paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
+    plt.close(figure)
+    return paths

@@ -1,0 +1,59 @@
+"""Shapes as points whose hull looks like them, and hulls as polygons."""
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.step.data import Array, Indices
+
+AROUND, UP = 48, 25
+"""Corners of round shapes around their axis and along it."""
+
+SAME_PLANE = 9
+"""Decimals to which the planes of two triangles agree that are parts of one face."""
+
+
+def surface_points(placed: shapes.PlacedShape, around: int = AROUND, up: int = UP) -> Array:
+    """A cloud's points, or points whose hull looks like the shape; its own frame, (N, 3) [m].
+
+    A half-space has none: see :func:`patch`.
+    """
+    return placed.shape.surface(around, up)
+
+
+def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
+    """Corners of a square of a half-space's surface below the point `centre`, shape (4, 3) [m]."""
+    n = floor.normal
+    foot = centre - (n @ centre - floor.offset) * n
+    one = np.eye(3)[np.abs(n).argmin()]
+    one = half_width * (one - (one @ n) * n) / np.linalg.norm(one - (one @ n) * n)
+    other = np.cross(n, one)
+    around = np.array([-one - other, one - other, one + other, other - one])
+    return np.asarray(foot + around)
+
+
+def triangles(points: Array) -> Indices:
+    """Triangles of the convex hull as indices, (T, 3), counter-clockwise from outside."""
+    hull = ConvexHull(points)
+    corners = points[hull.simplices]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
+    found = np.array(hull.simplices, dtype=np.int64)
+    found[inward] = found[inward][:, [0, 2, 1]]
+    return found
+
+
+def faces(points: Array) -> list[Array]:
+    """Faces of the convex hull, each with its corners in order, shapes (corners, 3)."""
+    hull = ConvexHull(points)
+    members: dict[tuple[float, ...], set[int]] = {}
+    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
+        members.setdefault(tuple(np.round(plane, SAME_PLANE)), set()).update(simplex.tolist())
+    ordered = []
+    for plane, corners in members.items():
+        at = points[sorted(corners)]
+        centre, normal = at.mean(axis=0), np.array(plane[:3])
+        first = at[0] - centre
+        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
+        ordered.append(at[np.argsort(angle)])
+    return ordered

@@ -1,0 +1,114 @@
+"""Objects shown in a terminal and in a notebook: few lines, no line too long, names escaped."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from html import escape
+from numbers import Real
+from typing import Any
+
+from quasistatic_ref.formats.quoting import one_line
+
+WIDTH, LINES = 100, 20
+"""Most columns and lines of a text."""
+MOST = 12
+"""Most rows of a table in a text."""
+MOST_IN_HTML = 50
+NAME = 32
+"""Most columns of a name in a table."""
+CELL = "padding:0 0.6em;text-align:right"
+FIRST = "padding:0 0.6em;text-align:left"
+
+Row = Sequence[str]
+Page = tuple[str, Sequence[str], Row, Sequence[Row]]
+"""A title, facts, and a table: its header and its rows."""
+
+
+def clipped(text: str, width: int = WIDTH) -> str:
+    """Text on one line of at most that many columns."""
+    line = one_line(text)
+    return line if len(line) <= width else f"{line[: width - 3]}..."
+
+
+def shortened(name: str, width: int = NAME) -> str:
+    """A name on one line of at most `width` columns; its end, by which names differ, is kept."""
+    line, head = one_line(name), (width - 3) // 2
+    return line if len(line) <= width else f"{line[:head]}...{line[head + 3 - width :]}"
+
+
+def number(x: object) -> str:
+    """A number to four digits; a dash for anything else, such as None."""
+    return f"{float(x) + 0.0:.4g}" if isinstance(x, Real) else "-"
+
+
+def vector(values: Iterable[float]) -> str:
+    """The `values` of a vector [any unit] to three digits, e.g. ``(0, 0, -9.81)``."""
+    return f"({', '.join(f'{x + 0.0:.3g}' for x in values)})"
+
+
+def direction(n: Iterable[float]) -> str:
+    """A unit vector to three decimals, e.g. ``(0.000, 0.707, -0.707)``."""
+    return f"({', '.join(f'{x + 0.0:.3f}' for x in n)})"
+
+
+def counted(n: int, noun: str) -> str:
+    """A number of things, e.g. ``1 contact`` or ``3 bodies``."""
+    many = f"{noun[:-1]}ies" if noun.endswith("y") else f"{noun}s"
+    return f"{n} {noun if n == 1 else many}"
+
+
+def shown(page: Callable[[Any], Page], *hidden: str) -> tuple[Callable[[Any], str], ...]:
+    """``__repr__`` and ``_repr_html_`` of a class whose objects have a page.
+
+    Parameters
+    ----------
+    page : callable
+        An object -> its page.
+    hidden : str
+        Columns for which a line of text has no room.
+    """
+    return lambda it: text_page(page(it), *hidden), lambda it: html_page(page(it))
+
+
+def text_page(page: Page, *hidden: str) -> str:
+    """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
+    title, facts, header, rows = page
+    lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST - 2]
+    if rows:
+        kept = [i for i, name in enumerate(header) if name not in hidden]
+        cells = [[shortened(row[i]) for i in kept] for row in [header, *rows[:MOST]]]
+        lines += [f"  {line}" for line in aligned(cells)]
+        if len(rows) > MOST:
+            lines.append(f"  ... and {len(rows) - MOST} more")
+    return "\n".join(clipped(line) for line in lines)
+
+
+def aligned(rows: Sequence[Row]) -> Iterator[str]:
+    """Rows of a table as lines, the first column to the left, the others to the right."""
+    first, *widths = (max(map(len, column)) for column in zip(*rows, strict=True))
+    for name, *others in rows:
+        right = [cell.rjust(width) for cell, width in zip(others, widths, strict=True)]
+        yield "  ".join([name.ljust(first), *right]).rstrip()
+
+
+def html_page(page: Page) -> str:
+    """The same as one HTML element that needs nothing from elsewhere, with more of the rows."""
+    title, facts, header, rows = page
+    parts = [f"<div><p><strong>{_safe(title)}</strong></p>"]
+    if facts:
+        parts.append(f"<p>{'<br>'.join(map(_safe, facts))}</p>")
+    if rows:
+        head = _cells(header, "th", ' scope="col"')
+        body = "".join(_cells(row, "td") for row in rows[:MOST_IN_HTML])
+        parts.append(f"<table><thead>{head}</thead><tbody>{body}</tbody></table>")
+        if len(rows) > MOST_IN_HTML:
+            parts.append(f"<p>and {len(rows) - MOST_IN_HTML} more</p>")
+    return "".join([*parts, "</div>"])
+
+
+def _cells(row: Row, tag: str, more: str = "") -> str:
+    styled = [(CELL if i else FIRST, _safe(cell)) for i, cell in enumerate(row)]
+    cells = [f'<{tag}{more} style="{style}">{cell}</{tag}>' for style, cell in styled]
+    return f"<tr>{''.join(cells)}</tr>"
+
+
+def _safe(text: str) -> str:
+    return escape(one_line(text))

@@ -1,0 +1,116 @@
+"""Systems, simulators, step results, scenarios and trajectories in words: ``repr``, notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.optional.show.show import Page, Row, counted, direction, number, vector
+from quasistatic_ref.optional.show.step_words import (
+    CONTACT,
+    FORCE,
+    certificate_facts,
+    contact_rows,
+    force_rows,
+)
+
+if TYPE_CHECKING:
+    from quasistatic_ref.contact.pairs import ContactPair
+    from quasistatic_ref.scenario.scenario import Scenario
+    from quasistatic_ref.simulate.result import StepResult
+    from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.simulate.trajectory import Trajectory
+
+NOT_IN_TEXT = (CONTACT[2], *FORCE[:2])
+"""Columns for which a line has no room."""
+PAIR = ("pair", "contacts", "mu_v", "mu_omega [m]", "rows")
+
+
+def pair_rows(pairs: Sequence[ContactPair]) -> list[Row]:
+    """Of each pair: its name, number of contacts and friction."""
+    return [
+        (pair.name, str(pair.n_c), number(pair.mu_v), number(pair.mu_omega), str(pair.rows))
+        for pair in pairs
+    ]
+
+
+def result_page(result: StepResult) -> Page:
+    """One step that was taken: gap, normal, force and active rows of each contact."""
+    step, certificate = result.step, result.solution.certificate
+    title = (
+        f"StepResult: {counted(step.n_v, 'coordinate')}, {counted(step.contacts.n_c, 'contact')}, "
+        f"certificate: {certificate.kind}, {1e3 * sum(result.seconds.values()):.3g} ms"
+    )
+    at = [(row[0], row[1], row[2]) for row in contact_rows(step.contacts)]
+    rows = [(*one, *two) for one, two in zip(at, force_rows(result.solution), strict=True)]
+    return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
+
+
+def simulator_page(simulator: Simulator) -> Page:
+    """What steps, and how each step is solved."""
+    title = (
+        f"Simulator: h = {simulator.h:g} s, {counted(simulator.system.n_v, 'coordinate')} "
+        f"({simulator.system.n_a} actuated), {_touching(simulator.pairs)}"
+    )
+    facts = [
+        f"backend {simulator.backend} ({simulator.engine}), certify {simulator.certify}, cone "
+        f"{simulator.cone}, gravity {vector(simulator.gravity)} m/s^2"
+    ]
+    return title, facts, PAIR, pair_rows(simulator.pairs)
+
+
+def scenario_page(scenario: Scenario) -> Page:
+    """What a scenario file comes to."""
+    system = scenario.system
+    title = (
+        f"Scenario {scenario.path.stem}: {counted(scenario.steps, 'step')} of {scenario.h:g} s, "
+        f"{counted(system.n_v, 'coordinate')} ({system.n_a} actuated), {_touching(scenario.pairs)}"
+    )
+    facts = [
+        f"file {scenario.path}",
+        f"bodies: {', '.join(body.name for body in system.bodies)}",
+        f"backend {scenario.backend} ({scenario.engine}), certify {scenario.certify}, cone "
+        f"{scenario.cone}, gravity {vector(scenario.gravity)} m/s^2, record {scenario.record}",
+    ]
+    return title, facts, PAIR, pair_rows(scenario.pairs)
+
+
+def _touching(pairs: Sequence[ContactPair]) -> str:
+    n_c = sum(pair.n_c for pair in pairs)
+    return f"{counted(len(pairs), 'pair')} with {counted(n_c, 'contact')}"
+
+
+def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
+    """A run: how far it went, what of it is proved, and its contacts in the last step."""
+    header, steps = trajectory.header, trajectory.steps
+    ended = "complete" if trajectory.failed is None else "ended early"
+    title = (
+        f"Trajectory: {counted(steps, 'step')} of {header['h']:g} s, {ended}; "
+        f"{counted(trajectory['q'].shape[-1], 'entry')} of q, "
+        f"{counted(np.size(trajectory['mu_v']), 'contact')}"
+    )
+    facts = [] if trajectory.failed is None else [f"why it ended: {trajectory.failed}"]
+    facts += [
+        f"{certified}; backend {header.get('backend')}, cone {header.get('cone')}, record "
+        f"{header['record']}",
+        f"largest quasi-dynamic number {number(header.get('quasi_dynamic_number'))}, largest "
+        f"boundary layer {number(header.get('largest_boundary_layer'))} m",
+        f"arrays: {', '.join(trajectory.arrays)}",
+    ]
+    facts += [f"warning: {sentence}" for sentence in trajectory.warnings]
+    n_c = np.size(trajectory["mu_v"])
+    shapes = {"phi": (), "n": (3,), "wrench": (4,)}
+    fits = (trajectory[key].shape == (steps, n_c, *last) for key, last in shapes.items())
+    if not (steps and all(fits)):  # no steps, or a file that another program wrote
+        return title, facts, (), ()
+    names = header["contacts"][-1] if header["contacts"] else ()
+    names = names if len(names) == n_c else range(n_c)
+    rows = [
+        (str(name), number(phi), direction(n), *map(number, wrench))
+        for name, phi, n, wrench in zip(
+            names, *(trajectory[key][-1] for key in shapes), strict=True
+        )
+    ]
+    return title, facts, ("contact, last step", *CONTACT[1:3], *FORCE[:4]), rows

@@ -1,0 +1,1 @@
+"""Scenario files: read, checked, and made into a system with its contacts and targets."""

@@ -1,0 +1,211 @@
+"""The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.scenario.paths import path_in, shared_folders
+from quasistatic_ref.scenario.scenario_table import BODY, WAYPOINT, WRENCH, value
+from quasistatic_ref.scenario.tables import check_names, pose
+from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
+from quasistatic_ref.step.arrays import Array, positive_definite
+
+
+@dataclass(frozen=True, eq=False)
+class Wrenches(Plain):
+    """An external wrench at the centre of mass of a body's root link, piecewise linear in time.
+
+    Parameters
+    ----------
+    body : str
+    times : ndarray, shape (w,)
+        [s].
+    values : ndarray, shape (w, 6)
+        Force [N] and torque [N m], world frame.
+    """
+
+    body: str
+    times: Array
+    values: Array
+
+    def force(self, system: System, t: float, q: Array) -> Array:
+        """Generalised force at time t, shape (n_v,)."""
+        wrench = piecewise_linear(self.times, self.values, t)
+        return system.centre_of_mass_force(q, self.body, wrench[:3], wrench[3:])
+
+
+@dataclass(frozen=True, eq=False)
+class BodyEntry(Plain):
+    """What one ``[bodies.NAME]`` table says, before the system is known.
+
+    Parameters
+    ----------
+    body : Body
+    table : Fields
+        For messages.
+    K_q : object
+        As parsed: a table of joints, or a matrix.
+    targets : list
+        As parsed: waypoints.
+    cloud : Path or None
+    gravity_compensated : bool
+        Whether the robot compensates gravity on its actuated coordinates (default), so that the
+        model leaves it out.
+    wrenches : Wrenches or None
+    """
+
+    body: Body
+    table: Fields = field(compare=False)
+    K_q: Any
+    targets: list[Any]
+    cloud: Path | None
+    gravity_compensated: bool
+    wrenches: Wrenches | None
+
+    def actuated(self, system: System) -> list[Joint]:
+        """The actuated joints of this body, in the order of q."""
+        own = f"{self.body.name}/"
+        return [j for j in system.joints if j.actuated and j.name.startswith(own)]
+
+    def short(self, joint: Joint) -> str:
+        """A joint's name without the body's."""
+        return joint.name.removeprefix(f"{self.body.name}/")
+
+
+def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
+    """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
+    check_names(table, BODY)
+    urdf = path_in(folder, table, "urdf")
+    if urdf is None:
+        raise table.fail("urdf", "is missing")
+    base, actuated = value(table, BODY, "base"), value(table, BODY, "actuated")
+    if actuated != "all":
+        if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
+            raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
+        actuated = tuple(actuated)
+    xyz, rpy = pose(value(table, BODY, "pose"))
+    positions = table.table("positions", {})
+    start = {joint: positions.number(joint) for joint in positions.names()}
+    folders = [folder / given for given in value(table, BODY, "package_dirs")]
+    moved = "gravity_compensated" in table
+    if moved and not actuated:
+        raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
+    entry = BodyEntry(
+        body=Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf)),
+        table=table,
+        K_q=value(table, BODY, "K_q"),
+        targets=value(table, BODY, "targets"),
+        cloud=path_in(folder, table, "cloud"),
+        gravity_compensated=value(table, BODY, "gravity_compensated"),
+        wrenches=_wrenches(name, table),
+    )
+    if entry.wrenches is not None and base == "fixed":
+        raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
+    return entry
+
+
+def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
+    """Fill a body's block into the system's K_q.
+
+    Each joint has a number, a list (diagonal) or a matrix; or the whole body has one matrix.
+
+    Raises
+    ------
+    ScenarioError
+        If a joint is left out, unknown, or its stiffness has the wrong shape.
+    """
+    joints, table = entry.actuated(system), entry.table
+    if entry.K_q is None and joints:
+        raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
+    if isinstance(entry.K_q, list):
+        index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
+        whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
+        block = whole.array("K_q", (len(index), len(index)))
+        positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
+        K_q[np.ix_(index, index)] = block
+        return
+    given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
+    given.only(entry.short(joint) for joint in joints)
+    for joint in joints:
+        block = _joint_stiffness(given, entry.short(joint), joint)
+        positive_definite(given.name(entry.short(joint)), block)
+        K_q[joint.v, joint.v] = block
+
+
+def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
+    """The waypoints of a body's joints as functions of time."""
+    joints = {entry.short(joint): joint for joint in entry.actuated(system)}
+    times: dict[str, list[float]] = {}
+    values: dict[str, list[Any]] = {}
+    for i, record in enumerate(entry.targets):
+        waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
+        for name in waypoint.names():
+            if name != "t" and name not in joints:
+                hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
+                raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
+        t = value(waypoint, WAYPOINT, "t")
+        if not waypoint.names():
+            raise entry.table.fail(f"targets[{i}]", "names no joint", record)
+        for name in waypoint.names():
+            if joints[name].kind == "floating":
+                xyz, rpy = pose(waypoint.table(name))
+                target: Any = np.concatenate([xyz, quaternion(rpy)])
+            elif joints[name].kind == "planar":
+                target = _planar(waypoint, name, entry.body)
+            else:
+                target = [waypoint.number(name)]
+            times.setdefault(name, []).append(t)
+            values.setdefault(name, []).append(target)
+    return [
+        JointTrack(system, joints[name], np.array(times[name]), np.array(values[name]))
+        for name in times
+    ]
+
+
+def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
+    n = joint.v.stop - joint.v.start
+    value = given.take(name)
+    wrapped = Fields({name: value}, given.where, ScenarioError)
+    if not isinstance(value, list):
+        return wrapped.number(name, above=0.0) * np.eye(n)
+    if value and isinstance(value[0], list):
+        return wrapped.array(name, (n, n))
+    diagonal = wrapped.array(name, (n,))
+    if not (diagonal > 0).all():
+        raise given.fail(name, "must be greater than 0 in every entry", value)
+    return np.diag(diagonal)
+
+
+def _planar(waypoint: Fields, name: str, body: Body) -> Array:
+    """Entries of q of a planar base, from the same table as a floating one's."""
+    xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
+    height = float(np.asarray(body.xyz)[2])
+    if xyz[2] != height or rpy[:2].any():
+        problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
+        raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
+    return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
+
+
+def _wrenches(name: str, table: Fields) -> Wrenches | None:
+    times, values = [], []
+    for i, record in enumerate(value(table, BODY, "wrenches")):
+        one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
+        check_names(one, WRENCH)
+        times.append(value(one, WRENCH, "t"))
+        if not {"force", "torque"} & set(one.names()):
+            raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
+        values.append(np.concatenate([value(one, WRENCH, key) for key in ("force", "torque")]))
+    if not times:
+        return None
+    if not (np.diff(times) > 0).all():
+        raise table.fail("wrenches", "must have increasing times t", times)
+    return Wrenches(name, np.array(times), np.array(values))

@@ -1,0 +1,104 @@
+"""The ``[shapes.NAME]`` and ``[contacts.NAME]`` tables of a scenario."""
+
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ScenarioError, about_field
+from quasistatic_ref.formats.fields import REQUIRED, Fields
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.system import System
+from quasistatic_ref.scenario.bodies import BodyEntry
+from quasistatic_ref.scenario.scenario_table import CONTACT, value
+from quasistatic_ref.scenario.tables import check_names
+from quasistatic_ref.scenario.world_shapes import WORLD, world_shape
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+
+Shapes = dict[str, list[PlacedShape]]
+
+
+def placed_shapes(
+    system: System, entries: Mapping[str, BodyEntry], world: Fields, folder: Path
+) -> Shapes:
+    """Every name that ``[contacts]`` may use, with its shapes.
+
+    A link has the collision shapes of its URDF; a body's name means its cloud, or else its root
+    link; a name from ``[shapes]`` is fixed in the world. A pattern such as ``hand/*`` means every
+    link that it matches and that has shapes. ScenarioError if a name is taken.
+    """
+    named: Shapes = {}
+    for name in world.names():
+        named[name] = [world_shape(name, world.table(name), folder)]
+    world.close()
+    for i, link in enumerate(system.links):
+        if i != WORLD:
+            named[link] = [shape for shape in system.shapes if shape.link == i]
+    for name, entry in entries.items():
+        if name in named:
+            raise ScenarioError("is the name of a body as well", field=f"shapes.{name}")
+        root = system.link(name)
+        if entry.cloud is None:
+            named[name] = named[system.links[root]]
+        else:
+            cloud = point_cloud(entry.cloud)
+            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), cloud)]
+    return named
+
+
+def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
+    """The pairs of all ``[contacts.NAME]`` tables, in file order."""
+    pairs = []
+    for name in tables.names():
+        table = tables.table(name)
+        check_names(table, CONTACT)
+        sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
+        rows, mu_v = value(table, CONTACT, "rows"), value(table, CONTACT, "mu_v")
+        mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
+        if rows == 4 and mu_omega > 0:
+            raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
+        k, hull = value(table, CONTACT, "k"), value(table, CONTACT, "hull")
+        for alpha in sides[0]:
+            for beta in sides[1]:
+                label = f"{name}({alpha.name}, {beta.name})"
+                with about_field(table.where):
+                    pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull))
+    tables.close()
+    return tuple(pairs)
+
+
+def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
+    given = value(table, CONTACT, key)
+    found: list[PlacedShape] = []
+    for name in given if isinstance(given, list) else [given]:
+        if not isinstance(name, str):
+            raise table.fail(key, "must be a name or a list of names", given)
+        if any(c in name for c in "*?["):
+            found += _matching(table, key, name, shapes)
+            continue
+        if name not in shapes:
+            raise table.fail(key, f"names nothing here{suggestion(name, shapes)}", name)
+        if not shapes[name]:
+            raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
+        found += shapes[name]
+    if not found:
+        raise table.fail(key, "must name at least one shape", given)
+    names = [shape.name for shape in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise table.fail(key, f"names {twice} twice: its friction would count twice", given)
+    return found
+
+
+def _matching(table: Fields, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
+    """Shapes of all links that a pattern matches, in the order of the links."""
+    names = [name for name in shapes if "/" in name and fnmatchcase(name, pattern)]
+    if not names:
+        raise table.fail(key, "matches no link; a pattern looks like 'hand/*'", pattern)
+    found = [shape for name in names for shape in shapes[name]]
+    if not found:
+        raise table.fail(key, "matches no link with a collision shape", pattern)
+    return found

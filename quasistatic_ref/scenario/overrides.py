@@ -1,0 +1,123 @@
+"""Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePath
+from typing import Any
+
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.files import plain
+from quasistatic_ref.scenario.paths import OwnWord
+
+Settings = Sequence[str] | Mapping[str, Any]
+MOST_PARTS = 32
+"""Most parts of a dotted key."""
+# Possessive, and from the start of a word only: its own time is linear.
+_DEEP_KEY = re.compile(
+    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
+)
+
+
+def toml_tables(text: str) -> dict[str, Any]:
+    """The tables of a TOML text.
+
+    Raises
+    ------
+    ScenarioError
+        If a key has too many parts: tomllib's time is quadratic in their number.
+    """
+    if deep := _DEEP_KEY.search(text):
+        line = text[: deep.start()].count("\n") + 1
+        raise ScenarioError(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
+    return tomllib.loads(text)
+
+
+def apply_settings(
+    tables: dict[str, Any], settings: Settings, named: Mapping[str, Any]
+) -> set[tuple[str, str]]:
+    """Make changes in place.
+
+    Parameters
+    ----------
+    tables : dict
+    settings : sequence of str, or mapping of str to object
+        ``dotted.key=value``, the value being TOML or else a plain word; or values by dotted key.
+    named : mapping of str to object
+        Values by the names of fields at the top, made last.
+
+    Returns
+    -------
+    set of (str, str)
+        ``("contacts", "grp")`` for each table of ``[contacts]`` that a dotted key has made, and so
+        for the other tables at the top.
+
+    Raises
+    ------
+    ScenarioError
+        If a key is none, or leads to no table; or a value is nested without end.
+    """
+    there = _second_level(tables)
+    if isinstance(settings, str) or not isinstance(settings, Mapping | Iterable):
+        problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
+        raise ScenarioError(problem, field="settings", value=settings)
+    if isinstance(settings, Mapping):
+        for key, value in settings.items():
+            _put(tables, str(key), _own(key, value), "settings", key)
+    else:
+        for setting in settings:
+            key, equals, text = str(setting).partition("=")
+            if not equals:
+                raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
+            _put(tables, key, parsed(text), "--set", setting)
+    made = _second_level(tables) - there
+    for key, value in named.items():
+        tables[key] = _own(key, value)
+    return made & _second_level(tables)
+
+
+def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
+    pairs = ((key, inner) for key, inner in tables.items() if isinstance(inner, dict))
+    return {(key, name) for key, inner in pairs for name in inner if isinstance(inner[name], dict)}
+
+
+def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object) -> None:
+    parts = [part.strip() for part in key.split(".")]
+    if not all(parts):
+        raise ScenarioError("must read dotted.key=value", field=field, value=given)
+    if len(parts) > MOST_PARTS:
+        problem = f"names a key of more than {MOST_PARTS} parts"
+        raise ScenarioError(problem, field=field, value=given)
+    at: Any = tables
+    for part in parts[:-1]:
+        at = at.setdefault(part, {}) if isinstance(at, dict) else None
+    if not isinstance(at, dict):
+        raise ScenarioError("does not lead to a table", field=field, value=given)
+    at[parts[-1]] = value
+
+
+def parsed(text: str) -> Any:
+    """The value of a setting that is given as text: TOML, or else a plain word."""
+    try:
+        tables = toml_tables(f"value = {text}")
+    except (ValueError, RecursionError):
+        tables = {}
+    # Anything but one value, such as a second line, is taken as a word.
+    value = tables["value"] if list(tables) == ["value"] else text.strip()
+    return OwnWord(value) if isinstance(value, str) else value
+
+
+def _own(field: object, value: Any) -> Any:
+    """A value of Python's as a parser would have returned it, its paths being the user's own."""
+    try:
+        return _as_parsed(plain(value))
+    except RecursionError:
+        raise ScenarioError("is nested too deeply, or holds itself", field=str(field)) from None
+
+
+def _as_parsed(value: Any) -> Any:
+    if isinstance(value, str | PurePath):
+        return OwnWord(value)
+    if isinstance(value, Mapping):
+        return {str(key): _as_parsed(inner) for key, inner in value.items()}
+    return [_as_parsed(inner) for inner in value] if isinstance(value, list) else value

@@ -1,0 +1,73 @@
+"""Where the files that a scenario names may be.
+
+A path in a scenario file is relative to the file's folder and leads to a file inside it, symbolic
+links followed: a scenario of another author reads only what came with it. A path given by
+``--set`` is the user's own, and may lead anywhere.
+
+``package://NAME/PATH`` is a file of an installed Python package that keeps robots, as those of
+PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the modules of Python.
+"""
+
+import sys
+from pathlib import Path
+
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.model.readers.mesh_files import PACKAGE
+
+SHARED = Path("cmeel.prefix", "share")
+"""Where installed packages keep robots, next to the modules of Python."""
+
+
+class OwnWord(str):
+    """A string that came from ``--set``, not from the file."""
+
+    __slots__ = ()
+
+
+def path_in(folder: Path, table: Fields, field: str) -> Path | None:
+    """The path in one field, or None where there is no such field.
+
+    Raises
+    ------
+    ScenarioError
+        If it leads out of the folder, cannot be a path, or names a package or a file of one that
+        is not installed.
+    """
+    text = table.text(field, None)
+    if text is None:
+        return None
+    if not text.strip():
+        raise table.fail(field, "must name a file", text)
+    path = folder / text
+    try:
+        if text.startswith(PACKAGE):
+            return _installed(table, field, text)
+        inside = isinstance(text, OwnWord) or path.resolve().is_relative_to(folder.resolve())
+    except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
+        raise table.fail(field, f"cannot be a path: {error}", text) from None
+    if not inside:
+        remedy = "put the file there, or give the path on the command line, as --set "
+        remedy += f"{table.name(field)}=PATH"
+        raise table.fail(field, f"leaves the scenario's folder; {remedy}", text)
+    return path
+
+
+def shared_folders(path: Path) -> list[Path]:
+    """Folders of installed packages that a file lies in: where its own ``package://`` is sought."""
+    return [folder for folder in _shared() if path.is_relative_to(folder)]
+
+
+def _shared() -> list[Path]:
+    return [Path(place) / SHARED for place in dict.fromkeys(sys.path)]
+
+
+def _installed(table: Fields, field: str, text: str) -> Path:
+    name, _, inside = text.removeprefix(PACKAGE).partition("/")
+    for shared in _shared():
+        path, package = shared / name / inside, (shared / name).resolve()
+        if path.is_file() and package.parent == shared.resolve():
+            if path.resolve().is_relative_to(package):
+                return path
+            raise table.fail(field, "leads out of the package", text)
+    remedy = "robots come with pip install 'quasistatic-ref[robots]'"
+    raise table.fail(field, f"is no file of an installed package; {remedy}", text)

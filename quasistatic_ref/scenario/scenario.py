@@ -1,0 +1,272 @@
+"""A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import BackendError, ScenarioError, about_file
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.show.show import shown
+from quasistatic_ref.optional.show.simulate_words import scenario_page
+from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
+from quasistatic_ref.scenario.checks import check_motion, check_sizes
+from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.scenario.overrides import Settings, apply_settings, toml_tables
+from quasistatic_ref.scenario.scenario_table import (
+    FORMAT,
+    LIMITS,
+    SOLVER,
+    TOP,
+    VERSION,
+    value,
+)
+from quasistatic_ref.scenario.tables import check_made, check_names
+from quasistatic_ref.simulate.goals import Checked
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.target import Targets
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS, NONE
+from quasistatic_ref.solve.engines import check_solver, default_backend, default_engine
+from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.tolerances import ACCURACY
+
+LARGEST = 2**20
+"""Largest scenario file [bytes]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scenario(Plain):
+    """Everything that a scenario file says, checked and loaded.
+
+    Parameters
+    ----------
+    path : Path
+    h : float
+        Time step [s].
+    steps : int
+    gravity : ndarray, shape (3,)
+        [m/s^2], world frame.
+    system : System
+    pairs : tuple of ContactPair
+    K_q : ndarray, shape (n_a, n_a)
+        Joint stiffness [N/m, N m/rad].
+    gravity_acts : ndarray of bool, shape (n_a,)
+        Whether gravity acts on each actuated coordinate.
+    targets : Targets
+        q_bar_a(t).
+    wrenches : tuple of Wrenches
+        External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
+    backend, accuracy, certify, record, cone
+        The fields of these names in the scenario's file.
+    engine : str, optional
+        As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    limits : Limits
+        Beyond which no step is taken.
+    """
+
+    path: Path
+    h: float
+    steps: int
+    gravity: Array
+    system: System
+    pairs: tuple[ContactPair, ...]
+    K_q: Array
+    gravity_acts: Array
+    targets: Targets
+    wrenches: tuple[Wrenches, ...] = ()
+    backend: str = DEFAULT_OF_RUNS
+    accuracy: float = ACCURACY
+    certify: str = CERTIFY[0]
+    record: str = "full"
+    cone: str = PYRAMID
+    limits: Limits = field(default_factory=Limits)
+    bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
+    engine: str | None = None
+
+    __repr__, _repr_html_ = shown(scenario_page)
+
+    def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
+        """A simulator of this scenario, with an `extension` as it takes one."""
+        return Simulator(
+            self.system,
+            self.pairs,
+            h=self.h,
+            K_q=self.K_q,
+            gravity=self.gravity.tolist(),
+            gravity_acts=self.gravity_acts,
+            solver=self.backend,
+            engine=self.engine,
+            accuracy=self.accuracy,
+            certify=self.certify,
+            cone=self.cone,
+            extension=extension,
+            limits=self.limits,
+        )
+
+    @property
+    def force(self) -> Checked | None:
+        """External generalised force (t, q) -> (n_v,), or None where there is none."""
+        if not self.wrenches:
+            return None
+        return lambda t, q: np.sum([w.force(self.system, t, q) for w in self.wrenches], axis=0)
+
+    def run(self, progress: bool = True, **saving: Any) -> Trajectory:
+        """Simulate the whole scenario.
+
+        Parameters
+        ----------
+        progress : bool
+        saving : object
+            `save`, `save_every` and `resume` of
+            :func:`~quasistatic_ref.simulate.rollout.rollout`, which takes `progress` as well.
+
+        Raises
+        ------
+        RunFailed
+            If a step fails.
+        """
+        return rollout(
+            self.simulator(),
+            self.system.q_start,
+            self.targets,
+            self.steps,
+            force=self.force,
+            record=self.record,
+            progress=progress,
+            **saving,
+        )
+
+
+def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> Scenario:
+    """Load a scenario from a file, or by the name of one that comes with the package.
+
+    Parameters
+    ----------
+    name : str or Path
+    settings : sequence of str, or mapping of str to object
+        Changes, made before anything is checked: ``dotted.key=value``, as after the command
+        line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
+    fields : object
+        The same for fields at the top: ``steps=120``.
+
+    Returns
+    -------
+    Scenario
+
+    Raises
+    ------
+    InputError
+        Naming the file, the field and the value; a ScenarioError or, from a URDF, a ModelError.
+    """
+    path = scenario_path(name)
+    with about_file(path):
+        try:
+            tables = toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
+        except tomllib.TOMLDecodeError as error:
+            what = "TOML" if path.suffix == ".toml" else "a scenario, which is TOML"
+            raise ScenarioError(f"is not {what}: {error}") from None
+        except (RecursionError, ValueError):
+            raise ScenarioError("is nested too deeply, or holds an unusable number") from None
+        check_made(apply_settings(tables, settings, fields), tables)
+        check_sizes(tables)
+        return _scenario(path, Fields(tables, error=ScenarioError))
+
+
+def _scenario(path: Path, top: Fields) -> Scenario:
+    if not {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+        check_names(top, TOP)
+    top.check_format(FORMAT, VERSION)
+    check_names(top, TOP)
+    h, steps, gravity, record = (
+        value(top, TOP, name) for name in ("h", "steps", "gravity", "record")
+    )
+    named = cone(value(top, TOP, "cone")).name
+    solver = value(top, TOP, "solver")
+    check_names(solver, SOLVER)
+    certify = value(solver, SOLVER, "certify")
+    accuracy = value(solver, SOLVER, "accuracy")
+    limits = _limits(value(top, TOP, "limits"))
+
+    tables = value(top, TOP, "bodies")
+    entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
+    tables.close()
+    if not entries:
+        raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
+    system = System([entry.body for entry in entries.values()])
+    shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
+    pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
+    blocks = system.constant_mass_matrix
+    entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
+    backend, engine = _backend_and_engine(solver, certify, named, entries_of_J)
+    check_motion(system, pairs)
+    if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
+        raise ScenarioError(f"at the start, {far}", field="bodies")
+
+    K_q, gravity_acts = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
+    tracks, wrenches = [], []
+    for entry in entries.values():
+        stiffness(system, entry, K_q)
+        for joint in entry.actuated(system):
+            gravity_acts[joint.v] = not entry.gravity_compensated
+        tracks += joint_tracks(system, entry)
+        if entry.wrenches is not None:
+            wrenches.append(entry.wrenches)
+    return Scenario(
+        path=path,
+        h=h,
+        steps=steps,
+        gravity=gravity,
+        system=system,
+        pairs=pairs,
+        K_q=K_q,
+        gravity_acts=gravity_acts,
+        targets=Targets(system.q_start[: system.n_q_a], tracks),
+        wrenches=tuple(wrenches),
+        backend=backend,
+        accuracy=accuracy,
+        certify=certify,
+        record=record,
+        cone=named,
+        limits=limits,
+        bodies=entries,
+        engine=engine,
+    )
+
+
+def _backend_and_engine(
+    solver: Fields, certify: str, cone_name: str, entries: int
+) -> tuple[str, str]:
+    """Names of the backend and the engine, looked up here rather than in the first step."""
+    named = value(solver, SOLVER, "engine")
+    default = default_backend(named, cone_name, certify, entries)
+    name = value(solver, SOLVER, "backend", default)
+    engine = named or default_engine(name, cone_name)
+    if name == NONE and certify != CERTIFY[0]:
+        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+        raise solver.fail("backend", problem, name)
+    try:
+        check_solver(name, engine, cone_name)
+    except BackendError as error:
+        raise solver.fail(error.field or "backend", error.problem, error.value) from None
+    return name, engine
+
+
+def _limits(table: Fields) -> Limits:
+    check_names(table, LIMITS)
+    return Limits(
+        penetration=value(table, LIMITS, "penetration"), reach=value(table, LIMITS, "reach")
+    )

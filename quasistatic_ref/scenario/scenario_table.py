@@ -1,0 +1,159 @@
+"""Every field of a scenario, said once: the loader, the JSON Schema and the reference page read it.
+
+Rules about several fields, such as that rows = 6 needs mu_omega, are checked by the loader;
+``RULES`` holds those of them that a JSON Schema can express.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from quasistatic_ref.formats.declared import Field, Tables
+from quasistatic_ref.formats.schema import json_schema
+from quasistatic_ref.model.body import BASES
+from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.record import RECORDS
+from quasistatic_ref.simulate.simulator import GRAVITY
+from quasistatic_ref.solve.engines import ENGINES
+from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.step.cones import CONES, PYRAMID
+from quasistatic_ref.tolerances import ACCURACY
+
+FORMAT, VERSION = "quasistatic-ref/scenario", 1
+MOST_STEPS = 10_000_000
+TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
+BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
+SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
+NUMBER, TEXT = {"type": "number"}, {"type": "string"}
+LIST = {"type": "array", "items": NUMBER}
+MATRIX = {"type": "array", "items": LIST}
+_TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
+_SIDE = {"anyOf": [TEXT, {"type": "array", "items": TEXT, "minItems": 1}]}
+_NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of links (hand/*)"
+_STIFF = {"anyOf": [{"type": "number", "minimum": 0, "exclusiveMinimum": True}, LIST, MATRIX]}
+_TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
+
+TABLES = Tables({
+    TOP: {
+        "format": Field("text", "what the file is", choices=(FORMAT,)),
+        "version": Field("integer", "of the format", choices=(VERSION,)),
+        "h": Field("number", "time step", "s", above=0.0),
+        "steps": Field("integer", "how many", least=0, most=MOST_STEPS),
+        "gravity": Field("three numbers", "free fall in the world frame", "m/s^2", GRAVITY),
+        "cone": Field(
+            "text", f"friction cone of every contact: {', '.join(CONES)} (K even, from 4 on)",
+            default=PYRAMID, schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
+        ),
+        "record": Field(
+            "text", "what a trajectory holds; light leaves the quadratic programs out",
+            default=RECORDS[0], choices=RECORDS,
+        ),
+        "solver": Field("table", "the backend, and what is proved", default={}, of=SOLVER),
+        "limits": Field("table", "where a run ends early", default={}, of=LIMITS),
+        "bodies": Field("tables by name", "what moves", of=BODY, schema={"minProperties": 1}),
+        "shapes": Field("tables by name", "solids that stand still", default={}, of=SHAPE),
+        "contacts": Field("tables by name", "who may touch whom", default={}, of=CONTACT),
+    },
+    SOLVER: {
+        "backend": Field("text", "name of a solver; quasistatic-ref backends", default=None),
+        "engine": Field("text", "the interface to the backend", default=None, choices=ENGINES),
+        "accuracy": Field(
+            "number", "of the backend, in natural units", "-", ACCURACY, above=0.0,
+        ),
+        "certify": Field("text", "what is proved", default=CERTIFY[0], choices=CERTIFY),
+    },
+    LIMITS: {
+        "penetration": Field(
+            "number", "deepest penetration that a step is taken from", "m", Limits.penetration,
+            above=0.0,
+        ),
+        "reach": Field(
+            "number", "farthest that a link may come from the origin", "m", Limits.reach, above=0.0,
+        ),
+    },
+    BODY: {
+        "urdf": Field("text", "file in the scenario's folder, or package://NAME/PATH of a robot",
+                      schema={"pattern": r"\S"}),
+        "base": Field("text", "how the root link moves", default="fixed", choices=BASES),
+        "actuated": Field(
+            'names of joints, or "all"', 'joints that have targets; "base" is the base', default=[],
+            schema={"anyOf": [{"enum": ["all"]}, {"type": "array", "items": TEXT}]},
+        ),
+        "pose": Field("table", "where the root link is, or starts", default={}, of=POSE),
+        "positions": Field(
+            "table of numbers", "where joints start, 0 for those not named", "m, rad", {},
+            schema={"type": "object", "additionalProperties": NUMBER},
+        ),
+        "package_dirs": Field(
+            "list of words", "folders in which the URDF's package:// is looked for", default=[],
+        ),
+        "K_q": Field(
+            "table by joint, or a matrix",
+            "stiffness of each actuated joint: a number, a list (diagonal) or a matrix",
+            "N/m, N m/rad", None,
+            schema={"anyOf": [MATRIX, {"type": "object", "additionalProperties": _STIFF}]},
+        ),
+        "targets": Field("list of tables", "waypoints, linear in time, held at both ends",
+                         default=[], of=WAYPOINT),
+        "cloud": Field(
+            "text", "file of points in the root link's frame, meant by the body's name in contacts",
+            "m", None,
+            schema={"pattern": r"\S"},
+        ),
+        "gravity_compensated": Field(
+            "boolean", "whether the robot carries its own weight at actuated joints", default=True,
+        ),
+        "wrenches": Field("list of tables", "external forces and torques", default=[], of=WRENCH),
+    },
+    POSE: {
+        "xyz": Field("three numbers", "origin in the world", "m", (0.0, 0.0, 0.0)),
+        "rpy": Field("three numbers", _TURN, "rad", (0.0, 0.0, 0.0)),
+    },
+    WAYPOINT: {"t": Field("number", "time; next to it any joints and their values", "s")},
+    WRENCH: {
+        "t": Field("number", "time", "s"),
+        "force": Field(
+            "three numbers", "at the centre of mass of the root link, world frame", "N",
+            (0.0, 0.0, 0.0),
+        ),
+        "torque": Field("three numbers", "about it, world frame", "N m", (0.0, 0.0, 0.0)),
+    },
+    SHAPE: {
+        "pose": Field("table", "where it stands", default={}, of=POSE),
+        **{kind: Field("table", f"a {kind}", default=None, of=kind) for kind in SOLIDS},
+    },
+    **{kind: dict(one.fields) for kind, one in SOLIDS.items()},
+    CONTACT: {
+        "alpha": Field("name or names", _NAMES, schema=_SIDE),
+        "beta": Field("name or names", "the same; normals point towards it", schema=_SIDE),
+        "mu_v": Field("number", "tangential friction", "-", least=0.0),
+        "mu_omega": Field("number", "torsional friction; needed with rows = 6", "m", None,
+                          least=0.0),
+        "rows": Field("integer", "rows of a contact; 4 goes without mu_omega", default=6,
+                      choices=(4, 6)),
+        "k": Field("integer", "how many of the closest points are kept", default=1, least=1),
+        "hull": Field("boolean", "whether a mesh that is not convex counts as its hull",
+                      default=False),
+    },
+})  # fmt: skip
+"""The fields of each kind of table, in the order of the reference page."""
+
+RULES: dict[str, Mapping[str, Any]] = {
+    CONTACT: {
+        "anyOf": [
+            {"required": ["mu_omega"]},
+            {"required": ["rows"], "properties": {"rows": {"enum": [4]}}},
+        ]
+    },
+    WRENCH: {"anyOf": [{"required": ["force"]}, {"required": ["torque"]}]},
+    SHAPE: {"oneOf": [{"required": [kind]} for kind in SOLIDS]},
+    WAYPOINT: {"additionalProperties": _TARGET, "minProperties": 2},
+}
+"""What a kind of table asks for beyond its fields, in JSON Schema."""
+
+value = TABLES.value
+
+
+def scenario_schema() -> dict[str, Any]:
+    """The JSON Schema of a scenario file."""
+    return json_schema("A scenario", TABLES, RULES, TOP)

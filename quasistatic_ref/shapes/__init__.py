@@ -1,0 +1,1 @@
+"""Shapes, one a file: distance, support, corners, normals, surface and words of each."""

@@ -1,0 +1,51 @@
+"""The box."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.frozen import freeze_lengths
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.shapes.shape import lengths
+from quasistatic_ref.step.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Box(Rounded):
+    """A cuboid along the axes of its frame: |x_i| <= half_extents_i, shape (3,) [m]."""
+
+    half_extents: Array
+
+    def __post_init__(self) -> None:
+        freeze_lengths(self, "half_extents")
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Box(2 * self.half_extents)
+
+    @property
+    def core(self) -> tuple[Array, float]:
+        """Half extents, shape (3,) [m], and no ball."""
+        return self.half_extents, 0.0
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""
+        bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
+        return (2 * bits - 1) * self.half_extents, 0.0
+
+    def resized(self, scale: float) -> "Box":
+        """All lengths by a scale [-]."""
+        return Box(scale * self.half_extents)
+
+    def surface(self, around: int, up: int) -> Array:
+        """Its vertices, shape (8, 3) [m]."""
+        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
+        return np.asarray(signs * self.half_extents)
+
+    def words(self) -> str:
+        """Kind and edges [m]."""
+        return f"box {lengths(2 * self.half_extents)}"

@@ -1,0 +1,39 @@
+"""The capsule."""
+
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.shapes.shape import ball
+from quasistatic_ref.step.arrays import Array
+
+
+class Capsule(Round, Rounded):
+    """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
+
+    half_length is that of the segment, as in URDF and coal: the caps lie beyond it.
+    """
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Capsule(self.radius, 2 * self.half_length)
+
+    @property
+    def core(self) -> tuple[Array, float]:
+        """Its segment, as half extents of shape (3,) [m], and the radius."""
+        return np.array([0.0, 0.0, self.half_length]), self.radius
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Centres of its caps, shape (2, 3) [m], and its radius, whichever way `towards` [-] is."""
+        return np.array([[0, 0, -self.half_length], [0, 0, self.half_length]]), self.radius
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points of two spheres, shape (N, 3) [m]."""
+        points = np.asarray(self.radius * ball(around, up))
+        end = np.array([0, 0, self.half_length])
+        return np.concatenate([points + end, points - end])

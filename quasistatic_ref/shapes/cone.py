@@ -1,0 +1,95 @@
+"""The cone."""
+
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.shape import circle
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import ON_SURFACE
+
+
+class Cone(Round):
+    """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
+
+    radius [m] is that of the base.
+    """
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Cone(self.radius, 2 * self.half_length)
+
+    @property
+    def rim_radius(self) -> float:
+        """Of its base [m]."""
+        return self.radius
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], in the half-plane (r, z)."""
+        return distance_to_cone(points, self.radius, self.half_length)
+
+    def support_point(self, direction: Array) -> Array:
+        """The tip or a point of the rim, by the `direction`; both of shape (3,), [m] and [-]."""
+        tip = np.array([0.0, 0.0, self.half_length])
+        rim = np.array([*rim_point(self.radius, direction), -self.half_length])
+        return tip if tip @ direction > rim @ direction else rim
+
+    def support_value(self, directions: Array) -> Array:
+        """The larger reach of tip and rim along `directions` (N, 3) [-], shape (N,) [m]."""
+        radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+        tip = self.half_length * axial
+        return np.maximum(tip, self.radius * radial - tip)
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
+        tip = np.array([[0, 0, self.half_length]])
+        return np.concatenate([tip, rim_corners(self.radius, -self.half_length, towards)]), 0.0
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points of the rim, and the tip, shape (N, 3) [m]."""
+        end = np.array([0, 0, self.half_length])
+        return np.concatenate([self.radius * circle(around) - end, end[None]])
+
+
+def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against a cone, tip up.
+
+    In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
+    """
+    r = np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
+    degenerate = r == 0
+    outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
+    outward[degenerate] = (1.0, 0.0)
+    p = np.stack([r, points[:, 2]], axis=1)
+    rim, tip = np.array([radius, -half_length]), np.array([0.0, half_length])
+    slant = np.hypot(radius, 2 * half_length)
+    side = np.array([2 * half_length, radius]) / slant  # outward normal of rim - tip
+    above_side = (p[:, 0] - rim[0]) * side[0] + (p[:, 1] - rim[1]) * side[1]
+    above_base = -half_length - p[:, 1]
+    along = (tip - rim) / slant
+    s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
+    on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
+    on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
+    d_side, d_base = _length(p - on_side), _length(p - on_base)
+    side_nearest = d_side <= d_base
+    nearest = np.where(side_nearest[:, None], on_side, on_base)
+    away = p - nearest
+    distance = _length(away)
+    flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
+    level = np.maximum(above_side, above_base)
+    # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
+    # By where the closest point is, not by its distance: next to the surface that is all rounding,
+    # and on an edge or the tip so is its direction.
+    within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
+    face = (level <= 0) | within | (distance <= ON_SURFACE * slant)
+    flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
+    phi = np.where(face, level, distance)
+    return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
+
+
+def _length(vectors: Array) -> Array:
+    return np.hypot(vectors[:, 0], vectors[:, 1])

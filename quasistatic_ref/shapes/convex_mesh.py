@@ -1,0 +1,174 @@
+"""Convex polytopes: the hull of a mesh's vertices, and how far the mesh is from being it."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.shapes.frozen import freeze_array
+from quasistatic_ref.shapes.hull import distance_to_hull
+from quasistatic_ref.shapes.shape import Shape, lengths
+from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.tolerances import CONVEX
+
+BLOCK = 1 << 22
+"""Points times planes handled at once: some tens of megabytes."""
+
+
+@dataclass(frozen=True, eq=False)
+class ConvexMesh(Shape):
+    """A convex polytope; made by :func:`convex_hull` or :func:`hull_of_mesh`.
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (V, 3)
+        Its corners [m].
+    triangles : ndarray of int, shape (T, 3)
+        Its surface; corners counter-clockwise from outside.
+    normals, offsets : ndarray, shapes (T, 3) and (T,)
+        Outward unit normal [-] and offset [m] of each triangle's plane: x is inside where
+        normals @ x <= offsets. Coplanar triangles share equal bits.
+    volume : float
+        [m^3].
+    excess : float
+        How much more than the mesh that it stands for it holds, from 0 (that mesh is convex)
+        to 1 [-]; see :func:`hull_of_mesh`.
+    """
+
+    vertices: Array
+    triangles: Indices
+    normals: Array
+    offsets: Array
+    volume: float
+    excess: float = 0.0
+
+    def __post_init__(self) -> None:
+        T = len(self.triangles)
+        freeze_array(self, "vertices", (len(self.vertices), 3))
+        freeze_array(self, "normals", (T, 3))
+        freeze_array(self, "offsets", (T,))
+        self.triangles.setflags(write=False)
+
+    @property
+    def is_convex(self) -> bool:
+        """Whether the mesh that it stands for is its own hull."""
+        return self.excess <= CONVEX
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        points, polygons = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+        points.extend(list(self.vertices))
+        polygons.extend([coal.Triangle(*map(int, corners)) for corners in self.triangles])
+        return coal.Convex(points, polygons)
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], to planes inside and to triangles outside."""
+        return distance_to_hull(points, self)
+
+    def support_point(self, direction: Array) -> Array:
+        """The first vertex farthest along a `direction`; both of shape (3,), [m] and [-]."""
+        return np.asarray(self.vertices[(self.vertices @ direction).argmax()])
+
+    def support_value(self, directions: Array) -> Array:
+        """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
+        return np.asarray((directions @ self.vertices.T).max(axis=1))
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
+        return self.vertices, 0.0
+
+    def resized(self, scale: float) -> "ConvexMesh":
+        """All lengths by a scale [-]."""
+        vertices, offsets = scale * self.vertices, scale * self.offsets
+        return replace(self, vertices=vertices, offsets=offsets, volume=scale**3 * self.volume)
+
+    def surface(self, around: int, up: int) -> Array:
+        """Its vertices, shape (V, 3) [m]."""
+        return self.vertices
+
+    def words(self) -> str:
+        """Kind, number of corners, and the edges of the box about them [m]."""
+        extent = lengths(np.ptp(self.vertices, axis=0))
+        what = "convex mesh" if self.is_convex else "convex hull of a mesh"
+        return f"{what}, {len(self.vertices)} corners within {extent}"
+
+
+def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
+    """Convex hull of some points.
+
+    Parameters
+    ----------
+    points : array_like, shape (N, 3)
+        At least four, not in one plane [m]; corners keep their order, the others are dropped.
+    excess : float
+        See :class:`ConvexMesh` [-].
+
+    Raises
+    ------
+    ModelError
+        If the points are too few or not finite, or lie in one plane.
+    """
+    from scipy.spatial import ConvexHull, QhullError  # takes as long as a short run
+
+    points = np.array(points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1:] != (3,) or len(points) < 4:
+        problem = "must be at least four points, as an array of shape (N, 3)"
+        raise ModelError(problem, field="vertices", value=points.shape)
+    if not np.isfinite(points).all():
+        raise ModelError("must hold finite numbers only", field="vertices")
+    try:
+        hull = ConvexHull(points)
+    except QhullError:
+        problem = "must not lie in one plane: a convex mesh needs a volume"
+        raise ModelError(problem, field="vertices", value=f"{len(points)} points") from None
+    kept = np.sort(hull.vertices).astype(np.int64)
+    renumbered = np.zeros(len(points), dtype=np.int64)
+    renumbered[kept] = np.arange(len(kept))
+    vertices, triangles = points[kept], renumbered[hull.simplices]
+    normals, offsets = hull.equations[:, :3], -hull.equations[:, 3]
+    a, b, c = vertices[triangles].transpose(1, 0, 2)
+    inward = np.sum(np.cross(b - a, c - a) * normals, axis=1) < 0
+    triangles[inward] = triangles[inward][:, ::-1]
+    return ConvexMesh(vertices, triangles, normals, offsets, float(hull.volume), excess)
+
+
+def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
+    """Hull of a triangle mesh, knowing how much more it holds.
+
+    ``excess`` is the part of the hull's volume that the mesh does not enclose or, where that is
+    next to nothing, the depth of the mesh's deepest vertex below the hull's surface relative to
+    the hull's size, if larger. An open or inconsistently wound mesh encloses no volume worth the
+    name, and counts as not convex.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (N, 3)
+        [m].
+    triangles : ndarray of int, shape (T, 3)
+
+    Raises
+    ------
+    ModelError
+        If the vertices are not finite, or lie in one plane.
+    """
+    points = np.array(vertices, dtype=np.float64)
+    used = np.unique(points[np.unique(triangles)], axis=0)
+    hull = convex_hull(used)
+    a, b, c = (points[triangles] - hull.vertices.mean(axis=0)).transpose(1, 0, 2)
+    enclosed = abs(float(np.sum(a * np.cross(b, c)))) / 6
+    excess = abs(hull.volume - enclosed) / hull.volume
+    if excess <= CONVEX:
+        excess = max(excess, _deepest(hull, used) / float(np.ptp(used, axis=0).max()))
+    return convex_hull(used, min(excess, 1.0))
+
+
+def _deepest(hull: ConvexMesh, points: Array) -> float:
+    """Depth of the deepest point below the hull's surface [m]."""
+    planes = np.unique(np.column_stack([hull.normals, hull.offsets]), axis=0)
+    blocks = np.array_split(points, 1 + len(points) * len(planes) // BLOCK)
+    return max(float((planes[:, 3] - some @ planes[:, :3].T).min(axis=1).max()) for some in blocks)

@@ -1,0 +1,80 @@
+"""The cylinder."""
+
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.hull import norm
+from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.shape import circle
+from quasistatic_ref.step.arrays import Array
+
+
+class Cylinder(Round):
+    """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m]."""
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Cylinder(self.radius, 2 * self.half_length)
+
+    @property
+    def rim_radius(self) -> float:
+        """Of both rims [m]."""
+        return self.radius
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], in the half-plane (r, |z|)."""
+        return distance_to_cylinder(points, self.radius, self.half_length)
+
+    def support_point(self, direction: Array) -> Array:
+        """On a rim, or mid-side or mid-cap, by the `direction`; shapes (3,), [m] and [-]."""
+        rim = rim_point(self.radius, direction)
+        return np.array([*rim, self.half_length * np.sign(direction[2])])
+
+    def support_value(self, directions: Array) -> Array:
+        """Sum of the radial and the axial reach along `directions` (N, 3) [-], shape (N,) [m]."""
+        radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+        return self.radius * radial + self.half_length * np.abs(axial)
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
+        ends = (-self.half_length, self.half_length)
+        return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points of both rims, shape (N, 3) [m]."""
+        rim, end = self.radius * circle(around), np.array([0, 0, self.half_length])
+        return np.concatenate([rim - end, rim + end])
+
+
+def distance_to_cylinder(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against a cylinder.
+
+    In the half-plane (r, |z|) it is a rectangle.
+    """
+    radial = points.copy()
+    radial[:, 2] = 0.0
+    r = norm(radial)
+    outward = _unit(radial, r)
+    excess = np.stack([r - radius, np.abs(points[:, 2]) - half_length], axis=1)
+    beyond = np.maximum(excess, 0.0)
+    outside = np.hypot(beyond[:, 0], beyond[:, 1])
+    is_outside = outside > 0
+    side = excess[:, 0] >= excess[:, 1]
+    face = np.stack([side, ~side], axis=1).astype(np.float64)
+    flat = beyond / np.where(is_outside, outside, 1.0)[:, None]
+    weight = np.where(is_outside[:, None], flat, face)
+    normal = weight[:, :1] * outward
+    normal[:, 2] = weight[:, 1] * np.where(points[:, 2] < 0, -1.0, 1.0)
+    return np.where(is_outside, outside, excess.max(axis=1)), normal
+
+
+def _unit(vectors: Array, norms: Array) -> Array:
+    """Unit vectors; the first axis where there is no direction."""
+    degenerate = norms == 0
+    unit = vectors / np.where(degenerate, 1.0, norms)[:, None]
+    unit[degenerate] = (1.0, 0.0, 0.0)
+    return unit

@@ -1,0 +1,93 @@
+"""The ellipsoid."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.frozen import freeze_lengths
+from quasistatic_ref.shapes.shape import Shape, ball, lengths
+from quasistatic_ref.step.arrays import Array
+
+STEPS = 100
+"""Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipsoid(Shape):
+    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m]."""
+
+    half_axes: Array
+
+    def __post_init__(self) -> None:
+        freeze_lengths(self, "half_axes")
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Ellipsoid(self.half_axes)
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], by a root that Newton's method finds."""
+        return distance_to_ellipsoid(points, self.half_axes)
+
+    def support_point(self, direction: Array) -> Array:
+        """Where the normal is the `direction`, both of shape (3,), [m] and [-]."""
+        scaled = self.half_axes * direction
+        return np.asarray(self.half_axes * scaled / np.sqrt(scaled @ scaled))
+
+    def support_value(self, directions: Array) -> Array:
+        """Length of the `directions` (N, 3) [-] scaled by the half-axes, shape (N,) [m]."""
+        scaled = directions * self.half_axes
+        return np.asarray(np.sqrt(np.sum(scaled * scaled, axis=1)))
+
+    def resized(self, scale: float) -> "Ellipsoid":
+        """All lengths by a scale [-]."""
+        return Ellipsoid(scale * self.half_axes)
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points of a sphere, scaled, shape (N, 3) [m]."""
+        return np.asarray(ball(around, up) * self.half_axes)
+
+    def words(self) -> str:
+        """Kind and axes [m]."""
+        return f"ellipsoid {lengths(2 * self.half_axes)}"
+
+
+def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against an ellipsoid.
+
+    The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
+    root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
+    every sum of the denominators is free of cancellation. Newton's method starts at the largest w
+    at which one of the three terms alone is 1: the sum is then between 1 and 3, and it is convex
+    and decreasing, so that w rises to the root with every step.
+    (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
+    """
+    least = half_axes.min()
+    r = (half_axes / least) ** 2
+    sign = np.where(points < 0, -1.0, 1.0)
+    z = np.abs(points) / half_axes
+    # On the plane of the medial axis the closest point is not unique. A point on this plane is
+    # moved off it, always to the same side, by so little that no digit of the result changes.
+    z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
+    low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
+    w = low
+    for _ in range(STEPS):
+        terms = (r * z / (w[:, None] + (r - 1))) ** 2
+        slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
+        rise = (np.sum(terms, axis=1) - 1) / slope
+        # A point that has converged is not moved again: its bits do not depend on its batch.
+        moving = rise > np.spacing(w)
+        if not moving.any():
+            break
+        w = np.where(moving, w + rise, w)
+    on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
+    on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
+    normal = on / half_axes
+    normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]
+    # Along the normal: right to rounding also where the distance is next to nothing.
+    phi = np.sum((np.abs(points) - on * half_axes) * normal, axis=1)
+    return phi, sign * normal

@@ -1,0 +1,67 @@
+"""The half-space."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.shapes.frozen import finite, freeze_array
+from quasistatic_ref.shapes.hull import dot
+from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.step.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class HalfSpace(Shape):
+    """The solid {x : normal . x <= offset}; the normal points out of it.
+
+    Parameters
+    ----------
+    normal : ndarray, shape (3,)
+        Any length but zero; stored with length one, the offset divided by the same length,
+        so that the solid is the one that was written.
+    offset : float
+        Signed distance of the surface from the origin [m].
+    """
+
+    normal: Array
+    offset: float
+
+    def __post_init__(self) -> None:
+        freeze_array(self, "normal", (3,))
+        offset = finite(self.offset, "offset")
+        # hypot scales first: a tiny or huge normal neither underflows nor overflows.
+        length = float(np.hypot.reduce(self.normal))
+        if not (length > 0 and np.isfinite(offset / length)):
+            raise ModelError("must not be zero", field="normal", value=self.normal.tolist())
+        unit = self.normal / length
+        unit.setflags(write=False)
+        object.__setattr__(self, "normal", unit)
+        object.__setattr__(self, "offset", offset / length)
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Halfspace(self.normal, self.offset)
+
+    @property
+    def extent(self) -> float:
+        """Infinity [m]."""
+        return np.inf
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Height of `points`, shape (N, 3) [m], above the plane, and its normal."""
+        phi = dot(points, self.normal) - self.offset
+        return phi, np.broadcast_to(self.normal, points.shape)
+
+    def surface(self, around: int, up: int) -> Array:
+        """No points, shape (0, 3) [m]: how much of the plane is drawn depends on the scene."""
+        return np.zeros((0, 3))
+
+    def words(self) -> str:
+        """Kind, normal [-] and offset [m]."""
+        x, y, z = self.normal + 0.0
+        return f"half-space below ({x:g}, {y:g}, {z:g}) . x = {self.offset:g} m"

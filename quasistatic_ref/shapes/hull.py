@@ -1,0 +1,113 @@
+"""Signed distance of points to a convex polytope, vectorised over points and triangles."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
+
+if TYPE_CHECKING:
+    from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+
+CHUNK = 1 << 17
+"""Points times triangles handled at once: some tens of megabytes."""
+
+
+def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
+    """Signed distance and outward normal of points (N, 3) against a convex polytope.
+
+    Inside, the largest of the signed distances to the planes of its faces, which is exact;
+    outside, the distance to the nearest triangle. Each point is computed by itself: its bits do not
+    depend on which other points are given.
+
+    Returns
+    -------
+    phi : ndarray, shape (N,)
+        [m].
+    normal : ndarray, shape (N, 3)
+        That of the face, unless an edge or a corner is the closest feature.
+    """
+    phi, normal = np.empty(len(points)), np.empty((len(points), 3))
+    count = max(1, CHUNK // len(hull.triangles))
+    for start in range(0, len(points), count):
+        some = slice(start, start + count)
+        phi[some], normal[some] = _distance(points[some], hull)
+    return phi, normal
+
+
+def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
+    x, y, z = points.T[:, :, None]
+    level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
+    face = level.argmax(axis=1)
+    phi, normal = level[np.arange(len(points)), face], hull.normals[face].copy()
+    outside = np.flatnonzero(phi > 0)
+    if len(outside):
+        away = nearest_offsets(points[outside], hull)
+        distance = norm(away)
+        # Near the surface p - x is all rounding; the face's normal is right to that distance.
+        size = np.abs(hull.vertices).max()
+        sideways = norm(away - phi[outside, None] * normal[outside])
+        edge = (sideways > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
+        at = outside[edge]
+        phi[at], normal[at] = distance[edge], away[edge] / distance[edge, None]
+    return phi, normal
+
+
+def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
+    """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
+    corners = hull.vertices[hull.triangles]
+    best = np.full(len(points), np.inf)
+    offset = np.zeros((len(points), 3))
+    rows = np.arange(len(points))
+    for k in range(3):
+        # The nearest point of an edge, clamped to its ends.
+        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        arm = points[:, None] - tail
+        s = np.clip(dot(arm, along) / dot(along, along), 0.0, 1.0)
+        away = arm - s[..., None] * along
+        square = dot(away, away)
+        i = square.argmin(axis=1)
+        nearer = square[rows, i] < best
+        best = np.where(nearer, square[rows, i], best)
+        offset = np.where(nearer[:, None], away[rows, i], offset)
+    # Inside a face, where the projection on its plane falls within the triangle.
+    n = hull.normals
+    within = np.ones((len(points), len(n)), dtype=bool)
+    for k in range(3):
+        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
+    level = dot(points[:, None] - corners[:, 0], n)
+    above = within & (level > 0)
+    # A point above the inside of a face is nearest to that face. If an edge seems nearer, that is
+    # rounding, and the edge's direction is the less accurate one. For a point on a face, rounding
+    # decides the sign of its level.
+    some = np.asarray(above.any(axis=1))
+    best = np.where(some, np.inf, best)
+    square = np.where(np.where(some[:, None], above, within), level * level, np.inf)
+    i = square.argmin(axis=1)
+    nearer = square[rows, i] < best
+    return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Scalar products of vectors.
+
+    Parameters
+    ----------
+    a, b : ndarray, shape (..., 3)
+        [any unit].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        [the product of both units].
+    """
+    # Not `@` or einsum: the order of the sum must not depend on the number of points.
+    products = a * b
+    return np.asarray(products[..., 0] + products[..., 1] + products[..., 2])
+
+
+def norm(vectors: Array) -> Array:
+    """Lengths [their unit] of vectors (..., 3), summed as :func:`dot` does."""
+    return np.sqrt(dot(vectors, vectors))

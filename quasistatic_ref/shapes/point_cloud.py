@@ -1,0 +1,38 @@
+"""The cloud of points, which is not solid."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.shapes.frozen import freeze_array
+from quasistatic_ref.shapes.shape import Shape, lengths
+from quasistatic_ref.step.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class PointCloud(Shape):
+    """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object."""
+
+    points: Array
+
+    def __post_init__(self) -> None:
+        points = np.asarray(self.points)
+        if points.ndim != 2 or points.shape[0] < 1:
+            problem = "must hold at least one point, as an array of shape (N, 3)"
+            raise ModelError(problem, field="points", value=points.shape)
+        freeze_array(self, "points", (points.shape[0], 3))
+
+    @property
+    def extent(self) -> float:
+        """Longest edge of the box about it along its own axes [m]."""
+        return float(np.ptp(self.points, axis=0).max())
+
+    def surface(self, around: int, up: int) -> Array:
+        """Its points, shape (N, 3) [m]."""
+        return self.points
+
+    def words(self) -> str:
+        """How many points it has, and the edges of the box about them [m]."""
+        extent = lengths(np.ptp(self.points, axis=0))
+        return f"cloud of {len(self.points)} points within {extent}"

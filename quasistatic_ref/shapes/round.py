@@ -1,0 +1,66 @@
+"""Solids of revolution about z, and their rims."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.shapes.frozen import freeze_size
+from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import UPRIGHT
+
+QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+"""(cos, sin) of the four points of a rim, from the one nearest to the other body."""
+
+
+@dataclass(frozen=True, eq=False)
+class Round(Shape):
+    """A solid of revolution about its local z axis; radius and half_length in [m]."""
+
+    radius: float
+    half_length: float
+
+    def __post_init__(self) -> None:
+        freeze_size(self, "radius")
+        freeze_size(self, "half_length")
+
+    def resized(self, scale: float) -> "Round":
+        """All lengths by a scale [-]."""
+        return type(self)(scale * self.radius, scale * self.half_length)
+
+    def words(self) -> str:
+        """Kind, radius and length [m]."""
+        kind = type(self).__name__.lower()
+        return f"{kind} of radius {self.radius:g} m, length {2 * self.half_length:g} m"
+
+
+def rim_corners(radius: float, z: float, towards: Array) -> Array:
+    """Four points of a rim, a quarter turn apart, shape (4, 3) [m].
+
+    Parameters
+    ----------
+    radius, z : float
+        Radius of the rim, and its height [m].
+    towards : ndarray, shape (3,)
+        Unit vector [-] to the other body; the first point is the one nearest to it.
+    """
+    x, y = towards[:2]
+    length = np.hypot(x, y)
+    x, y = (x / length, y / length) if length > UPRIGHT else (1.0, 0.0)
+    around = QUARTERS @ np.array([[x, y], [-y, x]])
+    return np.column_stack([radius * around, np.full(4, z)])
+
+
+def rim_point(radius: float, direction: Array) -> tuple[float, float]:
+    """X and y of a rim's point farthest along a direction; the rim's centre if all are as far.
+
+    Parameters
+    ----------
+    radius : float
+        [m].
+    direction : ndarray, shape (3,)
+        Unit vector [-].
+    """
+    x, y, _ = direction
+    length = np.hypot(x, y)
+    return (radius * x / length, radius * y / length) if length else (0.0, 0.0)

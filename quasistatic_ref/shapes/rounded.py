@@ -1,0 +1,61 @@
+"""A point, segment or cuboid with a ball about each of its points: sphere, capsule, box."""
+
+import numpy as np
+
+from quasistatic_ref.shapes.hull import norm
+from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.step.arrays import Array
+
+_AXES = np.eye(3)
+
+
+class Rounded(Shape):
+    """A cuboid, the core, whose edges may be zero, with a ball about each point of the core."""
+
+    @property
+    def core(self) -> tuple[Array, float]:
+        """Half extents of the core, shape (3,) [m], and the ball's radius [m]."""
+        raise self.lacks("has no core")
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], by the distance to the core."""
+        return distance_to_rounded_box(points, *self.core)
+
+    def support_point(self, direction: Array) -> Array:
+        """From the core's corner along `direction`, the radius beyond; shapes (3,), [m] and [-]."""
+        half_extents, radius = self.core
+        return np.asarray(radius * direction + half_extents * np.sign(direction))
+
+    def support_value(self, directions: Array) -> Array:
+        """Reach of the core along `directions` (N, 3) [-] plus the radius, shape (N,) [m]."""
+        half_extents, radius = self.core
+        return np.asarray(radius + np.abs(directions) @ half_extents)
+
+
+def distance_to_rounded_box(
+    points: Array, half_extents: Array, radius: float | Array = 0.0
+) -> tuple[Array, Array]:
+    """Signed distance (N,) [m] and outward normal (N, 3) of points against a :class:`Rounded`.
+
+    The distance to the core is that of each coordinate outside, and to the nearest face inside.
+
+    Parameters
+    ----------
+    points : ndarray, shape (N, 3)
+        [m].
+    half_extents : ndarray, shape (3,) or (N, 3)
+        One for all points, or one for each [m].
+    radius : float or ndarray, shape (N,)
+        [m].
+    """
+    excess = np.abs(points) - half_extents  # > 0 beyond a face
+    beyond = np.maximum(excess, 0.0)
+    outside = norm(beyond)
+    inside = np.maximum.reduce(excess, axis=-1)
+    is_inside = outside == 0
+    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=1).T  # x before y before z, as beyond
+    away = np.where(is_inside[..., None], nearest_face, beyond)
+    away /= (outside + is_inside)[..., None]
+    # Zero has the positive sign, whichever zero it is.
+    normal = np.copysign(away, points + 0.0)
+    return outside + np.minimum(inside, 0.0) - radius, normal

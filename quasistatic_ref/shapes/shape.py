@@ -1,0 +1,165 @@
+"""The questions that every shape answers, in its own frame; by default a shape refuses them."""
+
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.step.arrays import Array
+
+AXES = np.concatenate([np.eye(3), -np.eye(3)])
+
+
+class Shape(Plain):
+    """A shape; a subclass is a frozen dataclass of its sizes."""
+
+    @property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry; ContactError if there is none."""
+        raise self.lacks("has no coal object")
+
+    def signed_distance(self, points: Array) -> tuple[Array, Array]:
+        """Signed distance and outward normal of points.
+
+        Parameters
+        ----------
+        points : ndarray, shape (N, 3)
+            [m].
+
+        Returns
+        -------
+        phi : ndarray, shape (N,)
+            [m], negative inside.
+        normal : ndarray, shape (N, 3)
+            Unit normals: the gradient of phi. Where it is not unique, one of them, always the same.
+
+        Raises
+        ------
+        ContactError
+            If the shape is not solid.
+        """
+        raise self.lacks("a cloud touches solid shapes only")
+
+    def support_point(self, direction: Array) -> Array:
+        """A point that is farthest along a direction.
+
+        Parameters
+        ----------
+        direction : ndarray, shape (3,)
+            Unit vector [-].
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            [m]. Where a face, an edge or a generator is perpendicular to the direction, its middle;
+            but of a convex mesh the first vertex, and of a cone's generator one of its ends.
+
+        Raises
+        ------
+        ContactError
+            If the shape is not bounded, or a cloud.
+        """
+        raise self.lacks("has no farthest point")
+
+    def support_value(self, directions: Array) -> Array:
+        """How far the shape reaches along unit vectors n: max n . x, shape (N,) [m].
+
+        Parameters
+        ----------
+        directions : ndarray, shape (N, 3)
+            [-].
+
+        Raises
+        ------
+        ContactError
+            If the shape is not bounded, or a cloud.
+        """
+        raise self.lacks("has no closed-form reach")
+
+    def corners(self, towards: Array) -> tuple[Array, float]:
+        """The points that can carry a load where the shape lies flat on another; by default none.
+
+        Parameters
+        ----------
+        towards : ndarray, shape (3,)
+            Unit vector [-] from this shape to the other.
+
+        Returns
+        -------
+        points : ndarray, shape (corner_count, 3)
+            [m]. Corners on rims come last, four on each rim: the first lies farthest towards the
+            other body. If all points of the rim are equally far, the first is on the x axis.
+        radius : float
+            Radius of the ball about each corner [m].
+        """
+        return np.zeros((0, 3)), 0.0
+
+    @property
+    def rim_radius(self) -> float | None:
+        """Radius of the rims about z that have corners [m]; None where there are none."""
+        return None
+
+    @property
+    def corner_count(self) -> int:
+        """Number of corners, which does not depend on the direction."""
+        return len(self.corners(np.array([1.0, 0.0, 0.0]))[0])
+
+    @property
+    def extent(self) -> float:
+        """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
+        reach = self.support_value(AXES)
+        return float((reach[:3] + reach[3:]).max())
+
+    def resized(self, scale: float) -> "Shape":
+        """The shape with all lengths multiplied by a scale [-].
+
+        Raises
+        ------
+        ContactError
+            If it has no coal object.
+        """
+        raise self.lacks("has no coal object of another size")
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points whose hull is drawn as the shape, or the points of a cloud, shape (N, 3) [m].
+
+        Parameters
+        ----------
+        around, up : int
+            Numbers of points on round surfaces, around the axis and along it.
+        """
+        raise self.lacks("has no surface to draw")
+
+    def words(self) -> str:
+        """Kind and size [m], e.g. ``box 0.1 x 0.2 x 0.3 m``."""
+        raise self.lacks("has no words")
+
+    def lacks(self, problem: str) -> ContactError:
+        """The error that says what a shape of this kind does not have."""
+        return ContactError(problem, field="shape", value=type(self).__name__)
+
+
+def lengths(values: Array) -> str:
+    """Lengths as in ``0.1 x 0.2 x 0.3 m``.
+
+    Parameters
+    ----------
+    values : ndarray, shape (3,)
+        [m].
+    """
+    return " x ".join(f"{value:.4g}" for value in values) + " m"
+
+
+def circle(around: int) -> Array:
+    """Points of the unit circle about z, the first again at the end, shape (around, 3) [-]."""
+    angle = np.linspace(0, 2 * np.pi, around)
+    return np.stack([np.cos(angle), np.sin(angle), np.zeros(around)], axis=1)
+
+
+def ball(around: int, up: int) -> Array:
+    """Points of the unit sphere, shape (up around, 3) [-]."""
+    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, around), np.linspace(-1, 1, up))
+    r = np.sqrt(1 - height**2)
+    points = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1)
+    return points.reshape(-1, 3)

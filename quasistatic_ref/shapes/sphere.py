@@ -1,0 +1,41 @@
+"""The sphere."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import coal
+import numpy as np
+
+from quasistatic_ref.shapes.frozen import freeze_size
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.shapes.shape import ball
+from quasistatic_ref.step.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere(Rounded):
+    """A ball of the given radius [m] about the origin of its frame."""
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        freeze_size(self, "radius")
+
+    @cached_property
+    def coal(self) -> Any:
+        """The same shape as a coal geometry."""
+        return coal.Sphere(self.radius)
+
+    @property
+    def core(self) -> tuple[Array, float]:
+        """Its centre, as half extents of shape (3,) [m], and the radius."""
+        return np.array([0.0, 0.0, 0.0]), self.radius
+
+    def surface(self, around: int, up: int) -> Array:
+        """Points on circles of latitude, shape (N, 3) [m]."""
+        return np.asarray(self.radius * ball(around, up))
+
+    def words(self) -> str:
+        """Kind and radius [m]."""
+        return f"sphere of radius {self.radius:g} m"

@@ -1,0 +1,179 @@
+"""Certificates are data, and verification believes nothing in them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.solution import Certificate
+from tests.certify.test_exact import resting_point
+from tests.helpers import point_on_floor
+
+
+@pytest.fixture(scope="module")
+def step():
+    step = grasp_step(np.random.default_rng(11))
+    row = np.zeros((2, step.n_v))
+    row[:, 6] = [1.0, -1.0]  # the gripper stays a little more open than it would
+    least = exact_step(step).delta_q[6] + 1e-6
+    return step.replace(extra=Extra(("close", "open"), row, np.array([least, -1.0])))
+
+
+@pytest.fixture(scope="module")
+def optimum(step):
+    return exact_step(step)
+
+
+def test_certificate_is_what_the_optimum_says(step, optimum):
+    claims = exact_certificate(step, optimum, {"primal": 1e-17})
+    assert claims.kind == "exact"
+    assert claims.error_bound == 0.0
+    assert claims.residuals == {"primal": 1e-17}
+    assert flat_rows(step, claims.active) == optimum.working_set
+    assert (15, 0) in claims.active  # the user's own row presses
+    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+
+
+def test_words_count_all_rows_and_name_the_margins(step, optimum):
+    """10 contacts of six rows, 5 of four, and two of the user's own: 82."""
+    claims = exact_certificate(step, optimum)
+    words = in_words(step, claims)
+    assert words.startswith("exact: the optimum of the step, correctly rounded; ")
+    assert f"{len(claims.active)} of 82 rows; " in words
+    assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in words
+    assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in words
+    bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
+    assert "smallest" not in in_words(step, bare)
+
+
+def test_words_for_what_is_not_exact(step):
+    known = Certificate("residual", {"primal": 2e-9, "dual": 1e-9}, error_bound=3e-8)
+    words = in_words(step, known)
+    assert words.startswith("not exact: worst residual 2.0e-09 in natural units")
+    assert words.endswith("error of delta_q in the norm of H is at most 3.0e-08")
+    assert in_words(step, replace(known, error_bound=None)).endswith("no error bound")
+    read = Certificate("residual", error_bound=3e-8)
+    assert (
+        in_words(step, read)
+        == "not exact: the relative error of delta_q in the norm of H is at most 3.0e-08"
+    )
+    assert in_words(step, Certificate("none")) == "nothing is certified"
+
+
+def test_rows_have_a_contact_and_a_number_in_it(step):
+    rows = range(len(step.contacts.rows) and int(step.offsets[-1]) + 2)
+    pairs = contact_rows(step, rows)
+    assert pairs[0] == (0, 0)
+    assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each
+    assert pairs[-3:] == ((14, 3), (15, 0), (15, 1))
+    assert flat_rows(step, pairs) == tuple(rows)
+
+
+@pytest.mark.parametrize("pair", [(0, 6), (14, 4), (15, 2), (16, 0), (-1, 0), (0, -1)])
+def test_rows_that_do_not_exist_are_refused(step, optimum, pair):
+    verdict = verify(step, optimum.delta_q, [pair])
+    assert not verdict
+    assert "no row" in verdict.reason
+
+
+def test_wrong_working_sets_fail_a_sign(step, optimum):
+    active = exact_certificate(step, optimum).active
+    reasons = []
+    for left_out in range(len(active)):
+        verdict = verify(step, optimum.delta_q, active[:left_out] + active[left_out + 1 :])
+        assert not verdict
+        reasons.append(verdict.reason)
+    assert any("violated" in reason for reason in reasons)
+    inactive = int(np.argmax(optimum.slack))
+    wrong = verify(step, optimum.delta_q, contact_rows(step, [inactive]))
+    assert "multiplier" in wrong.reason
+    assert "negative" in wrong.reason
+
+
+def test_dependent_working_sets_are_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    assert "independent" in verify(step, optimum.delta_q, (*active, active[0])).reason
+    one_contact = [(0, row) for row in range(6)]
+    assert "independent" in verify(step, optimum.delta_q, one_contact).reason
+
+
+def test_one_ulp_of_a_multiplier_is_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    for i in (*optimum.working_set, 0):
+        lam = optimum.lam.copy()
+        lam[i] = np.nextafter(lam[i], 1)
+        verdict = verify(step, optimum.delta_q, active, lam)
+        assert f"lam[{i}]" in verdict.reason
+
+
+def test_shapes_nan_and_negative_zero_are_refused(step, optimum):
+    active = exact_certificate(step, optimum).active
+    assert "shape" in verify(step, optimum.delta_q[:-1], active).reason
+    assert "shape" in verify(step, optimum.delta_q, active, optimum.lam[1:]).reason
+    nan = optimum.delta_q.copy()
+    nan[0] = np.nan
+    assert "delta_q[0]" in verify(step, nan, active).reason
+    zero = int(np.flatnonzero(optimum.lam == 0)[0])
+    lam = optimum.lam.copy()
+    lam[zero] = -0.0
+    assert f"lam[{zero}]" in verify(step, optimum.delta_q, active, lam).reason
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("kind", "none"),
+        ("kind", "enclosure"),
+        ("error_bound", 1e-16),
+        ("error_bound", -0.0),
+        ("gap", 0.0),
+        ("multipliers_unique", None),
+        ("differentiable", None),
+        ("smallest_inactive_slack", 1e-3),
+        ("smallest_active_multiplier", None),
+    ],
+)
+def test_false_claims_are_refused(step, optimum, field, value):
+    claims = replace(exact_certificate(step, optimum), **{field: value})
+    verdict = verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    assert field in verdict.reason
+
+
+@pytest.mark.parametrize("touching", ["a row of one's own", "a contact"])
+def test_a_row_without_multiplier_is_in_no_working_set(touching):
+    """It would hold on one side only: delta_q is not differentiable, whatever set it is in.
+
+    The unconstrained step of 0.75 m just touches x >= 0.75; or a body at rest on a smooth floor
+    that nothing presses on, whose rows are four equal ones.
+    """
+    step = resting_point(tau_x=3.0, contacts=0)
+    step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], np.array([0.75])))
+    step = step if touching != "a contact" else point_on_floor(mu_v=0.0)
+    optimum = exact_step(step)
+    claims = exact_certificate(step, optimum)
+    assert claims.active == ()
+    assert not claims.differentiable
+    assert verify(step, optimum.delta_q, (), optimum.lam, claims)
+    smooth = replace(claims, differentiable=True)
+    assert "differentiable" in verify(step, optimum.delta_q, (), optimum.lam, smooth).reason
+    wider = replace(claims, active=((0, 0),), smallest_active_multiplier=0.0)
+    assert "is zero" in verify(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
+
+
+@pytest.mark.parametrize("phi", [0.0, 1e-3])
+@pytest.mark.parametrize("contacts", [1, 2])
+def test_claims_of_a_sticking_body_are_checked(phi, contacts):
+    """Its idle rows follow from those that press: not unique, but differentiable."""
+    step = resting_point(tau_x=0.1, phi=phi, contacts=contacts)
+    optimum = exact_step(step)
+    claims = exact_certificate(step, optimum)
+    assert (claims.multipliers_unique, claims.differentiable) == (False, True)
+    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    for name in ("multipliers_unique", "differentiable"):
+        false = replace(claims, **{name: not getattr(claims, name)})
+        assert name in verify(step, optimum.delta_q, claims.active, optimum.lam, false).reason

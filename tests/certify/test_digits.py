@@ -1,0 +1,104 @@
+"""The one definition of error, on a step whose H is a multiple of the identity."""
+
+import math
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.digits import correct_digits, digits_of_error
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.standard_form import standard_form
+from tests.certify.test_farkas import EAST, point_between_walls
+from tests.tolerances import ROUNDING
+
+HALF_DIGIT = 0.5
+"""Rounding in the norms moves a digit count by far less."""
+
+
+@pytest.mark.parametrize(
+    ("error", "digits"),
+    [(0.0, 16.0), (1e-20, 16.0), (1e-7, 7.0), (1.0, 0.0), (5.0, 0.0), (math.nan, 0.0)],
+)
+def test_digits_are_clipped(error, digits):
+    assert digits_of_error(error) == pytest.approx(digits, abs=1e-12)
+
+
+@pytest.mark.parametrize("k", [2, 6, 11])
+def test_relative_error_of_ten_to_minus_k_is_k_digits(k):
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    exact = exact_step(step)
+    free = np.linalg.norm(exact.delta_q)
+    off = exact.delta_q + free * 10.0**-k * np.array([0.0, 0.6, 0.8])
+    found = correct_digits(step, off, exact.delta_q)
+    assert found.delta_q == pytest.approx(k, abs=HALF_DIGIT)
+    assert found.net_impulse is None
+    assert found.slack == 16.0  # the wall looks east, the error does not
+
+
+@pytest.mark.parametrize("k", [2, 6, 11])
+def test_wrench_is_measured_by_the_displacement_that_it_causes(k):
+    """Pressed against a wall by 5 N for h: p = 5 h; an error of 1e-k of it is k digits."""
+    step = point_between_walls([EAST], [0.0], force=(-5.0, 0.0, 0.0))
+    exact = exact_step(step)
+    assert exact.net[0] == pytest.approx(5 * step.h, rel=1e-15)
+    found = correct_digits(
+        step, exact.delta_q, exact.delta_q, exact.lam * (1 + 10.0**-k), exact.net
+    )
+    assert found.net_impulse == pytest.approx(k, abs=HALF_DIGIT)
+    assert found.delta_q == 16.0
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
+def test_slack_is_measured_as_a_displacement_for_rows_of_any_length(scale):
+    """A row scale * y >= -1 and an error of 1e-7 along y: seven digits."""
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    step = step.replace(extra=Extra(("y",), scale * np.eye(3)[1:2], np.array([-1.0])))
+    exact = exact_step(step).delta_q
+    off = exact + np.linalg.norm(exact) * 1e-7 * np.eye(3)[1]
+    assert correct_digits(step, off, exact).slack == pytest.approx(7, abs=1e-6)
+
+
+def test_without_forces_only_the_exact_answer_has_digits():
+    step = point_between_walls([EAST], [1.0])
+    zero, nearly = np.zeros(3), np.array([1e-300, 0, 0])
+    assert correct_digits(step, zero, zero).delta_q == 16.0
+    assert correct_digits(step, nearly, zero).delta_q == 0.0
+
+
+def test_slacks_never_have_fewer_digits_than_the_displacement():
+    rng = np.random.default_rng(0)
+    for size in np.geomspace(1e-12, 1e-4, 20):
+        step = grasp_step(rng)
+        exact = exact_step(step).delta_q
+        found = correct_digits(step, exact + size * rng.standard_normal(13) * exact, exact)
+        assert found.slack >= found.delta_q - HALF_DIGIT
+
+
+def test_row_without_coefficients_has_no_say():
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    empty = Extra(("empty",), np.zeros((1, 3)), np.array([-1.0]))
+    exact = exact_step(step).delta_q
+    found = correct_digits(step.replace(extra=empty), exact * (1 + 1e-9), exact)
+    assert found == correct_digits(step, exact * (1 + 1e-9), exact)
+    assert found.slack == 16.0
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])
+def test_norms_neither_underflow_nor_overflow(scale):
+    """H = 4: ||H^-1 p||_H = ||p|| / 2, and 3, 4, 5 is a right triangle."""
+    norm, p = energy_norm(4 * np.eye(2)), scale * np.array([3.0, 4.0])
+    assert norm.impulses(p[None]) == pytest.approx([2.5 * scale], rel=ROUNDING)
+    assert norm.impulse(p) == pytest.approx(2.5 * scale, rel=ROUNDING)
+    assert norm.displacement(p) == pytest.approx(10 * scale, rel=ROUNDING)
+
+
+def test_answer_that_is_not_finite_has_no_digits():
+    step = grasp_step(np.random.default_rng(4))
+    exact = exact_step(step)
+    broken = np.full(step.n_v, np.nan)
+    found = correct_digits(step, broken, exact.delta_q, np.full(80, np.inf), exact.net)
+    assert (found.delta_q, found.net_impulse, found.slack) == (0.0, 0.0, 0.0)
+    assert standard_form(step).A.shape == (80, 13)

@@ -1,0 +1,27 @@
+"""Pairs of shapes on links that stand still."""
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+
+
+def placed(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
+    return PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t, dtype=float), shape)
+
+
+def standing(*poses):
+    """Links at given poses (R, t), the world first; nothing moves."""
+    R = np.array([np.eye(3), *(pose[0] for pose in poses)])
+    t = np.array([np.zeros(3), *(pose[1] for pose in poses)])
+    return Kinematics(R, t, np.zeros((6, 0)))
+
+
+def pair(alpha, beta, k=1):
+    return ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
+
+
+def found_for(alpha, beta, kinematics, k=1):
+    return closest_points([pair(alpha, beta, k)], kinematics)

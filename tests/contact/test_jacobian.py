@@ -1,0 +1,100 @@
+"""Tangents are a fixed function of the normal; contacts carry their layout and names."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry, contact_jacobian, tangents
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud, Sphere
+from tests.scenes import chain_scene
+from tests.tolerances import EXACT, ROUNDING
+
+X, Y, Z = np.eye(3)
+ALONG_AXES = {
+    "+x": (X, Y, Z),
+    "-x": (-X, Y, -Z),
+    "+y": (Y, X, -Z),
+    "-y": (-Y, X, Z),
+    "+z": (Z, X, Y),
+    "-z": (-Z, X, -Y),
+}
+"""n, d1, d2: d1 is the first world axis square to n, d2 = n x d1."""
+
+
+@pytest.mark.parametrize(("n", "d1", "d2"), ALONG_AXES.values(), ids=ALONG_AXES)
+def test_tangents_of_a_normal_along_an_axis_are_axes(n, d1, d2):
+    found = tangents(n[None])
+    np.testing.assert_allclose(found, [[d1], [d2]], rtol=EXACT, atol=EXACT)
+
+
+def test_tangents_and_normal_are_a_dextral_orthonormal_frame(rng):
+    n = rng.normal(size=(500, 3))
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    d1, d2 = tangents(n)
+    for a, b, c in zip(d1, d2, n, strict=True):
+        frame = np.array([a, b, c])
+        np.testing.assert_allclose(frame @ frame.T, np.eye(3), rtol=EXACT, atol=ROUNDING)
+        np.testing.assert_allclose(np.linalg.det(frame), 1.0, rtol=ROUNDING)
+
+
+def test_d1_is_the_projection_of_the_world_axis_farthest_from_n(rng):
+    for n in rng.normal(size=(50, 3)):
+        n /= np.linalg.norm(n)
+        axis = np.eye(3)[min(range(3), key=lambda i: abs(n[i]))]
+        projected = axis - (axis @ n) * n
+        expected = projected / np.linalg.norm(projected)
+        np.testing.assert_allclose(tangents(n[None])[0], [expected], rtol=EXACT, atol=ROUNDING)
+
+
+def test_equal_normals_have_equal_tangents_in_any_company(rng):
+    n = rng.normal(size=(33, 3))
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    together = np.array(tangents(n))
+    for j in range(len(n)):
+        alone = np.array(tangents(n[j : j + 1]))
+        np.testing.assert_allclose(alone[:, 0], together[:, j], rtol=EXACT, atol=EXACT)
+
+
+def test_no_normals_have_no_tangents():
+    d1, d2 = tangents(np.zeros((0, 3)))
+    assert d1.shape == d2.shape == (0, 3)
+
+
+def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
+    system = chain_scene(tmp_path)
+    box, upper = system.link("box/box"), system.link("arm/upper")
+    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
+    cloud = PlacedShape("cloud", box, np.eye(3), np.zeros(3), PointCloud(rng.normal(size=(9, 3))))
+    ball = PlacedShape("ball", upper, np.eye(3), np.zeros(3), Sphere(0.1))
+    pairs = [
+        ContactPair("a", floor, cloud, 0.5, 0.0, 4, 3),
+        ContactPair("b", ball, cloud, 0.6, 0.02, 6, 2),
+        ContactPair("c", floor, ball, 0.7, 0.03, 6, 1),
+    ]
+    kinematics, layout = system.kinematics(system.q_start), contact_layout(pairs)
+    points = closest_points(pairs, kinematics)
+    found = ContactGeometry(layout, system.motion).contacts(points, kinematics)
+    assert layout.names == ("a", "a", "a", "b", "b", "c")
+    assert layout.link_alpha.tolist() == [0, 0, 0, upper, upper, 0]
+    assert layout.link_beta.tolist() == [box] * 5 + [upper]
+    expected = [f"{name}/{i}" for name, i in zip(layout.names, points.point, strict=True)]
+    assert list(found.name) == expected
+    assert found.rows.tolist() == [4, 4, 4, 6, 6, 6]
+    assert found.mu_v.tolist() == [0.5, 0.5, 0.5, 0.6, 0.6, 0.7]
+    assert found.mu_omega.tolist() == [0.0, 0.0, 0.0, 0.02, 0.02, 0.03]
+    d1, d2 = tangents(points.n)
+    J = contact_jacobian(
+        kinematics, layout.link_alpha, layout.link_beta, points.alpha, points.beta, points.n
+    )
+    for name, value in {"phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}.items():
+        np.testing.assert_allclose(getattr(found, name), value, rtol=EXACT, atol=EXACT)
+
+
+def test_no_pairs_make_no_contacts(tmp_path):
+    system = chain_scene(tmp_path)
+    kinematics = system.kinematics(system.q_start)
+    nowhere = ContactGeometry(contact_layout([]), system.motion)
+    found = nowhere.contacts(closest_points([], kinematics), kinematics)
+    assert found.n_c == 0
+    assert found.J.shape == (0, 4, system.n_v)

@@ -1,0 +1,61 @@
+"""What may touch what: refusals, and how many contacts a pair makes."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud, Sphere
+
+CLOUD, BALL = PointCloud(np.eye(3)), Sphere(0.1)
+BOX, FLOOR = Box(np.ones(3)), HalfSpace(np.eye(3)[2], 0.0)
+
+
+def pair(alpha, beta, link_alpha=0, link_beta=1, k=1):
+    a = PlacedShape("a", link_alpha, np.eye(3), np.zeros(3), alpha)
+    b = PlacedShape("b", link_beta, np.eye(3), np.zeros(3), beta)
+    return ContactPair("grip", a, b, 0.5, 0.01, 6, k)
+
+
+REFUSALS = {
+    "two clouds": ((CLOUD, CLOUD), {}, "grip: two clouds cannot touch"),
+    "one link": ((BOX, BALL), {"link_alpha": 2, "link_beta": 2}, "grip: both shapes are fixed to"),
+    "two shapes of the world": ((FLOOR, BOX), {"link_beta": 0}, "grip: both shapes are fixed to"),
+    "two half-spaces": ((FLOOR, FLOOR), {}, "grip: two half-spaces always meet"),
+}
+
+
+@pytest.mark.parametrize(("shapes", "more", "says"), REFUSALS.values(), ids=REFUSALS)
+def test_a_pair_is_refused(shapes, more, says):
+    with pytest.raises(ContactError) as caught:
+        pair(*shapes, **more)
+    assert str(caught.value).startswith(says)
+
+
+def test_two_solids_make_k_contacts_or_as_many_as_they_have_candidates():
+    # A box has 8 corners, a ball and a half-space none; the closest pair is one more.
+    assert [pair(FLOOR, BOX, k=k).n_c for k in (1, 4, 9, 100)] == [1, 4, 9, 9]
+    assert pair(BOX, BOX, k=100).n_c == 17
+    assert pair(FLOOR, BALL, k=100).n_c == 1
+
+
+def test_a_mesh_that_is_not_convex_is_refused_unless_its_hull_will_do():
+    dented = convex_hull(np.eye(4)[:, :3], excess=0.2)
+    with pytest.raises(ContactError, match=r"the mesh of b is not convex: .* 20 % more; say hull"):
+        pair(FLOOR, dented)
+    a = PlacedShape("a", 0, np.eye(3), np.zeros(3), FLOOR)
+    b = PlacedShape("b", 1, np.eye(3), np.zeros(3), dented)
+    assert ContactPair("grip", a, b, 0.5, 0.01, 6, 5, hull=True).n_c == 5
+
+
+def test_a_cloud_makes_k_contacts_or_as_many_as_it_has_points():
+    assert [pair(FLOOR, CLOUD, k=k).n_c for k in (1, 2, 3, 4, 100)] == [1, 2, 3, 3, 3]
+    assert pair(CLOUD, FLOOR, k=2).n_c == 2
+    assert pair(BOX, BALL).n_c == 1
+
+
+def test_no_pairs_have_an_empty_layout():
+    layout = contact_layout([])
+    assert layout.names == ()
+    assert layout.rows.shape == layout.mu_v.shape == layout.link_alpha.shape == (0,)

@@ -1,0 +1,125 @@
+"""Fields are taken once, checked, and nothing unknown is left over."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.formats.fields import Fields
+from tests.tolerances import EXACT
+
+READS = {
+    "number missing": ({}, lambda f: f.number("x"), "t.x: is missing"),
+    "number a word": ({"x": "1"}, lambda f: f.number("x"), "t.x: must be a number"),
+    "number true": ({"x": True}, lambda f: f.number("x"), "t.x: must be a number"),
+    "number NaN": ({"x": float("nan")}, lambda f: f.number("x"), "t.x: must be a finite"),
+    "number infinite": ({"x": float("inf")}, lambda f: f.number("x"), "t.x: must be a finite"),
+    "number beyond float": ({"x": 10**400}, lambda f: f.number("x"), "t.x: must be a finite"),
+    "number at an open end": ({"x": 0}, lambda f: f.number("x", above=0), "t.x: must be greater"),
+    "number too small": ({"x": -1}, lambda f: f.number("x", least=0), "t.x: must be at least 0"),
+    "integer a float": ({"x": 1.0}, lambda f: f.integer("x"), "t.x: must be a whole number"),
+    "integer true": ({"x": True}, lambda f: f.integer("x"), "t.x: must be a whole number"),
+    "integer too small": ({"x": 0}, lambda f: f.integer("x", least=1), "t.x: must be at least 1"),
+    "boolean one": ({"x": 1}, lambda f: f.boolean("x"), "t.x: must be true or false"),
+    "text a number": ({"x": 1}, lambda f: f.text("x"), "t.x: must be a string"),
+    "text no choice": (
+        {"x": "fixd"},
+        lambda f: f.text("x", choices=("fixed", "floating")),
+        "t.x: is not a choice; did you mean 'fixed'?",
+    ),
+    "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must hold numbers only"),
+    "array true": ({"x": [True]}, lambda f: f.array("x", (1,)), "t.x: must hold numbers only"),
+    "array ragged": ({"x": [[1], [1, 2]]}, lambda f: f.array("x", (2, 2)), "t.x: must"),
+    "array too long": ({"x": [1, 2, 3]}, lambda f: f.array("x", (2,)), "t.x: must be 2 numbers"),
+    "array flat": ({"x": [1, 2]}, lambda f: f.array("x", (None, 2)), "t.x: must be any x 2"),
+    "array a number": ({"x": 1}, lambda f: f.array("x", (1,)), "t.x: must be 1 numbers"),
+    "array NaN": ({"x": [float("nan")]}, lambda f: f.array("x", (1,)), "t.x: must hold finite"),
+    "array beyond float": ({"x": [10**400]}, lambda f: f.array("x", (1,)), "t.x: must be 1 finite"),
+    "sequence a word": ({"x": "ab"}, lambda f: f.sequence("x"), "t.x: must be a list"),
+    "table a list": ({"x": []}, lambda f: f.table("x"), "t.x: must be a table"),
+    "nested": ({"x": {"y": 1}}, lambda f: f.table("x").text("y"), "t.x.y: must be a string"),
+}
+
+
+@pytest.mark.parametrize(("table", "read", "says"), READS.values(), ids=READS)
+def test_a_field_is_refused_by_its_full_name(table, read, says):
+    with pytest.raises(ScenarioError) as caught:
+        read(Fields(table, "t", ScenarioError))
+    assert str(caught.value).startswith(says)
+
+
+def test_good_fields_come_back_as_they_are():
+    fields = Fields({"a": 1, "b": 2, "c": True, "d": "x", "e": [1], "f": {"g": 0.5}})
+    assert fields.number("a") == 1.0
+    assert isinstance(fields.take("b"), int)
+    assert fields.boolean("c") is True
+    assert fields.text("d", choices=("x",)) == "x"
+    assert fields.sequence("e") == [1]
+    inner = fields.table("f")
+    assert inner.number("g") == 0.5
+    inner.close()
+    fields.close()
+
+
+def test_arrays_become_float64_of_the_asked_shape():
+    fields = Fields({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
+    a = fields.array("a", (2, None))
+    assert a.dtype == np.float64
+    np.testing.assert_allclose(a, [[1.0, 2.0], [3.0, 4.0]], rtol=EXACT, atol=EXACT)
+    assert fields.array("b", (0, 7)).shape == (0, 7)
+    assert fields.array("c", (None,)).shape == (3,)
+
+
+def test_a_missing_field_is_its_default_whatever_that_is():
+    fields = Fields({})
+    default = np.zeros(2)
+    assert fields.number("a", None) is None
+    assert fields.text("b", None, choices=("x",)) is None
+    assert fields.array("c", (2,), default).tolist() == [0.0, 0.0]
+    assert fields.integer("d", 3) == 3
+    assert fields.boolean("e", False) is False
+
+
+@pytest.mark.parametrize("kind", ["integer", "boolean", "sequence"])
+def test_a_default_of_none_is_allowed_for_every_kind(kind):
+    try:
+        assert getattr(Fields({}), kind)("x", None) is None
+    except InputError as refused:
+        raise AssertionError(refused) from refused
+
+
+def test_zero_is_a_value_and_not_a_missing_one():
+    fields = Fields({"a": 0, "b": False, "c": ""})
+    assert (fields.number("a", 5.0), fields.boolean("b", True), fields.text("c", "x")) == (
+        0.0,
+        False,
+        "",
+    )
+
+
+def test_close_refuses_a_misspelt_field_and_suggests_the_right_one():
+    fields = Fields({"mu_w": 0.1}, "contacts.grip")
+    assert fields.number("mu_v", 0.5) == 0.5
+    with pytest.raises(InputError, match=r"grip\.mu_w: is unknown; did you mean 'mu_v'"):
+        fields.close()
+
+
+def test_a_field_is_taken_once():
+    fields = Fields({"a": 1})
+    assert "a" in fields
+    assert fields.names() == ["a"]
+    fields.take("a")
+    assert "a" not in fields
+    with pytest.raises(InputError, match="a: is missing"):
+        fields.take("a")
+
+
+@pytest.mark.parametrize("table", [[], "x", None, 3])
+def test_anything_but_a_table_is_refused(table):
+    with pytest.raises(InputError, match="must be a table"):
+        Fields(table)
+
+
+def test_the_caller_s_own_table_is_left_alone():
+    table = {"a": 1}
+    Fields(table).take("a")
+    assert table == {"a": 1}

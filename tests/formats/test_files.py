@@ -1,0 +1,160 @@
+"""Files are written whole or not at all, read with plain errors, and hold honest numbers."""
+
+import json
+import math
+import os
+import stat
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.formats import files
+from quasistatic_ref.formats.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.formats.files import written_whole as whole
+
+
+def test_a_text_is_written_in_utf_8_and_folders_are_made(tmp_path):
+    path = tmp_path / "a" / "b" / "t.txt"
+    assert text_written(path, "μ_ω\n") == path
+    assert path.read_bytes() == "μ_ω\n".encode()
+
+
+def test_a_file_is_replaced_whole(tmp_path):
+    path = tmp_path / "t.txt"
+    text_written(path, "a long text, of which nothing is left")
+    text_written(path, "short")
+    assert path.read_text() == "short"
+    assert os.listdir(tmp_path) == ["t.txt"]
+
+
+def test_a_file_has_the_permissions_of_any_other(tmp_path):
+    ordinary = tmp_path / "ordinary"
+    ordinary.touch()
+    written = text_written(tmp_path / "t.txt", "")
+    assert stat.S_IMODE(written.stat().st_mode) == stat.S_IMODE(ordinary.stat().st_mode)
+
+
+@pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt, ValueError])
+def test_a_writer_that_fails_leaves_nothing_behind(tmp_path, error):
+    def write(file):
+        file.write(b"half of it")
+        raise error("the writer failed")
+
+    with pytest.raises(error, match="the writer failed"):
+        whole(tmp_path / "t.bin", write)
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_writer_that_fails_leaves_the_old_file(tmp_path):
+    def write(file):
+        file.write(b"half of it")
+        raise RuntimeError
+
+    path = text_written(tmp_path / "t.txt", "old")
+    with pytest.raises(RuntimeError):
+        whole(path, write)
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["t.txt"]
+
+
+def test_a_full_disk_is_a_plain_error_and_leaves_nothing(tmp_path):
+    def write(file):
+        file.write(b"half of it")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(InputError) as caught:
+        whole(tmp_path / "t.bin", write)
+    expected = f"{tmp_path / 't.bin'}: cannot be written: No space left on device; choose another"
+    assert str(caught.value).startswith(expected)
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_folder_that_cannot_be_made_is_a_plain_error(tmp_path):
+    # Not a read-only folder: root may write there.
+    (tmp_path / "file").write_text("not a folder")
+    with pytest.raises(InputError, match="cannot be written") as caught:
+        text_written(tmp_path / "file" / "t.txt", "x")
+    assert caught.value.file == tmp_path / "file" / "t.txt"
+    assert os.listdir(tmp_path) == ["file"]
+
+
+def test_a_folder_in_the_way_is_a_plain_error(tmp_path):
+    (tmp_path / "t.txt").mkdir()
+    with pytest.raises(InputError, match="cannot be written"):
+        text_written(tmp_path / "t.txt", "x")
+    assert os.listdir(tmp_path) == ["t.txt"]
+
+
+READS = {
+    "missing": (lambda folder: folder / "none", "no such file"),
+    "a folder": (lambda folder: folder, "cannot be read"),
+    "a NUL in its name": (lambda folder: folder / "a\0b", "cannot be read"),
+    "a file as a folder": (lambda folder: folder / "file" / "x", "cannot be read"),
+}
+
+
+@pytest.mark.parametrize(("path", "says"), READS.values(), ids=READS)
+def test_what_cannot_be_read_is_a_plain_error(tmp_path, path, says):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(StepDataError, match=says) as caught:
+        bytes_read(path(tmp_path), StepDataError)
+    assert caught.value.file == path(tmp_path)
+
+
+def test_a_file_larger_than_any_input_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "LARGEST", 2**20)
+    path = tmp_path / "big"
+    path.write_bytes(bytes(2**20 + 1))
+    with pytest.raises(InputError, match="is larger than 1 MiB"):
+        bytes_read(path)
+    path.write_bytes(bytes(2**20))
+    assert len(bytes_read(path)) == 2**20
+
+
+def test_a_byte_order_mark_is_dropped():
+    assert text_of(b"\xef\xbb\xbfabc", "t") == "abc"
+
+
+def test_what_is_not_utf_8_names_its_line():
+    with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
+        text_of(b"one\ntwo\n\xff", "t")
+
+
+JSON = {
+    "broken": ('{"a": ', "is not JSON"),
+    "empty": ("", "is not JSON"),
+    "nested too deeply": ("[" * 100_000 + "]" * 100_000, "is not usable JSON"),
+    "a number of too many digits": ("1" * 5000, "is not usable JSON"),
+}
+
+
+@pytest.mark.parametrize(("text", "says"), JSON.values(), ids=JSON)
+def test_what_is_not_json_is_a_plain_error(tmp_path, text, says):
+    path = text_written(tmp_path / "t.json", text)
+    with pytest.raises(InputError, match=says) as caught:
+        json_read(path)
+    assert caught.value.file == path
+
+
+def test_minus_zero_is_written_zero_at_any_depth():
+    value = {"a": -0.0, "b": [-0.0, (np.float64(-0.0),)], "c": np.array([[-0.0, -1.0]])}
+    text = json_text(value)
+    assert text == '{"a": 0.0, "b": [0.0, [0.0]], "c": [[0.0, -1.0]]}'
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, np.array([1.0, math.nan])])
+def test_nan_and_infinity_are_not_written(value):
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        json_text({"a": value})
+
+
+def test_numbers_are_written_in_shortest_round_trip_decimal(rng):
+    assert json_text(0.1) == "0.1"
+    for x in rng.normal(size=100) * 10.0 ** rng.integers(-300, 300, size=100):
+        assert json.loads(json_text(x)) == x
+
+
+def test_numpy_s_numbers_are_numbers():
+    value = {"i": np.int64(3), "f": np.float64(0.5), "b": np.bool_(True), "n": np.arange(2)}
+    assert json_text(value) == '{"i": 3, "f": 0.5, "b": true, "n": [0, 1]}'

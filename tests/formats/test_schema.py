@@ -1,0 +1,178 @@
+"""The JSON Schema and the reference page of scenarios say what the loader does."""
+
+import json
+import tomllib
+
+import pytest
+from jsonschema import Draft4Validator
+
+from docs.fields_page import reference_page
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import scenario_names, scenario_path
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.scenario.scenario_table import TABLES, scenario_schema
+from quasistatic_ref.scenario.world_solids import SOLIDS
+from tests.errors.scene import SCENE, changed, scene_written, toml_text
+
+RICH = changed(
+    SCENE,
+    ("bodies/ball/package_dirs", []), ("bodies/ball/cloud", "cloud.xyz"),
+    ("bodies/rail/gravity_compensated", True), ("bodies/rail/K_q", [[500.0]]),
+    ("contacts/floor/hull", False),
+    ("shapes/mesh", {"mesh": {"file": "cloud.xyz", "scale": [1.0, -1.0, 1.0]}}),
+)  # fmt: skip
+"""Every kind of table and nearly every field; it is good but for its mesh, which is no mesh."""
+
+
+@pytest.fixture(scope="module")
+def validator():
+    schema = scenario_schema()
+    Draft4Validator.check_schema(schema)
+    return Draft4Validator(schema)
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_every_scenario_that_comes_along_is_valid(validator, name):
+    tables = tomllib.loads(scenario_path(name).read_text())
+    assert [error.message for error in validator.iter_errors(tables)] == []
+
+
+@pytest.mark.parametrize("scene", [SCENE, RICH])
+def test_other_scenes_are_valid(validator, scene):
+    tables = tomllib.loads(toml_text(scene))
+    assert [error.message for error in validator.iter_errors(tables)] == []
+
+
+def test_every_field_is_in_the_schema_and_on_the_page():
+    schema = scenario_schema()
+    page, parts = reference_page(TABLES), [schema, *schema["definitions"].values()]
+    assert len(parts) == len(TABLES)
+    for fields, part in zip(TABLES.values(), parts, strict=True):
+        assert set(part["properties"]) == set(fields)
+        for name, one in fields.items():
+            assert any(
+                line.startswith(f"| `{name}` |") and line.endswith(f"| {one.says} |")
+                for line in page.splitlines()
+            )
+    assert set(SOLIDS) <= set(TABLES)
+
+
+FLOOR, BALL, RAIL = "contacts/floor", "bodies/ball", "bodies/rail"
+MISTAKES = {
+    # name: a change of a good scene that makes it bad
+    "another format": ("format", "quasistatic-ref/step"),
+    "no format": ("format", ...),
+    "a later version": ("version", 2),
+    "a version of words": ("version", "1"),
+    "no h": ("h", ...),
+    "h zero": ("h", 0.0),
+    "h negative": ("h", -0.01),
+    "h a word": ("h", "fast"),
+    "h a list": ("h", [0.01]),
+    "h true": ("h", True),
+    "h out of this world": ("h", 1e16),
+    "steps negative": ("steps", -1),
+    "steps half": ("steps", 2.5),
+    "too many steps": ("steps", 10_000_001),
+    "no steps": ("steps", ...),
+    "gravity flat": ("gravity", [0.0, -9.81]),
+    "gravity a number": ("gravity", -9.81),
+    "gravity of words": ("gravity", ["a", "b", "c"]),
+    "gravity too large": ("gravity", [0.0, 0.0, -1e16]),
+    "an unknown cone": ("cone", "piramid"),
+    "a cone without its number": ("cone", "facets-K"),
+    "an unknown record": ("record", "half"),
+    "a misspelt field": ("setps", 3),
+    "solver a word": ("solver", "osqp"),
+    "a misspelt backend": ("solver/bakend", "osqp"),
+    "a backend that is a number": ("solver/backend", 3),
+    "an unknown engine": ("solver/engine", "diesel"),
+    "accuracy zero": ("solver/accuracy", 0.0),
+    "certify true": ("solver/certify", True),
+    "certify something": ("solver/certify", "everything"),
+    "penetration negative": ("limits/penetration", -0.1),
+    "reach zero": ("limits/reach", 0.0),
+    "an unknown limit": ("limits/speed", 1.0),
+    "no body": ("bodies", {}),
+    "bodies a list": ("bodies", [1]),
+    "no urdf": (f"{BALL}/urdf", ...),
+    "urdf empty": (f"{BALL}/urdf", " "),
+    "an unknown base": (f"{BALL}/base", "flying"),
+    "actuated a word": (f"{RAIL}/actuated", "slide"),
+    "actuated numbers": (f"{RAIL}/actuated", [1]),
+    "pose a list": (f"{BALL}/pose", [0.0, 0.0, 1.0]),
+    "pose misspelt": (f"{BALL}/pose/xzy", [0.0, 0.0, 1.0]),
+    "pose short": (f"{BALL}/pose/xyz", [0.0, 1.0]),
+    "a position of words": (f"{RAIL}/positions/slide", "in"),
+    "a folder that is a number": (f"{RAIL}/package_dirs", [1]),
+    "stiffness zero": (f"{RAIL}/K_q/slide", 0.0),
+    "stiffness a word": (f"{RAIL}/K_q/slide", "soft"),
+    "targets a table": (f"{RAIL}/targets", {"t": 0.0, "slide": 0.0}),
+    "a waypoint without t": (f"{RAIL}/targets/0", {"slide": 0.0}),
+    "a waypoint without a joint": (f"{RAIL}/targets/0", {"t": 0.0}),
+    "a target of words": (f"{RAIL}/targets/0/slide", "out"),
+    "cloud empty": (f"{BALL}/cloud", ""),
+    "weight a number": (f"{RAIL}/gravity_compensated", 1),
+    "a wrench without t": (f"{BALL}/wrenches/0/t", ...),
+    "a wrench of nothing": (f"{BALL}/wrenches/0", {"t": 0.0}),
+    "a force of two": (f"{BALL}/wrenches/0/force", [1.0, 2.0]),
+    "a wrench misspelt": (f"{BALL}/wrenches/0/torqe", [0.0, 0.0, 1.0]),
+    "two solids in one": ("shapes/wall/sphere", {"radius": 1.0}),
+    "no solid": ("shapes/wall/box", ...),
+    "an unknown solid": ("shapes/wall", {"torus": {"radius": 1.0}}),
+    "a box too flat": ("shapes/wall/box/size", [1.0, 1.0]),
+    "a box of no size": ("shapes/wall/box/size", [1.0, 0.0, 1.0]),
+    "a radius of zero": ("shapes/post/capsule/radius", 0.0),
+    "no length": ("shapes/post/capsule/length", ...),
+    "a capsule with a size": ("shapes/post/capsule/size", [1.0, 1.0, 1.0]),
+    "no normal": ("shapes/floor/halfspace/normal", ...),
+    "an offset of words": ("shapes/floor/halfspace/offset", "low"),
+    "a mesh without a file": ("shapes/wall", {"mesh": {"scale": [1.0, 1.0, 1.0]}}),
+    "a scale of zero": ("shapes/wall", {"mesh": {"file": "a.obj", "scale": [1.0, 0.0, 1.0]}}),
+    "no alpha": (f"{FLOOR}/alpha", ...),
+    "alpha a number": (f"{FLOOR}/alpha", 3),
+    "beta of nothing": (f"{FLOOR}/beta", []),
+    "no mu_v": (f"{FLOOR}/mu_v", ...),
+    "mu_v negative": (f"{FLOOR}/mu_v", -0.1),
+    "no mu_omega": (f"{FLOOR}/mu_omega", ...),
+    "mu_omega negative": (f"{FLOOR}/mu_omega", -0.1),
+    "five rows": (f"{FLOOR}/rows", 5),
+    "k zero": (f"{FLOOR}/k", 0),
+    "k a fraction": (f"{FLOOR}/k", 1.5),
+    "hull a word": (f"{FLOOR}/hull", "yes"),
+    "friction by another name": (f"{FLOOR}/mu", 0.5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_is_refused_by_the_loader_and_by_the_schema(validator, tmp_path, name):
+    bad = changed(SCENE, MISTAKES[name])
+    with pytest.raises(InputError):
+        load_scenario(scene_written(tmp_path, bad))
+    assert not validator.is_valid(tomllib.loads(toml_text(bad)))
+
+
+def test_the_defaults_that_the_table_states_are_those_of_the_loader(tmp_path):
+    """Written out, they make the scenario that is loaded without them."""
+    where = {
+        "cone": ("the top of the file", "cone"), "record": ("the top of the file", "record"),
+        "solver/accuracy": ("[solver]", "accuracy"), "solver/certify": ("[solver]", "certify"),
+        "limits/reach": ("[limits]", "reach"), "contacts/push/k": ("[contacts.NAME]", "k"),
+        "limits/penetration": ("[limits]", "penetration"),
+        f"{RAIL}/gravity_compensated": ("[bodies.NAME]", "gravity_compensated"),
+        f"{RAIL}/base": ("[bodies.NAME]", "base"), f"{FLOOR}/hull": ("[contacts.NAME]", "hull"),
+        f"{RAIL}/pose": ("[bodies.NAME]", "pose"), "shapes/floor/halfspace/offset":
+        ("halfspace", "offset"), f"{FLOOR}/rows": ("[contacts.NAME]", "rows"),
+    }  # fmt: skip
+    bare = changed(SCENE, ("solver", {}), ("limits", {}))
+    for path in (f"{FLOOR}/rows", "shapes/floor/halfspace/offset"):
+        bare = changed(bare, (path, ...))
+    plain = load_scenario(scene_written(tmp_path, bare))
+    stated = [(path, TABLES[kind][name].default) for path, (kind, name) in where.items()]
+    assert load_scenario(scene_written(tmp_path, changed(bare, *stated))) == plain
+
+
+def test_the_command_prints_the_schema(capsys):
+    assert main(["schema"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(scenario_schema()))

@@ -1,0 +1,59 @@
+"""A triangle on three points: its calibration, and pushes of known loads."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.reality.predict import rotation
+from quasistatic_ref.lab.reality.tripods import (
+    TRIANGLE,
+    Calibration,
+    TripodSet,
+    calibration,
+    tripod,
+    tripod_prediction,
+    tripods_read,
+)
+
+OFFSET, ANGLE, RADIUS = np.array([6e-4, -4e-4]), 0.004, 0.003
+
+
+def planted():
+    """Pushes that end where a finger of that radius touches the outline in the offset frame."""
+    rng = np.random.default_rng(0)
+    after = rng.uniform(-1, 1, size=(30, 3))
+    vertices, edges, path = TRIANGLE.vertices, TRIANGLE.edges, np.zeros((30, 40, 2))
+    for k, pose in enumerate(after):
+        edge = edges[k % 3] / np.linalg.norm(edges[k % 3])
+        outward = np.array([edge[1], -edge[0]])
+        own = vertices[k % 3] + rng.uniform(0.2, 0.8) * edges[k % 3] + RADIUS * outward
+        origin = pose[:2] + rotation(pose[2]) @ OFFSET
+        path[k] = origin + rotation(pose[2] + ANGLE) @ own
+    return TripodSet("planted", np.zeros((3, 2)), after, after, path)
+
+
+def test_the_calibration_finds_planted_offsets_and_radius():
+    found = calibration(planted())
+    assert found.offset == pytest.approx(OFFSET, abs=1e-7)
+    assert found.angle == pytest.approx(ANGLE, abs=1e-5)
+    assert found.radius == pytest.approx(RADIUS, abs=1e-7)
+
+
+def test_poses_go_to_the_object_frame_and_back():
+    frozen = Calibration(OFFSET, ANGLE, RADIUS, 0.0)
+    pose = np.array([0.3, -0.2, 1.1])
+    assert frozen.measured_pose(frozen.object_pose(pose)) == pytest.approx(pose, abs=1e-15)
+
+
+def test_three_points_are_predicted_to_a_third_of_their_turn():
+    sets = tripods_read(reality_folder())
+    frozen = calibration(sets[0])
+    assert [len(own.after) for own in sets] == [50] * 5
+    off, turned = [], []
+    for own in sets[1:]:
+        scene = tripod(own, frozen)
+        for k in range(0, 50, 10):
+            end, _ = tripod_prediction(scene, frozen, own.before[k], own.path[k], "off")
+            off.append(abs(end[2] - own.after[k, 2]))
+            turned.append(abs(own.before[k, 2] - own.after[k, 2]))
+    assert np.median(off) < np.median(turned) / 3

@@ -1,0 +1,68 @@
+"""Studies small enough for a test: a few scaled problems, and solvers planted on purpose."""
+
+import os
+
+import pytest
+
+from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.study.problems import problem_of
+from quasistatic_ref.lab.study.run import run_study
+from quasistatic_ref.lab.study.sets.folder import set_read
+from quasistatic_ref.lab.study.spec import solver_study, study_tables
+from tests.lab.study import made_store
+from tests.lab.study.planted import FAKES, slab
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A function that writes a study file beside the planted solvers, and reads it."""
+    (tmp_path / "planted_solvers.py").write_text(FAKES)
+
+    def written(text, **changes):
+        path = tmp_path / "study.toml"
+        path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + text)
+        return solver_study(path, study_tables(path), **changes)
+
+    return written
+
+
+@pytest.fixture
+def run(study, tmp_path):
+    """A function that runs a study in the folder ``store``; returns its rows."""
+
+    def ran(text, folder="store", **options):
+        return run_study(study(text), tmp_path / folder, progress=False, **options)
+
+    return ran
+
+
+@pytest.fixture(scope="session")
+def problem():
+    """One problem of 12 contacts with its exact answer."""
+    return problem_of(slab())
+
+
+@pytest.fixture(scope="session")
+def members():
+    """Every problem of the set that ships."""
+    return set_read(problem_set_folder())
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    """The folder of a study that nobody ran: rows at random, of every outcome."""
+    folder = tmp_path_factory.mktemp("report") / "store"
+    made_store.written(folder)
+    return folder
+
+
+@pytest.fixture
+def importable(monkeypatch):
+    """A function: modules of a folder can be imported, and in processes that are started too."""
+
+    def added(folder):
+        monkeypatch.syspath_prepend(str(folder))
+        there = os.environ.get("PYTHONPATH", "")
+        monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(folder), there])))
+
+    return added

@@ -1,0 +1,93 @@
+"""Many runs of one scenario: a table, a trajectory a run, and going on after an interruption."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.many import TABLE, simulate_many, swept_values
+from quasistatic_ref.lab.study.store import ROWS
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+
+SLOPE = ["block_incline", "--set", "steps=2", "--sweep", "contacts.rough.mu_v=0:0.9:2", "--quiet"]
+
+
+def table(folder):
+    with (folder / TABLE).open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
+    argv = ["run", *SLOPE, "--sweep", "h=0.01,0.02", "--jobs", "1", "--out", str(tmp_path)]
+    assert main(argv) == 0
+    assert "4 runs, 0 of which not done" in capsys.readouterr().out
+    lines = table(tmp_path)
+    found = [(float(line["contacts.rough.mu_v"]), float(line["h"])) for line in lines]
+    assert found == [(mu, h) for mu in (0.0, 0.9) for h in (0.01, 0.02)]
+    # Each trajectory is that of the scenario alone with the same values, bit for bit.
+    for line, (mu, h) in zip(lines, found, strict=True):
+        settings = {"contacts.rough.mu_v": mu, "h": h, "steps": 2}
+        alone = load_scenario("block_incline", settings).run(progress=False)
+        np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
+    # What ends the program leaves the rows so far, a torn one too: only those are run again.
+    rows = (tmp_path / ROWS).read_text().splitlines(keepends=True)
+    (tmp_path / ROWS).write_text("".join(rows[:3]) + rows[3][:10])
+    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
+    assert main([*argv, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["runs"] == 4
+    written = [path for path, time in kept.items() if path.stat().st_mtime_ns != time]
+    assert len(written) == 1
+    assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]
+
+
+def test_a_run_that_is_refused_is_a_line_without_a_trajectory(tmp_path):
+    variations = {"steps": [1], "contacts.rough.mu_v": np.array([0.5, -1.0])}
+    rows = simulate_many("block_incline", variations, tmp_path, workers=1, progress=False)
+    assert {row["values"]["contacts.rough.mu_v"]: row["outcome"] for row in rows} == {
+        0.5: "done", -1.0: "refused",
+    }  # fmt: skip
+    assert len(list((tmp_path / "runs").iterdir())) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("a.b=0:1:3", [0.0, 0.5, 1.0]),
+        ("a.b=1,2.5", [1, 2.5]),
+        ("a.b=pyramid,facets-8", ["pyramid", "facets-8"]),
+    ],
+)
+def test_values_are_read_as_a_range_or_a_list(text, values):
+    assert swept_values(text) == ("a.b", values)
+
+
+@pytest.mark.parametrize("text", ["a.b", "=1", "a.b=", "a.b=0:1", "a.b=0:1:0", "a.b=x:1:2"])
+def test_values_that_are_none_are_refused(text):
+    with pytest.raises(InputError, match="--sweep: must read FIELD=FIRST:LAST:COUNT"):
+        swept_values(text)
+
+
+BAD = {
+    "no value": ({"h": []}, "h: must be a list of finite numbers or words"),
+    "no number": ({"h": [float("nan")]}, "h: must be a list of finite numbers or words"),
+    "nothing varied": ({}, "variations: must make 1 to 100000 runs"),
+    "too many": ({"h": range(1000), "K": range(1000)}, "must make 1 to 100000 runs"),
+    "an unknown field": ({"contacts.rouhg.mu_v": [0.5]}, "rouhg"),
+}
+
+
+@pytest.mark.parametrize(("variations", "sentence"), BAD.values(), ids=BAD)
+def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
+    with pytest.raises(InputError, match=sentence):
+        simulate_many("block_incline", variations, tmp_path, progress=False)
+    with pytest.raises(InputError, match="workers: must be at least 1"):
+        simulate_many("block_incline", {"h": [0.01]}, tmp_path, workers=0, progress=False)
+
+
+def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, capsys):
+    assert main(["run", *SLOPE, "--view", "--out", str(tmp_path)]) == 2
+    assert "--view: is of one run" in capsys.readouterr().err

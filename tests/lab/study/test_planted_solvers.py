@@ -1,0 +1,183 @@
+"""Whatever a solver does, it is reported as what it is, and the study goes on."""
+
+import json
+import os
+import signal
+import stat
+import sys
+import time
+
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.keeper import Keeper
+from quasistatic_ref.lab.study.measure import Limits, measured
+from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.worker import GRACE
+from tests.lab.study.planted import FAKES
+
+DEFAULT = SETTINGS[0]
+
+# How each of them must be reported: outcome, a part of what it claimed, "said optimal", "wrong".
+REPORTED = {
+    "honest": ("solved", "returned", True, False),
+    "exits": ("crashed", "status 7", False, False),
+    "segfaults": ("crashed", "signal 11", False, False),
+    "nan": ("nan", "returned", True, True),
+    "nan_multipliers": ("nan", "returned", True, True),
+    "too_long": ("wrong_shape", "returned", True, True),
+    "no_pair": ("wrong_shape", "returned", True, True),
+    "no_numbers": ("wrong_shape", "returned", True, True),
+    "liar": ("solved", "returned", True, True),
+    "raises": ("failed", "RuntimeError: no licence found", False, False),
+    "gives_up": ("failed", "returned None", False, False),
+    "prints": ("solved", "returned", True, False),
+    "spoils": ("solved", "returned", True, False),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("planted")
+    (place / "planted_solvers.py").write_text(FAKES)
+    return place
+
+
+def row_of(solver, problem, folder, limit=30.0):
+    with Keeper(solver, folder) as keeper:
+        return measured(keeper, problem, DEFAULT, "natural", False, Limits(limit, limit))
+
+
+def fake(name):
+    return Solver(name, "callable", f"planted_solvers:{name}")
+
+
+@pytest.mark.parametrize("name", REPORTED)
+def test_a_planted_solver_is_reported_as_what_it_is(name, folder, problem):
+    outcome, claimed, said_optimal, wrong = REPORTED[name]
+    row = row_of(fake(name), problem, folder)
+    assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
+    assert claimed in row["claimed"]
+
+
+def test_an_honest_solver_gets_its_digits_and_a_liar_none(folder, problem):
+    honest, liar = (row_of(fake(name), problem, folder) for name in ("honest", "liar"))
+    assert min(honest["digits"].values()) > 12
+    assert liar["digits"]["delta_q"] < 1
+    # the residuals of x = 0, lam = 0 show nothing of it where gaps are positive: only the balance
+    assert liar["residuals"]["primal"] == 0.0
+    assert liar["residuals"]["gap"] == 0.0
+
+
+@pytest.mark.parametrize("name", ["loops", "loops_in_c"])
+def test_a_looping_solver_is_killed_and_started_again(name, folder, problem):
+    with Keeper(fake(name), folder) as keeper:
+        for starts in (1, 2):
+            begin = time.perf_counter()
+            row = measured(keeper, problem, DEFAULT, "natural", False, Limits(0.2, 0.2))
+            assert (row["outcome"], keeper.starts) == ("timeout", starts)
+            assert time.perf_counter() - begin < 20
+
+
+def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
+    keeper = Keeper(fake("loops_in_c"), folder)
+    with keeper:
+        keeper.start()
+        keeper._outbox.send((1, problem.form))
+        request = {"setting": DEFAULT, "count": 1, "g": None, "start": None, "limit": 0.1}
+        keeper._outbox.send(request | {"form": 1, "patience": 0.1})
+        assert keeper._process.wait(timeout=GRACE + 15) == -signal.SIGALRM
+
+
+DIES_BEFORE_A_CALL = """
+import os
+from multiprocessing.connection import Connection
+
+Connection.recv = lambda self: os._exit(7)  # the next message ends the process: no call is made
+
+def never(P, q, G, h):
+    pass
+"""
+
+
+def test_a_process_that_ends_before_its_first_call_is_a_crash(tmp_path, problem):
+    (tmp_path / "planted_ending.py").write_text(DIES_BEFORE_A_CALL)
+    row = row_of(Solver("never", "callable", "planted_ending:never"), problem, tmp_path)
+    assert (row["outcome"], row["calls"]) == ("crashed", 0)
+    assert "status 7" in row["claimed"]
+
+
+def test_a_crash_does_not_cost_the_next_measurement(folder, problem):
+    with Keeper(fake("exits"), folder) as keeper:
+        outcomes = [
+            measured(keeper, problem, DEFAULT, units, False, Limits(30.0))["outcome"]
+            for units in ("raw", "natural")
+        ]
+    assert outcomes == ["crashed", "crashed"]
+    assert keeper.starts == 2
+
+
+EXECUTABLE = """#!{python}
+import json, os, sys
+qp = json.load(sys.stdin)
+assert sorted(qp) == ["A", "H", "b", "g"]
+{body}
+"""
+BODIES = {
+    "writes": (
+        'print(json.dumps({"delta_q": [0.0] * len(qp["g"]), "lam": [0.0] * len(qp["b"]), '
+        '"iterations": 4, "seconds": 0.25}))',
+        ("solved", "optimal", True, True),
+    ),
+    "says infeasible": (
+        'print(json.dumps({"status": "infeasible"}))',
+        ("failed", "infeasible", False, True),
+    ),
+    "writes no JSON": ('print("hello")', ("failed", "no usable JSON", False, False)),
+    "writes a list": ("print([])", ("failed", "no usable JSON", False, False)),
+    "fails": ('sys.exit("no licence")', ("failed", "exit status 1: no licence", False, False)),
+    "crashes": ("os.abort()", ("crashed", "signal 6", False, False)),
+    "hangs": ("import time; time.sleep(60)", ("timeout", "no answer in 1 s", False, False)),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_an_executable_reads_and_writes_json(name, tmp_path, problem):
+    body, (outcome, claimed, said_optimal, wrong) = BODIES[name]
+    path = tmp_path / "solver"
+    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+    solver = Solver("mine", "executable", ("./solver",))
+    row = row_of(solver, problem, tmp_path, limit=1.0 if name == "hangs" else 30.0)
+    assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
+    assert claimed in row["claimed"]
+    if name == "writes":
+        assert (row["iterations"], row["seconds"]["solver"]) == (4, 0.25)
+
+
+def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(tmp_path, problem):
+    path = tmp_path / "solver"
+    body = 'open("seen.json", "w").write(json.dumps(qp)); print("{}")'
+    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+    with Keeper(Solver("mine", "executable", ("./solver",)), tmp_path) as keeper:
+        measured(keeper, problem, DEFAULT, "raw", False, Limits(30.0))
+    seen = json.loads((tmp_path / "seen.json").read_text())
+    for name in ("H", "g", "A", "b"):
+        assert seen[name] == (getattr(problem.form, name) + 0.0).tolist()
+
+
+@pytest.mark.parametrize(
+    ("solver", "says"),
+    [
+        (Solver("mine", "callable", "planted_solvers:nothing"), "cannot be imported"),
+        (Solver("mine", "callable", "no_such_module:f"), "cannot be imported"),
+        (Solver("mine", "callable", "planted_solvers:np"), "is not a function"),
+        (Solver("mine", "executable", ("./missing",)), "there is no such program"),
+    ],
+)
+def test_a_solver_that_cannot_be_reached_is_one_sentence(solver, says, folder, problem):
+    with pytest.raises(InputError, match=says) as refused:
+        row_of(solver, problem, folder)
+    assert "\n" not in str(refused.value)
+    assert os.linesep not in str(refused.value)

@@ -1,0 +1,288 @@
+"""The report: each number of it is made again from the rows that it names, by plain loops."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.figures.study import profile
+from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
+from quasistatic_ref.lab.page.html import html_page, sorting
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.columns import columns_of
+from quasistatic_ref.lab.study.noise import noise_of, noise_words
+from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.statistics import (
+    interval,
+    performance_ratios,
+    resampled,
+    shifted_geometric_mean,
+)
+from quasistatic_ref.optional.show.figures import faults
+from tests.lab.study import made_store, plain_report
+from tests.lab.study.plain_report import agrees, delivered, number, picked, quantile, rows_of_line
+
+TEXT = {"solver", "setting", "its own options", "family", "interface", "tie with the fastest",
+        "95 % of bootstraps", "95 % of bootstraps, mean"}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def rows(store):
+    """Those that are compared: what was repeated is for the noise."""
+    every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
+    return [row for row in every if row["repetition"] == 0]
+
+
+@pytest.fixture(scope="module")
+def report(store):
+    return study_report(store)
+
+
+@pytest.fixture(scope="module")
+def tables(report):
+    return plain_report.parsed(markdown_page(report))
+
+
+def of_store(tables):
+    return [t for t in tables if not t[1].startswith(("study.json", "problems.jsonl"))]
+
+
+def lines(tables, *, titled):
+    return [
+        (title, where, columns, line)
+        for title, where, columns, body in tables
+        if re.match(titled, title)
+        for line in body
+    ]
+
+
+def test_a_report_has_every_table(tables):
+    worst = len({solver.partition(":")[2] for solver in made_store.SOLVERS})
+    assert len(of_store(tables)) == 4 + 3 + 4 + 1 + worst + 2 + 3 + 1 + 2
+
+
+def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
+    checked = 0
+    titles = "Time to|Setting|Raw units|Cold|qpsolvers and cvxpy|How the calls"
+    for title, where, columns, line in lines(tables, titled=titles):
+        own = rows_of_line(title, where, columns, line, rows)
+        for column, cell in zip(columns, line, strict=True):
+            if column not in TEXT:
+                value = number(column, own, made_store.LIMIT)
+                assert agrees(cell, value), (title, line[0], column, cell, value)
+                checked += 1
+    assert checked > 250
+
+
+def test_false_claims_are_those_of_the_rows(tables, rows):
+    found = lines(tables, titled="False claims of success")
+    assert len(found) == 16
+    for _, where, columns, (solver, *cells) in found:
+        for setting, cell in zip(columns[1:], cells, strict=True):
+            words = f"{where}, label = {solver}, setting = {setting}"
+            own = picked(rows, words)
+            said = [row for row in own if row["said_optimal"]]
+            counts = (sum(row["wrong"] for row in said),
+                      sum(row["wrong"] and row["said_infeasible"] for row in own),
+                      sum(row["wrong_multipliers"] for row in own))  # fmt: skip
+            assert cell == f"{' + '.join(map(str, counts))} / {len(said)}"
+
+
+def test_digits_by_family_are_those_of_the_rows(tables, rows):
+    found = lines(tables, titled="Median digits by family")
+    for title, where, columns, (family, *cells) in found:
+        for solver, cell in zip(columns[1:], cells, strict=True):
+            own = rows_of_line(title, where, ["solver", "family"], [solver, family], rows)
+            assert agrees(cell, quantile([delivered(r) for r in own], 0.5))
+    assert len(found) == 2 * len(made_store.FAMILIES)
+
+
+def test_each_false_claim_that_is_shown_is_a_row_and_the_worst_of_its_kind(tables, rows):
+    found = lines(tables, titled="The false claims")
+    for *_, (solver, setting, units, warm, problem, claimed, promised, digits) in found:
+        words = f"label = {solver}, setting = {setting}, units = {units}, warm = {warm}"
+        own = [r for r in picked(rows, words) if r["wrong"]]
+        (row,) = (r for r in own if r["problem"] == problem)
+        assert row["claimed"] == claimed
+        assert float(promised) == made_store.SETTINGS[setting][1]
+        assert agrees(digits, min(delivered(r) for r in own))
+    assert len(found) == 12
+
+
+def test_the_setting_of_a_time_to_digits_has_the_least_mean(tables, rows):
+    found = lines(tables, titled="Time to")
+    assert len(found) == 4 * len(made_store.SOLVERS)
+    for title, where, columns, line in found:
+        mean = next(c for c in columns if c.startswith("time to"))
+        options = {}
+        for setting in made_store.SETTINGS:
+            own = rows_of_line(title, where, columns[:3], [*line[:2], setting], rows)
+            options[setting] = number(mean, own, made_store.LIMIT)
+        assert line[2] == min(options, key=options.get)
+
+
+def test_bootstraps_hold_their_value_and_narrow_with_the_root_of_the_count():
+    """Of a share of one half among n the 95 % are +-1.96 / sqrt(4 n)."""
+    for n in (100, 10_000):
+        values, strata = np.arange(n) % 2, np.array(["a", "b"])[np.arange(n) * 2 // n]
+        low, high = interval(resampled(values, strata))
+        expected = 1.96 / np.sqrt(4 * n)
+        assert 0.5 - low == pytest.approx(expected, rel=0.3)
+        assert high - 0.5 == pytest.approx(expected, rel=0.3)
+
+
+def test_the_noise_is_the_difference_of_what_was_repeated(store):
+    """Median of |t_1 / t_2 - 1|, the larger time above, over all pairs."""
+    every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
+    by_key = {}
+    for row in every:
+        names = ("problem", "solver", "interface", "setting", "units", "warm")
+        if row["outcome"] == "solved":
+            key = tuple(row[n] for n in names)
+            by_key.setdefault(key, []).append(row["seconds"]["call"])
+    ratios = [max(pair) / min(pair) - 1 for pair in by_key.values() if len(pair) == 2]
+    noise = noise_of(columns_of(every, made_store.LIMIT))
+    assert noise.pairs == len(ratios) > 20
+    assert noise.call == pytest.approx(np.median(ratios), rel=1e-12)
+    assert noise.floor > 0
+    assert "not known" in noise_words(noise_of(columns_of(every[:1], made_store.LIMIT)))
+
+
+def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):
+    """rho_s(tau): how many problems s has right within tau times the least time, over all."""
+    (picture,) = (p for p in report.pictures if p.kind == "profiles")
+    for panel, least in zip(picture.data["panels"], (6.0, 9.0), strict=True):
+        own = {}
+        for title, where, columns, line in lines(tables, titled=f"Time to {least:g} digits"):
+            label = f"{line[1]}:{line[0]}"
+            own[label] = rows_of_line(title, where, columns[:3], line[:3], rows)
+        times = {
+            label: {r["problem"]: r["seconds"]["call"] for r in own[label] if delivered(r) >= least}
+            for label in panel["labels"]
+        }
+        problems = {r["problem"] for part in own.values() for r in part}
+        for label, ratios in zip(panel["labels"], panel["ratios"], strict=True):
+            for tau in (1.0, 3.0, 50.0):
+                right = 0
+                for problem in problems:
+                    here = [t[problem] for t in times.values() if problem in t]
+                    right += problem in times[label] and times[label][problem] <= tau * min(here)
+                shown = profile(ratios, np.array([tau]))[0]
+                assert shown == pytest.approx(100 * right / len(problems), rel=1e-12)
+
+
+def test_a_problem_that_no_solver_gets_right_counts_for_none():
+    ratios = performance_ratios(
+        np.array([[1.0, 2.0], [4.0, 1.0]]), np.array([[True, False], [True, False]])
+    )
+    np.testing.assert_array_equal(ratios, [[1, np.inf], [4, np.inf]])
+
+
+def test_the_shifted_geometric_mean_is_its_formula():
+    """sqrt((t1 + s) (t2 + s)) - s."""
+    expected = np.sqrt((0.003 + 0.001) * (0.008 + 0.001)) - 0.001
+    assert shifted_geometric_mean(np.array([0.003, 0.008])) == pytest.approx(expected, rel=1e-12)
+
+
+class Page(HTMLParser):
+    """The cells, links and tags of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.cells, self.links, self.tags, self._open = [], [], set(), None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        """Called by the parser, as those below."""
+        self.tags.add(tag)
+        self.links += [value for name, value in attrs if name in ("src", "href")]
+        if tag in ("td", "th"):
+            self._open = ""
+
+    def handle_data(self, data):
+        """Gather the text of a cell."""
+        if self._open is not None:
+            self._open += data
+
+    def handle_endtag(self, tag):
+        """Keep the cell."""
+        if tag in ("td", "th"):
+            self.cells.append(self._open)
+            self._open = None
+
+
+def test_the_html_page_shows_the_same_tables_without_network(report, tables):
+    images_ = {picture.name: b"<svg/>" for picture in report.pictures}
+    assert "<script" not in html_page(report, images_)
+    text = html_page(report, images_, sorting())
+    page = Page(text)
+    cells = [
+        c.replace("`", "") for _, _, head, body in tables for row in (head, *body) for c in row
+    ]
+    assert page.cells == cells
+    assert not page.tags & {"link", "iframe", "object"}
+    assert re.findall("<script.*?>", text) == ["<script>"]  # inline: loads nothing
+    assert not re.search("fetch|import|XMLHttp|http|eval|innerHTML", sorting())
+    assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in page.links)
+    assert "url(" not in text
+    assert "@import" not in text
+
+
+def test_a_report_is_written_with_its_figures(store, tmp_path, capsys):
+    assert main(["study", "report", str(store), "--out", str(tmp_path)]) == 0
+    capsys.readouterr()
+    files = sorted(p.relative_to(tmp_path).as_posix() for p in tmp_path.rglob("*.*"))
+    figures = ["digits_time", "families", "profiles", "success"]
+    pages = [f"report.{ending}" for ending in ("csv", "html", "md", "parquet")]
+    assert files == [*(f"figures/{f}.png" for f in figures), *pages]
+    text = (tmp_path / "report.md").read_text()
+    assert sorted(re.findall(r"\]\((.*?)\)", text)) == files[:4]
+    assert (tmp_path / "report.html").read_text().count("data:image/svg+xml;base64,") == 4
+
+
+def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
+    made_store.sweep_written(tmp_path / "store")
+    every = (*report.pictures, *study_report(tmp_path / "store").pictures)
+    assert [picture.kind for picture in every] == list(KINDS)
+    for picture in every:
+        figure = drawn(picture.kind, picture.data)
+        assert faults(figure) == []
+        plt.close(figure)
+
+
+def test_a_report_is_the_same_when_it_is_made_again(store, report):
+    again = study_report(store)
+    assert markdown_page(again) == markdown_page(report)
+    one, two = again.pictures[1], report.pictures[1]
+    assert images(one.kind, one.data) == images(two.kind, two.data)
+
+
+def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
+    rows = made_store.sweep_written(tmp_path / "store")
+    report = study_report(tmp_path / "store")
+    (_, where, columns, body), *_ = plain_report.parsed(markdown_page(report))
+    assert where == "sweep = slide"
+    assert columns[:5] == ["mu [the scenario's unit]", "h [s]", "outcome", "largest rotation [deg]",
+                           "boundary layer [um]"]  # fmt: skip
+    ordered = sorted(rows, key=lambda row: (row["values"]["mu"], row["values"]["h"]))
+    for row, line in zip(ordered, body, strict=True):
+        values = [*row["values"].values(), *row["measures"].values()]
+        shown = line[:2] + line[3:]
+        assert [c if c == "-" else float(c) for c in shown] == [
+            "-" if v is None else v for v in values
+        ]
+        assert line[2] == (row["reason"] or "done")
+    (picture,) = report.pictures
+    assert {name: len(points) for name, points in picture.data["lines"].items()} == {
+        "h = 0.01 s": 2,
+        "h = 0.02 s": 3,
+    }
+
+
+def test_calls_of_no_time_count_as_one_tick_of_the_clock():
+    ratios = performance_ratios(np.array([[0.0, 0.0], [2e-9, 0.0]]), np.ones((2, 2), dtype=bool))
+    np.testing.assert_array_equal(ratios, [[1, 1], [2, 1]])

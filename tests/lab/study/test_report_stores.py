@@ -1,0 +1,103 @@
+"""Reports on stores that are packed, cut off, hardly begun, or empty."""
+
+import json
+
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.figures.study_images import drawn
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.columns import columns_of
+from quasistatic_ref.lab.study.pack import shorter
+from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.store import rows_read
+from tests.lab.study import made_store, plain_report
+
+
+@pytest.fixture(scope="module")
+def rows(store):
+    return [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
+
+
+def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, capsys):
+    assert main(["study", "pack", str(store), "--out", str(tmp_path)]) == 0
+    capsys.readouterr()
+    short = rows_read(tmp_path)
+    assert [shorter(row) for row in short] == short
+    for row, whole in zip(short, rows_read(store), strict=True):
+        assert row["wrong"] == whole["wrong"]
+        digits = whole["digits"]["delta_q"]
+        if digits is not None:
+            assert digits - 1.001e-3 < row["digits"]["delta_q"] <= digits
+    packed_tables = plain_report.parsed(markdown_page(study_report(tmp_path)))
+    for (title, _, columns, body), (_, _, _, whole) in zip(
+        packed_tables, plain_report.parsed(markdown_page(study_report(store))), strict=True
+    ):
+        for k, column in enumerate(columns):
+            if ">=" in column or "wrong" in title:
+                assert [line[k] for line in body] == [line[k] for line in whole], title
+
+
+def test_clocks_that_were_not_compared_do_not_disagree(rows):
+    of_three = [rows[0] | {"clock_agrees": agrees} for agrees in (True, None, False)]
+    assert columns_of(of_three, 1.0)["clock_agrees"].tolist() == [True, True, False]
+
+
+def test_a_packed_store_that_was_cut_off_is_refused(store, tmp_path, capsys):
+    main(["study", "pack", str(store), "--out", str(tmp_path)])
+    capsys.readouterr()
+    path = tmp_path / "rows.jsonl.xz"
+    path.write_bytes(path.read_bytes()[:-40])
+    with pytest.raises(InputError, match="is no xz file, or was cut off"):
+        study_report(tmp_path)
+
+
+def test_a_store_without_rows_is_refused(store, tmp_path):
+    (tmp_path / "study.json").write_text((store / "study.json").read_text())
+    (tmp_path / "rows.jsonl").write_text("")
+    with pytest.raises(InputError, match="holds no rows yet"):
+        study_report(tmp_path)
+
+
+CUT = {
+    "one row": lambda row: row["problem"] == "stack/0" and row["solver"] == "bee",
+    "no problem in common": lambda row: (
+        (row["solver"] == "ant") == (row["problem"] == "door/1") and row["setting"] == "mid"
+    ),
+}
+
+
+@pytest.mark.parametrize("keep", CUT.values(), ids=CUT)
+def test_a_study_that_has_hardly_begun_is_reported_too(store, rows, tmp_path, keep):
+    for name in ("study.json", "problems.jsonl"):
+        (tmp_path / name).write_text((store / name).read_text())
+    kept = [row for row in rows if keep(row)]
+    (tmp_path / "rows.jsonl").write_text("".join(json.dumps(row) + "\n" for row in kept))
+    report = study_report(tmp_path)
+    counts = [t for t in plain_report.parsed(markdown_page(report)) if t[0].startswith("How the")]
+    first = [row for row in kept if row["repetition"] == 0]
+    assert sum(int(line[1]) for line in counts[0][3]) == len(first)
+    for picture in report.pictures:
+        plt.close(drawn(picture.kind, picture.data))
+
+
+def test_nothing_is_drawn_of_calls_that_were_not_made(store, rows, tmp_path):
+    for name in ("study.json", "problems.jsonl"):
+        (tmp_path / name).write_text((store / name).read_text())
+    missed = {"outcome": "not_run_budget", "said_optimal": False, "wrong": False}
+    lines_ = (json.dumps(row | missed) + "\n" for row in rows)
+    (tmp_path / "rows.jsonl").write_text("".join(lines_))
+    report = study_report(tmp_path)
+    assert report.pictures == ()
+    assert "the figure `profiles` is not drawn" in markdown_page(report)
+
+
+def test_a_report_and_a_packed_store_stand_next_to_their_store(tmp_path, capsys):
+    folder = tmp_path / "sweep"
+    made_store.sweep_written(folder)
+    assert main(["study", "report", str(folder)]) == 0
+    assert f"wrote {folder / 'report' / 'report.html'}\n" in capsys.readouterr().out
+    assert main(["study", "pack", str(folder)]) == 0
+    assert f"wrote {folder / 'packed' / 'rows.jsonl.xz'}\n" in capsys.readouterr().out

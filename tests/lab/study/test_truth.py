@@ -1,0 +1,142 @@
+"""What solvers are graded by: exact answers, enclosures, digits and residuals."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.scenes.slabs import tower_step
+from quasistatic_ref.lab.study import truth
+from quasistatic_ref.lab.study.calls import NEAR, neighbour
+from quasistatic_ref.lab.study.grade import grades, prepared
+from quasistatic_ref.lab.study.qp import condition, step_of, units_of
+from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
+from quasistatic_ref.optional.large.bound import enclosed_answer
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.units import natural_form
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from tests.lab.study.planted import slab
+
+
+def planted(rng, n=6, m=20):
+    """A program made around x and lam: H x - g = A' lam, slack and lam never both positive."""
+    B = rng.normal(size=(n, n))
+    H = B @ B.T + np.eye(n)
+    A, x = rng.normal(size=(m, n)), rng.normal(size=n)
+    lam = np.where(np.arange(m) < n // 2, rng.uniform(1, 2, m), 0.0)
+    b = A @ x - np.where(lam > 0, 0.0, rng.uniform(0, 1, m))
+    return StandardForm((H + H.T) / 2, H @ x - A.T @ lam, A, b), x, lam
+
+
+def test_the_answer_of_a_planted_program_is_what_it_was_made_around():
+    form, x, lam = planted(np.random.default_rng(3))
+    answer = answer_of(form)
+    np.testing.assert_allclose(answer.delta_q, x, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(answer.net, form.A.T @ lam, rtol=0, atol=1e-11)
+    assert answer.bound == 0.0
+
+
+def test_a_program_without_solution_has_no_answer():
+    one = np.eye(1)
+    form = StandardForm(one, np.zeros(1), np.vstack([one, -one]), np.ones(2))  # x >= 1, -x >= 1
+    with pytest.raises(NoAnswer):
+        answer_of(form)
+
+
+def test_an_enclosure_holds_the_exact_answer(monkeypatch):
+    form = standard_form(tower_step(np.random.default_rng(2), 4))
+    exact = answer_of(form)
+    monkeypatch.setattr(truth, "EXACT_COORDINATES", 10)
+    enclosed = answer_of(form)
+    assert exact.bound == 0.0
+    assert 0 < enclosed.bound < 1e-6
+    H_off = form.H @ (enclosed.delta_q - exact.delta_q)
+    free = np.linalg.solve(form.H, form.g)
+    error = np.sqrt((enclosed.delta_q - exact.delta_q) @ H_off / (free @ form.H @ free))
+    assert error <= enclosed.bound
+
+
+def test_a_wrong_active_set_is_enclosed_honestly(problem):
+    """Without any rows x is H^-1 g: no nearer to the answer than the distance of the two."""
+    form, x = problem.form, problem.answer.delta_q
+    free = np.linalg.solve(form.H, form.g)
+    far = np.sqrt((free - x) @ form.H @ (free - x) / (free @ form.H @ free))
+    enclosed = enclosed_answer(step_of(form), [])
+    assert enclosed is not None
+    np.testing.assert_allclose(enclosed.delta_q, free, rtol=1e-12)
+    assert enclosed.error >= far
+
+
+def test_natural_units_change_nothing_but_the_units(problem):
+    natural = natural_form(problem.form, units_of(problem.form))
+    units = units_of(problem.form)
+    scale = units.size * units.coordinate
+    np.testing.assert_array_equal(answer_of(natural).delta_q * scale, problem.answer.delta_q)
+    assert condition(natural) < condition(problem.form)
+
+
+def reply_of(x, lam, said_optimal=True):
+    return Reply(x, lam, said_optimal, "said", 7, 0.5, 1.0)
+
+
+def lam_of(form, x):
+    """Multipliers that balance x, not all of them positive."""
+    return np.linalg.lstsq(form.A.T, form.H @ x - form.g, rcond=None)[0]
+
+
+@pytest.mark.parametrize("units", ["raw", "natural"])
+@pytest.mark.parametrize("exponent", [3, 6, 9])
+def test_digits_are_those_that_were_spoilt(problem, units, exponent):
+    """X = x* + 10^-e ||H^-1 g||_H v with ||v||_H = 1 has an error of 10^-e, whatever the units."""
+    ready = prepared(problem)
+    H, g = problem.form.H, problem.form.g
+    v = np.linalg.solve(H, g) / np.sqrt(g @ np.linalg.solve(H, g))
+    free = np.sqrt(g @ np.linalg.solve(H, g))
+    x = problem.answer.delta_q + 10.0**-exponent * free * v
+    lam = lam_of(problem.form, x)  # H x - g = A' lam: the net impulse is off by H (x - x*)
+    if units == "natural":
+        x = x / (ready.units.size * ready.units.coordinate)
+        lam = lam * (ready.units.length / ready.units.size)
+    row = grades(ready, units, reply_of(x, lam), promised=4.5)
+    assert row["digits"]["delta_q"] == pytest.approx(exponent, abs=1e-3)
+    assert row["digits"]["net_wrench"] == pytest.approx(exponent, abs=1e-3)
+    assert row["wrong"] == (exponent < 4.5)
+    assert row["seconds"]["call"] == 1.0
+    assert row["iterations"] == 7
+
+
+def test_residuals_are_those_of_qpbenchmark(problem):
+    """Primal max(0, G x - h), dual |P x + q + G' z|, gap |x' P x + q' x + h' z|, by loops."""
+    rng = np.random.default_rng(0)
+    form = problem.form
+    x, z = 1e-4 * rng.normal(size=len(form.g)), 1e-4 * rng.uniform(size=len(form.b))
+    P, q, G, h = form.H, -form.g, -form.A, -form.b
+    primal = max(max(0.0, sum(G[i] * x) - h[i]) for i in range(len(h)))
+    dual = max(abs(sum(P[v] * x) + q[v] + sum(G[:, v] * z)) for v in range(len(q)))
+    gap = abs(sum(x[v] * sum(P[v] * x) for v in range(len(q))) + sum(q * x) + sum(h * z))
+    row = grades(prepared(problem), "raw", reply_of(x, z), 3.0)
+    found = [row["residuals"][name] for name in ("primal", "dual", "gap")]
+    np.testing.assert_allclose(found, [primal, dual, gap], rtol=1e-10, atol=1e-16)
+
+
+def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
+    row = grades(prepared(problem), "raw", reply_of(problem.answer.delta_q, None, False), 3.0)
+    assert (row["outcome"], row["wrong"]) == ("failed", False)
+    assert row["digits"] == {"delta_q": 16.0, "net_wrench": None, "multipliers": None}
+
+
+def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):
+    x = np.full(len(problem.form.g), np.nan)
+    row = grades(prepared(problem), "raw", reply_of(x, None, False), 3.0)
+    assert (row["outcome"], row["wrong"], row["digits"]["delta_q"]) == ("failed", False, None)
+
+
+def test_a_neighbour_differs_in_g_alone_by_one_percent_at_most(problem):
+    near = neighbour(problem.form, problem.id)
+    assert near.H is problem.form.H
+    assert near.A is problem.form.A
+    change = np.abs(near.g / problem.form.g - 1)[problem.form.g != 0]
+    assert 0 < change.max() <= NEAR * (1 + 1e-12)
+    np.testing.assert_array_equal(near.g, neighbour(problem.form, problem.id).g)
+
+
+def test_the_slabs_gaps_are_never_negative():
+    assert min(slab(seed).step.contacts.phi.min() for seed in range(5)) >= 0

@@ -1,0 +1,143 @@
+"""What a solver's author looks at first, and the command that runs it on one problem again."""
+
+import json
+import math
+import re
+import shlex
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.commands import study_ask
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.ask import question
+from quasistatic_ref.lab.study.qp import UNITS
+from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.store import rows_read
+from tests.lab.study import made_store, plain_report
+from tests.lab.study.plain_report import delivered, picked, said, seconds
+
+STUDY = """
+repetitions = 2
+time_limit = 1.0
+[problems]
+families = { mass_ratio = 12 }
+[settings.strict]
+accuracy = 1e-7
+[solvers.mine]
+callable = "planted_solvers:liar"
+options.default = {}
+[[runs]]
+solvers = ["qpsolvers:proxqp", "mine"]
+settings = ["default", "strict"]
+"""
+WEDGE = "wedge/0.1/0"
+
+
+def worst_tables(folder):
+    tables = plain_report.parsed(markdown_page(study_report(folder)))
+    return [table for table in tables if table[0].startswith("Worst")]
+
+
+def most(bound):
+    """Digits to which an answer is known: -log10 of its bound, at most 16."""
+    return min(16.0, -math.log10(bound)) if bound else 16.0
+
+
+def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tmp_path):
+    """Sorted again by plain loops, both downwards; 12 problems, of which 10 are shown."""
+    rows = made_store.written(tmp_path / "store")
+    path = tmp_path / "store" / "problems.jsonl"
+    facts = [json.loads(line) for line in path.read_text().splitlines()]
+    facts = [fact | {"bound": 1e-9 if fact["m"] > 30 else 0.0} for fact in facts]
+    path.write_text("".join(json.dumps(fact) + "\n" for fact in facts))
+    bounds = {fact["id"]: fact["bound"] for fact in facts}
+    rows = [row for row in rows if row["repetition"] == 0]
+    tables = worst_tables(tmp_path / "store")
+    assert len(tables) == 3  # ant, bee and cat, each by one interface
+    for _, where, _, body in tables:
+        own = picked(rows, where)
+        assert len(own) == 12
+        key = {}
+        for row in own:
+            missed = max(most(bounds[row["problem"]]) - delivered(row), 0)
+            key[row["problem"]] = (-missed, -seconds(row, made_store.LIMIT), row["problem"])
+        assert [line[0] for line in body] == sorted(key, key=key.get)[:10]
+        for problem, outcome, _, false, _, digits, known, time in body:
+            assert plain_report.agrees(known, most(bounds[problem]))
+            (row,) = (row for row in own if row["problem"] == problem)
+            assert outcome == row["outcome"]
+            assert plain_report.agrees(digits, delivered(row))
+            assert plain_report.agrees(time, 1e3 * seconds(row, made_store.LIMIT))
+            assert false == ("yes" if row["wrong"] else "no")
+
+
+def test_each_command_runs_the_same_again_and_finds_the_same(run, tmp_path, monkeypatch, capsys):
+    """Digits of a deterministic solver to the last; its options are those of the study."""
+    run(STUDY)
+    monkeypatch.chdir(tmp_path)
+    rows = [row for row in rows_read(tmp_path / "store") if row["repetition"] == 0]
+    tables = worst_tables(tmp_path / "store")
+    assert {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables} == {
+        "qpsolvers:proxqp", "callable:mine"}  # fmt: skip
+    for _, where, _, body in tables:
+        for problem, _, _, _, command, *_ in (body[0], body[-1]):
+            words = shlex.split(command.strip("`"))
+            assert words[:3] == ["quasistatic-ref", "study", "ask"]
+            status = main([*words[1:], "--store", "store", "--json"])
+            found = json.loads(capsys.readouterr().out)
+            (row,) = (r for r in picked(rows, where) if r["problem"] == problem)
+            assert status == int(row["wrong"] or row["wrong_multipliers"])
+            names = ("problem", "outcome", "claimed", "wrong")
+            assert {n: found[n] for n in names} == {n: row[n] for n in names}
+            assert f"{found['setting']}" == said(row, "setting")
+            if row["digits"]["delta_q"] is not None:
+                assert found["digits"]["delta_q"] == pytest.approx(
+                    row["digits"]["delta_q"], abs=0.5
+                )
+
+
+def test_a_problem_of_the_set_is_run_without_any_store(capsys):
+    assert tuple(sorted(UNITS)) == study_ask.UNITS
+    assert main(["study", "ask", WEDGE, "qpsolvers:daqp", "tuned"]) == 0
+    out = capsys.readouterr().out
+    assert "13 coordinates, 44 rows" in out
+    assert "primal_tol=1e-12" in out
+    assert re.search(r"digits +delta_q 1[3-6]\.\d", out)
+    assert "none (5.5 digits are promised by an optimal)" in out
+
+
+def test_a_callable_of_ones_own_is_run_by_its_name_and_its_claim_judged(
+    study, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    assert main(["study", "ask", WEDGE, "planted_solvers:liar", "--units", "raw"]) == 1
+    out = capsys.readouterr().out
+    assert "said optimal, was wrong" in out
+    assert main(["study", "ask", WEDGE, "planted_solvers:honest"]) == 0
+    assert main(["study", "ask", WEDGE, "planted_solvers:nobody"]) == 2
+
+
+@pytest.mark.parametrize(("words", "problem"), [
+    ((WEDGE, "qpsolvers:dapq", "default"), "did you mean 'daqp'"),
+    ((WEDGE, "daqp", "default"), "neither interface:name nor module:function"),
+    ((WEDGE, "qpsolvers:daqp", "tunde"), "did you mean 'tuned'"),
+    ((WEDGE, "qpsolvers:clarabel", "default", "natural", True), "takes no start"),
+    (("wedge/0.1/x", "qpsolvers:daqp", "default"), "is no problem of contact-qp-1"),
+])  # fmt: skip
+def test_what_cannot_be_run_is_refused_in_a_sentence(words, problem):
+    with pytest.raises(InputError, match=problem):
+        question(*words)
+
+
+def test_cones_are_refused(members):
+    (name, *_) = (one.id for one in members if one.facts["family"] == "ellipsoid")
+    with pytest.raises(InputError, match="has cones or sparse matrices"):
+        question(name, "qpsolvers:daqp", "default")
+
+
+def test_a_stranger_to_a_store_is_refused(run, tmp_path):
+    run(STUDY.replace("mass_ratio = 12", "mass_ratio = 1"))
+    with pytest.raises(InputError, match="is no solver of the study"):
+        question("mass_ratio/1/0", "qpsolvers:daqp", "default", store=tmp_path / "store")

@@ -1,0 +1,72 @@
+"""The comparison with MuJoCo: the formula of its contact point, and what its absence does."""
+
+import numpy as np
+
+from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.claims.engines import mujoco_rows
+from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of, tangent_map
+from quasistatic_ref.lab.claims.engines.mujoco_scenes import heap
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.step.friction import friction_rows
+from tests.helpers import changed, random_frame
+from tests.tolerances import ROUNDING
+
+
+def test_one_point_midway_changes_tangential_rows_by_the_formula(rng):
+    # Rows with alpha = p - phi/2 n and beta = p + phi/2 n, minus rows with both at p, are
+    # +- mu_k (phi/2) (n x t_k).(omega_1 + omega_2); torsional rows do not differ.
+    system = heap(3).system
+    kinematics = system.kinematics(system.q_start)
+    d1, d2, n = random_frame(rng)
+    p, phi, mu = rng.normal(size=3), 0.03, 0.7
+    one, two = np.array([1]), np.array([2])
+
+    def rows(half):
+        J = contact_jacobian(kinematics, one, two, (p - half)[None], (p + half)[None], n[None])
+        return friction_rows(contacts_of(phi, [[d1, d2, n]], J, mu, 0.02, (6,)))[0]
+
+    omega = kinematics.J[1, 3:] + kinematics.J[2, 3:]
+    t1, t2 = (mu * phi / 2 * np.cross(n, t) @ omega for t in (d1, d2))
+    expected = np.array([t1, t2, -t1, -t2, 0 * t1, 0 * t1])
+    assert np.abs(expected).max() > 1e-4
+    difference = rows(phi / 2 * n) - rows(np.zeros(3))
+    np.testing.assert_allclose(difference, expected, rtol=0.0, atol=ROUNDING)
+
+
+def test_the_tangent_map_keeps_lengths_and_moves_the_hinge_last():
+    scene = heap(5)
+    T = tangent_map(scene.system, scene.bodies)
+    np.testing.assert_allclose(T.T @ T, np.eye(len(T)), rtol=0.0, atol=ROUNDING)
+    assert scene.system.coordinates[0].name == "arm/hinge"
+    assert T[-1, 0] == 1.0
+
+
+def test_every_scene_has_several_bodies_and_contacts():
+    scenes = [heap(seed) for seed in range(mujoco_rows.SCENES)]
+    assert len(scenes) >= 10
+    assert all(len(scene.bodies) >= 3 for scene in scenes)
+    assert all(len(rows_of(scene)["ours"]) >= 1 for scene in scenes)
+
+
+def test_without_the_formula_the_rows_do_not_agree(monkeypatch):
+    def without(scene):
+        rows = rows_of(scene)
+        return rows | {"shift": 0 * rows["shift"]}
+
+    assert finding(mujoco_rows.CLAIM).verdict == HOLDS
+    monkeypatch.setattr(mujoco_rows, "rows_of", without)
+    found = finding(mujoco_rows.CLAIM)
+    assert found.verdict == FAILS
+    # It is the tangential rows that suffer, and the torsional ones that do not.
+    holds = {c.what.split()[0]: c.holds for c in found.evidence.comparisons}
+    assert not holds["tangential"]
+    assert holds["torsional"]
+
+
+def test_a_wrong_coefficient_is_noticed(monkeypatch):
+    def wrong(contacts):
+        return friction_rows(changed(contacts, mu_omega=2 * contacts.mu_omega))
+
+    monkeypatch.setattr(mujoco_rows, "friction_rows", wrong)
+    assert finding(mujoco_rows.CLAIM).verdict == FAILS

@@ -1,0 +1,101 @@
+"""The committed vectors and the NumPy runner, for the tests of the checker."""
+
+import functools
+import importlib
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.folder import layer_report
+from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
+from quasistatic_ref.lab.vectors.layers import LAYERS
+
+ROOT = Path(__file__).parents[3]
+VECTORS = ROOT / "validation" / "vectors"
+RUNNERS = ROOT / "validation" / "runners"
+JAVASCRIPT = LAYERS[1:7]
+NUMPY = LAYERS[:8]
+"""Layers that the runners answer."""
+
+
+@functools.cache
+def cases(layer):
+    """The inputs of a layer; not to be changed."""
+    return tuple(inputs_read(VECTORS, layer))
+
+
+@functools.cache
+def expected(layer):
+    """What is expected of a layer, by id; not to be changed."""
+    return expected_read(VECTORS, layer)
+
+
+def right_answers(layer):
+    """The expected outputs of a layer as answers, by id."""
+    return {
+        name: {field: v for field, v in record["output"].items() if field != "certificate"}
+        for name, record in expected(layer).items()
+    }
+
+
+@functools.cache
+def small_cases(layer):
+    """Every third case of a layer, and of the steps the 24 with the least input."""
+    if layer in ("step", "derivative"):
+        return tuple(sorted(cases(layer), key=lambda case: len(str(case.input)))[:24])
+    return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
+
+
+def report_on(layer, outputs, **declared):
+    """The report on answers that are given by id, of these cases alone."""
+    given = [case for case in cases(layer) if case.id in outputs]
+    known = {case.id: expected(layer)[case.id] for case in given}
+    return layer_report(layer, given, known, Answers(outputs, "test", **declared))
+
+
+@functools.cache
+def runner(name="numpy_runner"):
+    """A module of the NumPy runner."""
+    if str(RUNNERS) not in sys.path:
+        sys.path.insert(0, str(RUNNERS))
+    return importlib.import_module(name)
+
+
+def runner_answers(layer, change=lambda case: case):
+    """What the NumPy runner answers to some cases of a layer, their inputs changed."""
+    module = runner()
+    solve = getattr(module, layer)
+    return {case.id: module.plain(solve(change(case.input))) for case in small_cases(layer)}
+
+
+@functools.cache
+def planted_bugs():
+    """The mistakes that are put into the runners; not to be changed."""
+    text = (ROOT / "validation" / "planted" / "bugs.toml").read_text(encoding="utf-8")
+    return {bug["name"]: bug for bug in tomllib.loads(text)["bug"]}
+
+
+def answer_file(folder, layer, outputs, **head):
+    """Write a file of answers, by id; `head` replaces fields of its head."""
+    top = {
+        "format": "quasistatic-ref/vectors-answers",
+        "version": 1,
+        "layer": layer,
+        "implementation": "test 0.1",
+        "answers": [{"id": name, "output": output} for name, output in outputs.items()],
+        **head,
+    }
+    path = folder / f"{layer}.json"
+    path.write_text(json.dumps(top))
+    return path
+
+
+LIGHT = ("selection", "rows", "wrench")
+"""Layers that are checked in no time."""
+
+
+def by_layer(report):
+    """What a report says of each layer."""
+    return {layer.layer: layer for layer in report.layers}

@@ -1,0 +1,152 @@
+"""Answer files that are missing, cut off, or full of something else; the rest is still checked."""
+
+import json
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.vectors.check.folder import check_answers
+from tests.lab.vectors.material import LIGHT, VECTORS, answer_file, by_layer, cases, right_answers
+
+
+def test_right_answers_pass_and_layers_without_a_file_are_named(folder):
+    report = check_answers(folder, VECTORS)
+    assert report.ok
+    assert report.status == 0
+    found = by_layer(report)
+    assert all(found[name].count("passed") == len(cases(name)) for name in LIGHT)
+    assert not found["qp"].present
+    assert any("qp" in sentence and "not answered" in sentence for sentence in report.sentences)
+
+
+def test_a_layer_that_is_asked_for_has_to_be_there(folder):
+    report = check_answers(folder, VECTORS, ["rows", "qp"])
+    assert report.status == 1
+    assert any("no qp.json" in sentence for sentence in report.sentences)
+
+
+def truncated(path):
+    path.write_text(path.read_text()[:-200])
+
+
+def emptied(path):
+    path.write_text("")
+
+
+def a_list(path):
+    path.write_text("[1, 2]")
+
+
+def not_text(path):
+    path.write_bytes(b"\xff\xfe\x00\x01")
+
+
+def of_another_layer(path):
+    path.write_text(path.read_text().replace('"layer": "rows"', '"layer": "qp"'))
+
+
+def of_another_version(path):
+    path.write_text(path.read_text().replace('"version": 1', '"version": 2'))
+
+
+def with_a_misspelt_field(path):
+    path.write_text(path.read_text().replace('"implementation"', '"implementer"'))
+
+
+def in_an_unknown_tangent(path):
+    path.write_text(path.read_text().replace('"version"', '"tangent": "spatial", "version"'))
+
+
+def replaced_by_a_folder(path):
+    path.unlink()
+    path.mkdir()
+
+
+BAD_FILES = {
+    "truncated": (truncated, "is not JSON"),
+    "empty": (emptied, "is not JSON"),
+    "a list": (a_list, "table of named fields"),
+    "not text": (not_text, "UTF-8"),
+    "another layer": (of_another_layer, "layer"),
+    "another version": (of_another_version, "version"),
+    "a misspelt field": (with_a_misspelt_field, "implementation"),
+    "an unknown tangent": (in_an_unknown_tangent, "tangent"),
+    "a folder": (replaced_by_a_folder, "cannot be read"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "says"), BAD_FILES.values(), ids=BAD_FILES)
+def test_a_bad_file_is_reported_by_name_and_the_rest_is_checked(folder, spoil, says):
+    spoil(folder / "rows.json")
+    report = check_answers(folder, VECTORS)
+    found = by_layer(report)
+    assert report.status == 1
+    assert not found["rows"].ok
+    assert "rows.json" in found["rows"].trouble
+    assert says in found["rows"].trouble
+    assert found["rows"].count("missing") == len(cases("rows"))
+    assert found["wrench"].ok
+    assert found["selection"].ok
+
+
+def test_a_case_that_is_missing_unknown_or_answered_twice_is_named(folder):
+    answers = right_answers("rows")
+    first, *rest = answers
+    answer_file(folder, "rows", {name: answers[name] for name in rest})
+    report = by_layer(check_answers(folder, VECTORS))["rows"]
+    assert report.count("missing") == 1
+    assert first in report.trouble
+    assert not report.ok
+
+    answer_file(folder, "rows", {**answers, "rows/no_such_case": answers[first]})
+    assert "rows/no_such_case" in by_layer(check_answers(folder, VECTORS))["rows"].trouble
+
+    entries = [{"id": name, "output": answers[name]} for name in [*answers, first]]
+    answer_file(folder, "rows", {}, answers=entries)
+    assert "twice" in by_layer(check_answers(folder, VECTORS))["rows"].trouble
+
+
+def test_the_command_prints_a_table_and_ends_with_status_1(folder, capsys):
+    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS)]) == 0
+    assert "rows" in capsys.readouterr().out
+    answers = right_answers("rows")
+    name = next(name for name, output in answers.items() if output["b"])
+    wrong = {**answers[name], "b": [v + 1.0 for v in answers[name]["b"]]}
+    answer_file(folder, "rows", {**answers, name: wrong})
+    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS)]) == 1
+    printed = capsys.readouterr()
+    assert name in printed.out
+    assert f"{name}: b[" in printed.err
+
+
+def test_the_json_report_says_all_of_it(folder, capsys):
+    answers = right_answers("rows")
+    name = next(name for name, output in answers.items() if output["b"])
+    answer_file(folder, "rows", {**answers, name: None})
+    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS), "--json"]) == 1
+    report = json.loads(capsys.readouterr().out)
+    assert report["format"] == "quasistatic-ref/vectors-report"
+    assert not report["ok"]
+    found = {layer["layer"]: layer for layer in report["layers"]}
+    assert found["rows"]["first_failure"]["id"] == name
+    assert found["rows"]["failed"] == 1
+    assert found["selection"]["worst_digits"] == 16
+    assert not found["qp"]["answered"]
+    assert len(found["rows"]["cases"]) == len(answers)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["no_such_folder"], "no folder of answers"),
+        (["EMPTY"], "answers no layer"),
+        (["EMPTY", "--layer", "row"], "rows"),
+        (["EMPTY", "--vectors", "no_such_folder"], "expected"),
+    ],
+)
+def test_what_is_no_folder_of_answers_or_vectors_is_refused(tmp_path, arguments, says, capsys):
+    given = [str(tmp_path) if word == "EMPTY" else word for word in arguments]
+    if "--vectors" not in given:
+        given += ["--vectors", str(VECTORS)]
+    assert main(["vectors", "check", *given]) == 2
+    assert says in capsys.readouterr().err

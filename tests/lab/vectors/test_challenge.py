@@ -1,0 +1,237 @@
+"""A challenge finds what is wrong, names it, makes it small, and is the same for the same seed."""
+
+import io
+import json
+import re
+import shlex
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case, record_of
+from quasistatic_ref.lab.vectors.challenge.live import challenge
+from quasistatic_ref.lab.vectors.challenge.serve import served
+from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
+from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from tests.lab.vectors.material import NUMPY, ROOT, RUNNERS, runner
+from tests.lab.vectors.programs import command
+from validation import challenges, planted_bugs
+
+TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
+CHALLENGES = TABLE.with_name("challenges.md")
+ANSWERED = {"numpy": NUMPY, "javascript": [name for name in NUMPY if name != "distance"]}
+"""Layers that each runner answers; whole steps of simple shapes in JavaScript."""
+
+
+def numpy_runner(name, case):
+    return getattr(runner(), name)(case) if name in NUMPY else None
+
+
+def test_a_right_function_is_found_right_in_every_layer():
+    found = challenge(numpy_runner, cases=66)
+    assert found.findings == []
+    assert sum(found.verdicts.values()) == found.sent.total() == 66
+    assert set(found.sent) == set(LAYERS)
+
+
+def without_spin(name, case):
+    output = numpy_runner(name, case)
+    if name == "jacobian":
+        output["J"] = [np.vstack([J[:3], -J[3:]]) for J in output["J"]]
+    return output
+
+
+def test_a_mistake_is_named_and_its_case_is_small():
+    found = challenge(without_spin, layers=["jacobian"], cases=30)
+    (finding,) = found.findings
+    assert (finding.layer, finding.field, finding.mistakes) == ("jacobian", "J", ("spin sign",))
+    (body,), (contact,) = finding.case["mechanism"]["bodies"], finding.case["contacts"]
+    assert body["placement"]["quaternion"] == [0.0, 0.0, 0.0, 1.0]
+    assert sorted(map(abs, contact["n"])) == [0.0, 0.0, 1.0]
+    assert finding.given["J"][0][3] == [-x for x in finding.expected["J"][0][3]]
+
+
+def test_the_same_seed_gives_the_same_findings_and_another_other_cases():
+    def first(seed, **more):
+        found = challenge(without_spin, layers=["jacobian"], cases=6, seed=seed, **more)
+        return [finding.record for finding in found.findings]
+
+    assert first(3) == first(3) == first(3, jobs=2)
+    one, other = (fresh_case("rows", (seed, 0, 0), PLAIN)[0] for seed in (3, 4))
+    assert one != other
+
+
+def test_a_function_that_raises_or_returns_no_output_is_a_finding():
+    def raises(name, case):
+        raise ZeroDivisionError("no mass")
+
+    (finding,) = challenge(raises, layers=["rows"], cases=6).findings
+    assert (finding.kind, finding.reason) == ("error", "error: ZeroDivisionError: no mass")
+    (finding,) = challenge(lambda *_: object(), layers=["rows"], cases=6).findings
+    assert finding.kind in ("garbage", "wrong")
+    found = challenge(lambda *_: None, layers=["rows"], cases=30)
+    assert (found.status, found.remarks) == (0, ["rows is not supported"])
+
+
+@pytest.mark.parametrize("level", [EASY, PLAIN, HARD])
+@pytest.mark.parametrize("name", LAYERS)
+def test_every_fresh_case_is_valid_and_the_same_again(name, level):
+    case, record = fresh_case(name, (5, level, 1), level)
+    again = fresh_case(name, (5, level, 1), level)
+    assert (case, record) == again
+    assert record_of(name, json.loads(json.dumps(case))) == record
+
+
+def test_the_first_round_has_one_contact_and_round_numbers():
+    for number in range(10):
+        case, _ = fresh_case("rows", (0, 0, number), EASY)
+        (contact,) = case["contacts"]
+        assert sorted(map(abs, contact["n"])) == [0.0, 0.0, 1.0]
+        assert float(f"{contact['mu_v']:.1g}") == contact["mu_v"]
+
+
+@pytest.mark.parametrize("name", LAYERS[:8])  # derivatives have the inputs of steps
+def test_every_move_makes_another_input_and_some_are_valid(name):
+    case, _ = fresh_case(name, (0, 1, 0), PLAIN)
+    text = json.dumps(case)
+    valid = 0
+    for move in MOVES:
+        for other in list(move(case))[:8]:
+            assert json.dumps(case) == text  # what is given stays as it is
+            valid += record_of(name, other) is not None
+    assert valid > 3
+
+
+def test_shrinking_ends_where_no_single_move_fails_any_more():
+    case, _ = fresh_case("rows", (0, 1, 2), PLAIN)
+
+    def fails(other):  # something with J[0][0][0] beyond a half
+        return bool(other["contacts"]) and abs(other["contacts"][0]["J"][0][0]) > 0.5
+
+    case["contacts"][0]["J"][0][0] = 0.75
+    small = shrunk(case, fails, 2000)
+    assert len(small["contacts"]) == 1
+    assert np.shape(small["contacts"][0]["J"]) == (4, 1)
+    assert np.count_nonzero(small["contacts"][0]["J"]) == 1
+
+
+def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
+    out, program = tmp_path / "found", command("wrong", tmp_path)
+    given = ["vectors", "challenge", "--command", program, "--layer", "selection", "--cases", "6"]
+    assert main([*given, "--out", str(out), "--quiet"]) == 1
+    printed = capsys.readouterr()
+    (folder,) = out.iterdir()
+    assert printed.out.splitlines()[-1] == str(folder)
+    page = (folder / "README.md").read_text()
+    (line,) = (line for line in page.splitlines() if "--again" in line)
+    wanted = ["--command", program, "--again", str(folder / "counterexample.json")]
+    assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
+    again = ["--again", str(folder / "counterexample.json")]
+    assert main(["vectors", "challenge", "--command", program, *again, "--json"]) == 1
+    (record,) = json.loads(capsys.readouterr().out)["findings"]
+    assert record["case"] == json.loads((folder / "counterexample.json").read_text())["case"]
+    right = command("right", tmp_path)
+    assert main(["vectors", "challenge", "--command", right, *again, "--quiet"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ([], "--command: is missing"),
+        (["--command", "./no_such_program"], "cannot be started"),
+        (["--command", "x", "--cases", "0"], "--cases: must be positive"),
+        (["--command", "x", "--timeout", "nan"], "--timeout: must be positive"),
+        (["--command", "x", "--seed", "-1"], "--seed: must be 0 or more"),
+        (["--command", "x", "--digits", "20"], "--digits: must be at most 16"),
+        (["--command", "x", "--layer", "row"], "did you mean 'rows'?"),
+        (["--command", "x", "--again", "no_such_file"], "no_such_file"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_2(given, says, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["vectors", "challenge", *given]) == 2
+    errors = capsys.readouterr().err
+    assert says in errors
+    assert errors.count("\n") == 1
+
+
+def test_serving_answers_each_line_and_survives_what_is_no_case():
+    case, _ = fresh_case("rows", (0, 0, 0), EASY)
+    lines = [json.dumps({"id": "a", "layer": "rows", "input": case}), "no JSON", "[]",
+             json.dumps({"id": "b", "layer": "row", "input": {}}),
+             json.dumps({"id": "c", "layer": "rows", "input": {}})]  # fmt: skip
+    out = io.StringIO()
+    served(io.StringIO("\n".join(lines) + "\n"), out)
+    first, *answers = map(json.loads, out.getvalue().splitlines())
+    assert (first["protocol"], first["layers"]) == (1, list(LAYERS))
+    assert answers[0]["output"] == layer("rows").expected(case).output
+    assert [answer["id"] for answer in answers] == ["a", None, None, "b", "c"]
+    assert all("error" in answer for answer in answers[1:])
+
+
+def test_the_package_is_found_right_over_its_own_protocol(tmp_path, capsys):
+    serve = f"{sys.executable} -m quasistatic_ref.cli.main vectors challenge --serve own"
+    given = [
+        "vectors",
+        "challenge",
+        "--command",
+        serve,
+        "--cases",
+        "44",
+        "--quiet",
+        "--timeout",
+        "100",
+    ]
+    assert main([*given, "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
+def test_the_runners_are_found_right(name, tmp_path, capsys):
+    words = planted_bugs.COMMANDS[name].format(folder=RUNNERS)
+    given = ["vectors", "challenge", "--command", words, "--cases", "44", "--seed", "1"]
+    assert main([*given, "--quiet", "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "bug"),
+    [("numpy", "gravity upwards"), ("javascript", "one point midway")],
+)
+def test_a_planted_bug_is_found_named_and_small(name, bug):
+    (given,) = (one for one in planted_bugs.bugs() if one["name"] == bug)
+    one = planted_bugs.trial(given, name)
+    assert one.verdict == "named"
+    assert one.seconds < planted_bugs.SECONDS
+    small = one.smallest.case
+    assert planted_bugs.contacts(small) <= 2
+    assert planted_bugs.bodies(small) <= 2
+    assert np.median(planted_bugs.digits(small)) <= 3
+
+
+def test_the_committed_table_of_planted_bugs_keeps_its_promises():
+    rows = [row.strip("| ").split(" | ") for row in TABLE.read_text().splitlines() if "| " in row]
+    rows = [row for row in rows if row[0] in planted_bugs.COMMANDS]
+    names = [bug["name"] for bug in planted_bugs.bugs()]
+    for one in planted_bugs.COMMANDS:
+        assert [row[1] for row in rows if row[0] == one] == names
+        verdicts = [row[3] for row in rows if row[0] == one]
+        assert len(verdicts) >= 40
+        assert set(verdicts) == {"named", "not named"}
+        assert verdicts.count("named") >= 0.9 * len(verdicts)
+    assert max(int(row[5]) for row in rows) <= 2
+    assert max(int(row[6]) for row in rows) <= 2
+    assert np.median([float(row[7]) for row in rows]) <= 3
+
+
+def test_the_committed_challenges_of_20_000_cases_found_nothing():
+    page = CHALLENGES.read_text()
+    rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.count(" | ") == 7]
+    for name in planted_bugs.COMMANDS:
+        counts = [[int(n.replace(",", "")) for n in row[2:]] for row in rows if row[0] == name]
+        given, passed, acceptable, failed, unsupported, other = map(sum, zip(*counts, strict=True))
+        assert (failed, other) == (0, 0)
+        assert passed + acceptable == given - unsupported >= challenges.ANSWERS
+        assert {row[1] for row in rows if row[0] == name} == set(ANSWERED[name])
+        assert re.search(rf"{name}: seeds 1 to \d+, [\d,]+ answers judged, no findings.", page)

@@ -1,0 +1,279 @@
+"""Layer distance: closed forms by hand, two ways to one answer, uniqueness, the package's own."""
+
+from dataclasses import replace
+from itertools import islice
+from math import isqrt
+
+import numpy as np
+import pytest
+from flint import fmpq
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
+from quasistatic_ref.lab.vectors.exact.algebra import scaled, times
+from quasistatic_ref.lab.vectors.exact.precision import number
+from quasistatic_ref.lab.vectors.exact.rotation import axis_rotation, cos_sin
+from quasistatic_ref.lab.vectors.families.distance import SHAPES, distance_cases
+from quasistatic_ref.lab.vectors.layers import distance
+from quasistatic_ref.lab.vectors.whole.grid import matrix_on_grid, working
+from tests.lab.vectors.solids import (
+    FLOOR,
+    ON_SIDE,
+    ORIGIN,
+    at,
+    box,
+    cone,
+    convex,
+    cylinder,
+    ellipsoid,
+    sphere,
+)
+from tests.tolerances import ROUNDING
+
+CASES = {id_: case for id_, _, case in distance_cases()}
+CORNERS = [id_ for id_ in CASES if id_.startswith("distance/corner/")]
+
+NINETY_DIGITS = fmpq(1, 10**90)
+"""Of numbers that are rounded to 96 decimal places."""
+
+NOT_UNIQUE = {
+    *("spheres_concentric", "sphere_centre_on_edge", "sphere_centre_in_middle"),
+    *("sphere_inside_tie", "sphere_on_capsule_axis", "sphere_at_capsule_end"),
+    *("boxes_faces", "boxes_faces_touching", "boxes_faces_inside", "boxes_concentric"),
+    *("boxes_two_ways", "boxes_edges_parallel", "boxes_corner_touching", "box_crossed"),
+    *("box_on_floor", "box_on_edge", "capsules_parallel", "capsules_through"),
+    *("capsules_overlapping", "capsule_on_floor", "capsule_on_box", "capsule_axis_in_face"),
+    *("capsule_through_box", "convex_cube", "cylinder_standing", "cylinder_lying"),
+    *("cylinder_ball_on_axis", "cylinder_points", "cylinder_on_box", "cylinder_beside_box"),
+    *("cylinders_parallel", "cylinders_stacked", "cone_standing", "cone_points"),
+    *("ellipsoid_centre", "ellipsoid_points"),
+}
+
+
+def case(alpha, pose_alpha, beta, pose_beta):
+    return {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
+
+
+def answer(*args):
+    """Expected output and whether it is unique."""
+    output, _, unique = distance.answer(case(*args))
+    return {key: value[0] for key, value in output.items()}, unique[0]
+
+
+def own_ratios(id_):
+    """Distances of the package's answer from the expected, in tolerances."""
+    expected, own = distance.expected(CASES[id_]), distance.own(CASES[id_])
+    fields = distance.FIELDS if expected.flags["unique"] else ("phi",)
+    pairs = {key: (np.array(expected.output[key]), np.array(own[key])) for key in fields}
+    return {
+        key: np.abs(a - b).max() / expected.tolerance[key].absolute for key, (a, b) in pairs.items()
+    }
+
+
+def test_two_balls_three_four_five_apart():
+    # Centres (0.3, 0.4, 0) apart in exact eighths: |(0.375, 0.5)| = 0.625.
+    found, unique = answer(sphere(0.25), ORIGIN, sphere(0.125), at(0.375, 0.5, 0.0))
+    wanted = {"phi": 0.25, "alpha": [0.15, 0.2, 0.0], "n": [0.6, 0.8, 0.0]}
+    assert unique
+    assert {key: found[key] for key in wanted} == wanted
+    np.testing.assert_allclose(found["beta"], [0.3, 0.4, 0.0], rtol=0, atol=1e-16)
+
+
+def test_a_corner_before_a_corner():
+    # (0.25, 0.375, 0.75) apart: of length 0.875.
+    found, unique = answer(box(1, 1, 1), ORIGIN, box(0.5, 0.5, 0.5), at(1.0, 1.125, 1.5))
+    assert unique
+    assert found["phi"] == 0.875
+    assert found["alpha"] == [0.5, 0.5, 0.5]
+    assert found["beta"] == [0.75, 0.875, 1.25]
+
+
+@pytest.mark.parametrize("axis", [(2, 1, 2), (1, -2, 2), (6, 3, -2)])
+def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
+    # A tetrahedron's tip 0.1 m below the top of a cube, both turned by one radian: the cosine is
+    # rounded, and the matrix no rotation beyond the 96th digit.
+    axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
+    with working():
+        R = matrix_on_grid(axis_rotation(axis, *cos_sin(fmpq(1))))
+        tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
+        solids = [
+            replace(placed(shape, ORIGIN), R=R, t=times(R, [fmpq(0), fmpq(0), z]))
+            for shape, z in ((box(1, 1, 1), fmpq(0)), (convex(tips), number(0.65)))
+        ]
+        found = pair_witness(*solids)
+        up = [row[2] for row in R]
+        wanted = [scaled(up, fmpq(1, 2)), scaled(up, number(0.65) - fmpq(1, 4)), up]
+        for mine, theirs in zip((found.alpha, found.beta, found.n), wanted, strict=True):
+            assert all(abs(x - y) < NINETY_DIGITS for x, y in zip(mine, theirs, strict=True))
+        assert abs(found.phi + fmpq(3, 4) - number(0.65)) < NINETY_DIGITS
+
+
+def test_penetration_is_the_shortest_way_out():
+    # 0.1875 along x, 0.25 along y, 0.5 along z: out along x, n from alpha to beta all the same.
+    found, unique = answer(box(1, 1, 1), ORIGIN, box(0.5, 0.5, 0.5), at(0.5625, 0.5, 0.25))
+    assert (found["phi"], found["n"]) == (-0.1875, [1.0, 0.0, 0.0])
+    assert not unique  # the faces overlap in a rectangle
+    assert found["alpha"][0] == 0.5
+    assert found["beta"][0] == 0.3125
+
+
+def test_crossed_edges_meet_in_one_point():
+    # Two squares on edge, of half diagonal sqrt(1/2), 2 apart: phi = 2 - 2 sqrt(1/2) but for the
+    # eighth of a turn about x and y, tan(pi / 8) = sqrt(2) - 1 in float64.
+    eighth = np.sqrt(2) - 1
+    one = at(0.0, 0.0, 0.0, [eighth, 0.0, 0.0, 1.0])
+    other = at(0.0, 0.0, 2.0, [0.0, eighth, 0.0, 1.0])
+    found, unique = answer(box(1, 1, 1), one, box(1, 1, 1), other)
+    assert unique
+    np.testing.assert_allclose(found["phi"], 2 - np.sqrt(2), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found["n"], [0, 0, 1], rtol=0, atol=1e-15)
+
+
+def test_a_ball_in_the_plane_of_a_cone_is_as_far_as_from_its_side():
+    # A cone of radius 3 and height 4: its side's normal is (4, 3) / 5 in the half-plane (r, z).
+    # From (r, z) = (1.5, 0) + 2 (4, 3) / 5 the side is 2 away.
+    found, unique = answer(cone(3.0, 4.0), ORIGIN, sphere(0.5), at(3.1, 0.0, 1.2))
+    assert unique
+    np.testing.assert_allclose(found["phi"], 1.5, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found["n"], [0.8, 0, 0.6], rtol=0, atol=1e-15)
+
+
+def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near():
+    # x = (0, 1/2, 1) of half-axes 1/4, 1/2, 1 at p = (0, 0.1, 0): t = -1/16 gives
+    # x_y = p_y / (1 - 1/4), x_x^2 = 1/16 (1 - 4 x_y^2).
+    shape = ellipsoid(0.25, 0.5, 1.0)
+    found, unique = answer(shape, ORIGIN, {"kind": "sphere", "radius": 0.0}, at(0.0, 0.1, 0.0))
+    y = 0.1 / 0.75
+    x = np.sqrt((1 - 4 * y * y) / 16)
+    assert not unique
+    np.testing.assert_allclose(np.abs(found["alpha"]), [x, y, 0], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found["phi"], -np.hypot(x, y - 0.1), rtol=0, atol=1e-15)
+
+
+def test_cylinders_crossed_at_right_angles_are_as_far_as_their_axes():
+    found, unique = answer(cylinder(0.25, 2.0), ORIGIN, cylinder(0.5, 2.0), at(1.0, 0, 0, ON_SIDE))
+    assert unique
+    assert found == {"phi": 0.25, "alpha": [0.25, 0, 0], "beta": [0.5, 0, 0], "n": [1, 0, 0]}
+
+
+def test_two_rims_askew_are_where_a_fine_search_finds_them():
+    # The rims of two cylinders on 2,000 points each: the search is off by a step squared.
+    given = CASES["distance/corner/cylinders_rims"]
+    a, pose_a, b, pose_b = (given[key] for key in ("alpha", "pose_alpha", "beta", "pose_beta"))
+    found, _ = answer(a, pose_a, b, pose_b)
+    x, y, z, w = np.array(pose_b["quaternion"]) / np.linalg.norm(pose_b["quaternion"])
+    R = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    angle = np.linspace(0, 2 * np.pi, 2000)
+    ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(2000)], axis=1)
+    upper = a["radius"] * ring + [0, 0, a["length"] / 2]
+    lower = (b["radius"] * ring - [0, 0, b["length"] / 2]) @ R.T + pose_b["xyz"]
+    searched = np.sqrt(((upper[:, None] - lower) ** 2).sum(axis=2).min())
+    assert -1e-15 <= searched - found["phi"] <= 1e-5
+
+
+@pytest.mark.parametrize("other", ["sphere", "box", "capsule", "convex", "cylinder", "halfspace"])
+def test_a_box_is_its_eight_corners(other):
+    # The box has closed forms of its own against points; its corners go by facets.
+    corners = [[x, y, z] for x in (-0.15, 0.15) for y in (-0.25, 0.25) for z in (-0.2, 0.2)]
+    where = at(0.1, 0.2, 0.3, [0.1, 0.2, 0.3, 0.4]), at(0.4, 0.4, 0.6, [0.5, 0.1, -0.2, 0.3])
+    found = answer(box(0.3, 0.5, 0.4), where[0], SHAPES[other], where[1])
+    assert found == answer(convex(corners), where[0], SHAPES[other], where[1])
+
+
+@pytest.mark.parametrize("kind", ["box", "cylinder", "cone", "ellipsoid"])
+def test_alpha_is_on_the_surface_and_as_far_as_phi_says(kind):
+    pose = at(0.1, -0.2, 0.3, [0.1, 0.5, -0.3, 0.8])
+    reach = np.linspace(0.05, 1, 20)[:, None]
+    points = pose["xyz"] + reach * np.random.default_rng(8).uniform(-0.5, 0.5, (20, 3))
+    cloud = {"kind": "cloud", "points": points.round(3).tolist()}
+    found, _, _ = distance.answer(case(SHAPES[kind], pose, cloud, ORIGIN))
+    back, _, _ = distance.answer(
+        case(SHAPES[kind], pose, cloud | {"points": found["alpha"]}, ORIGIN)
+    )
+    np.testing.assert_allclose(back["phi"], 0, rtol=0, atol=1e-15)
+    apart = np.linalg.norm(np.subtract(found["beta"], found["alpha"]), axis=1)
+    np.testing.assert_allclose(apart, np.abs(found["phi"]), rtol=0, atol=1e-15)
+    assert min(found["phi"]) < 0 < max(found["phi"])
+
+
+@pytest.mark.parametrize("id_", list(CASES)[::7])
+def test_exchanging_the_sides_exchanges_the_answer(id_):
+    given = CASES[id_]
+    turned = case(given["beta"], given["pose_beta"], given["alpha"], given["pose_alpha"])
+    (one, _, unique), (other, _, _) = distance.answer(given), distance.answer(turned)
+    assert one["phi"] == other["phi"]
+    if all(unique):
+        assert one["alpha"] == other["beta"]
+        assert one["n"] == (-np.array(other["n"]) + 0.0).tolist()
+
+
+def test_the_corners_that_are_not_unique_are_known():
+    flags = {id_: all(distance.answer(CASES[id_])[2]) for id_ in CORNERS}
+    found = {id_.removeprefix("distance/corner/") for id_, unique in flags.items() if not unique}
+    assert found == NOT_UNIQUE
+
+
+def test_a_corner_that_rounding_chooses_is_not_called_unique():
+    # Tilted by 1e-17 rad a cube stands on one corner, and by four units of rounding on another.
+    tilted = at(0.0, 0.0, 0.5, [5e-18, 3e-18, 0.0, 1.0])
+    given = case(FLOOR, ORIGIN, box(1, 1, 1), tilted)
+    _, _, unique = distance.answer(given)
+    found = distance.expected(given)
+    assert unique == [True]
+    assert found.flags == {"unique": False}
+    assert found.tolerance["alpha"].absolute < 1e-13
+
+
+@pytest.mark.parametrize("id_", list(CASES)[::4])
+def test_the_package_meets_the_expected_answer(id_):
+    ratios = own_ratios(id_)
+    assert max(ratios.values()) <= 1, ratios
+
+
+def test_near_contact_a_difference_has_no_normal_and_the_tolerance_says_so():
+    near, apart = (CASES[f"distance/cylinder_box/{name}"] for name in ("near", "apart"))
+    tight, loose = (distance.expected(c).tolerance["n"] for c in (apart, near))
+    assert tight.absolute < 1e-13 < loose.absolute < 1e-5
+    assert "difference of near points" in loose.reason
+
+
+def test_a_change_of_the_last_digits_is_no_more_than_the_tolerance():
+    # A careless answer: the normal of float32.
+    expected = distance.expected(CASES["distance/box_sphere/apart"])
+    n = np.array(expected.output["n"])
+    assert np.abs(n.astype(np.float32) - n).max() > 1e5 * expected.tolerance["n"].absolute
+
+
+@pytest.mark.parametrize(
+    ("alpha", "beta", "match"),
+    [
+        (cylinder(1.0, 1.0), cylinder(1.0, 1.0), "meet"),
+        (cone(1.0, 1.0), ellipsoid(1.0, 1.0, 1.0), "no closed form"),
+        (SHAPES["halfspace"], SHAPES["halfspace"], "two halfspaces"),
+        ({"kind": "ball"}, sphere(1.0), "kind of shape"),
+        ({"kind": "sphere", "length": 1.0}, sphere(1.0), "has the fields"),
+        (convex([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), sphere(1.0), "plane"),
+    ],
+)
+def test_what_has_no_exact_answer_is_refused(alpha, beta, match):
+    with pytest.raises(InputError, match=match):
+        answer(alpha, ORIGIN, beta, at(0.25, 0.0, 0.0))
+
+
+def test_capsules_that_graze_have_the_normal_of_their_axes():
+    # The package took n from two points 1e-9 apart, right to 1e-7 only.
+    own = distance.own(CASES["distance/corner/capsules_grazing"])
+    np.testing.assert_allclose(own["n"], [1, 0, 0], rtol=0, atol=ROUNDING)
+
+
+def test_families_are_the_same_each_time():
+    assert {id_: c for id_, _, c in islice(distance_cases(), 12)} == {
+        id_: CASES[id_] for id_ in islice(CASES, 12)
+    }

@@ -1,0 +1,214 @@
+"""The committed vectors: valid, whole, what `generate` writes, and certified."""
+
+import hashlib
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from jsonschema import Draft202012Validator
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.vectors.files import inputs_read, inputs_text, line
+from quasistatic_ref.lab.vectors.generate import expected_record, generated, own_written
+from quasistatic_ref.lab.vectors.harvest import family
+from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.layers.qp import claimed, cone_step, step_of
+from tests.lab.vectors.material import ROOT, VECTORS, cases, expected
+
+MEBIBYTES = 25
+"""Promised size of the folder."""
+SAMPLE = 4
+"""Cases of each layer that are computed again: the first, the last and those between."""
+
+
+def schema(name):
+    return Draft202012Validator(
+        json.loads((VECTORS / "schemas" / f"{name}.schema.json").read_text())
+    )
+
+
+def sample(layer):
+    found = cases(layer)
+    return [found[i] for i in np.linspace(0, len(found) - 1, SAMPLE).astype(int)]
+
+
+@pytest.mark.parametrize("name", ["manifest", "inputs", "expected", "answers", *LAYERS])
+def test_every_schema_is_one_and_says_what_each_number_is(name):
+    content = schema(name).schema
+    Draft202012Validator.check_schema(content)
+    assert fields_without_description(content) == []
+
+
+def fields_without_description(content, at=""):
+    """Names of the fields in a schema that say neither what they are nor refer to a definition."""
+    found = []
+    for name, field in content.get("properties", {}).items():
+        if not {"description", "const", "$ref"} & set(field) and name not in ("input", "output"):
+            at_least = "type" in field and field["type"] == "boolean"
+            found += [] if at_least or "enum" in field else [f"{at}.{name}"]
+        found += fields_without_description(field, f"{at}.{name}")
+    for name, field in content.get("$defs", {}).items():
+        found += fields_without_description(field, f"{at}#{name}")
+    for part in content.get("oneOf", []):
+        found += fields_without_description(part, at)
+    return found
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_every_file_is_as_its_schema_says(layer):
+    inputs = json.loads((VECTORS / "inputs" / f"{layer}.json").read_text())
+    outputs = json.loads((VECTORS / "expected" / f"{layer}.json").read_text())
+    assert [e.message for e in schema("inputs").iter_errors(inputs)] == []
+    assert [e.message for e in schema("expected").iter_errors(outputs)] == []
+    pairs = zip(inputs["cases"], outputs["cases"], strict=True)
+    both = schema(layer)
+    wrong = [
+        (given["id"], error.message)
+        for given, record in pairs
+        for error in both.iter_errors({"input": given["input"], "output": record["output"]})
+    ]
+    assert wrong == []
+
+
+def test_the_schemas_refuse_what_is_wrong():
+    case, record = cases("rows")[0], expected("rows")[cases("rows")[0].id]
+    for broken in (
+        {"input": {**case.input, "cone": 3}, "output": record["output"]},
+        {"input": case.input, "output": {"A": record["output"]["A"]}},
+        {"input": {**case.input, "more": 1}, "output": record["output"]},
+    ):
+        assert not schema("rows").is_valid(broken)
+
+
+def complaints(folder):
+    """What of a folder is not as its manifest says."""
+    found = []
+    for entry in json.loads((folder / "manifest.json").read_text())["files"]:
+        path = folder / entry["path"]
+        if not path.is_file():
+            found.append(f"{entry['path']} is missing")
+        elif hashlib.sha256(path.read_bytes()).hexdigest() != entry["sha256"]:
+            found.append(f"{entry['path']} is another file")
+    return found
+
+
+def test_the_manifest_names_every_file_by_its_content(tmp_path):
+    assert complaints(VECTORS) == []
+    manifest = json.loads((VECTORS / "manifest.json").read_text())
+    assert [e.message for e in schema("manifest").iter_errors(manifest)] == []
+    files = {p.relative_to(VECTORS).as_posix() for p in VECTORS.rglob("*") if p.is_file()}
+    assert {entry["path"] for entry in manifest["files"]} == files - {"manifest.json"}
+    assert manifest["cases"] == {layer: len(cases(layer)) for layer in LAYERS}
+    size = sum(p.stat().st_size for p in VECTORS.rglob("*") if p.is_file())
+    assert size < MEBIBYTES * 2**20
+
+
+def test_a_changed_or_missing_file_is_noticed_by_its_manifest(tmp_path):
+    for entry in json.loads((VECTORS / "manifest.json").read_text())["files"]:
+        text_written(tmp_path / entry["path"], (VECTORS / entry["path"]).read_text())
+    text_written(tmp_path / "manifest.json", (VECTORS / "manifest.json").read_text())
+    assert complaints(tmp_path) == []
+    (tmp_path / "expected" / "rows.json").write_text("{}")
+    (tmp_path / "inputs" / "qp.json").unlink()
+    assert complaints(tmp_path) == [
+        "expected/rows.json is another file",
+        "inputs/qp.json is missing",
+    ]
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_a_sample_computed_anew_is_what_is_committed_byte_for_byte(layer):
+    committed = (VECTORS / "expected" / f"{layer}.json").read_text().splitlines()
+    for case in sample(layer):
+        assert line(expected_record(layer, case)) in {text.rstrip(",") for text in committed}
+
+
+@pytest.mark.parametrize("layer", LAYERS[1:8])  # the others are searched for: minutes
+def test_every_family_is_in_the_inputs_and_the_inputs_come_from_somewhere(layer):
+    ids = [case.id for case in cases(layer)]
+    by_rule = [case.id for case in family(layer)]
+    assert len(set(ids)) == len(ids)
+    assert set(by_rule) <= set(ids)
+    harvested = [case for case in cases(layer) if case.id not in set(by_rule)]
+    assert all("of the scenario" in case.provenance for case in harvested)
+
+
+def test_every_scenario_is_in_every_layer_but_selection():
+    names = {path.stem for path in (ROOT / "models").glob("*/*.toml")}
+    # Clouds alone have a selection; where faces are parallel, float64 has no derivative.
+    for layer in set(LAYERS) - {"selection", "derivative"}:
+        assert names <= {case.id.split("/")[1] for case in cases(layer)}
+
+
+def test_every_quadratic_program_is_verified_again_without_a_solver():
+    refused = {}
+    for case in cases("qp"):
+        output = expected("qp")[case.id]["output"]
+        conic = "second_order" in case.input
+        step = cone_step(case.input) if conic else step_of(case.input)
+        if "farkas" in output:
+            refused[case.id] = farkas_refutation(step, output["certificate"]["farkas"])
+            continue
+        claims = claimed(case.input, output)
+        lam, delta_q = np.array(output["lam"]), np.array(output["delta_q"])
+        refused[case.id] = verify(step, delta_q, claims.active, lam, claims).reason
+    assert {name: reason for name, reason in refused.items() if reason} == {}
+
+
+def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
+    for layer in LAYERS:
+        few = sorted(cases(layer), key=lambda case: len(line(case.json)))[:3]
+        text_written(tmp_path / "a" / "inputs" / f"{layer}.json", inputs_text(layer, few))
+    for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
+        text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
+    counts = generated(tmp_path / "a", tmp_path / "b", progress=False)
+    assert counts == dict.fromkeys(LAYERS, 3)
+    generated(tmp_path / "a", tmp_path / "a", progress=False)
+    content = [
+        {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+        for folder in (tmp_path / "a", tmp_path / "b")
+    ]
+    assert content[0] == content[1]
+    assert len(content[0]) == 1 + 3 + 2 * len(LAYERS)
+    assert complaints(tmp_path / "b") == []
+
+
+def test_answers_of_the_package_are_files_as_the_schema_says(tmp_path):
+    for path in own_written(VECTORS, tmp_path, ["selection", "wrench"], progress=False):
+        assert [
+            e.message for e in schema("answers").iter_errors(json.loads(path.read_text()))
+        ] == []
+
+
+def test_outputs_are_computed_without_robotics_stack_backends_and_blas(tmp_path):
+    few = {layer: cases(layer)[0].id for layer in LAYERS}
+    source = f"""
+import sys
+for name in ("pinocchio", "coal", "cvxpy", "qpsolvers", "scipy"): sys.modules[name] = None
+import numpy as np
+def refused(*_, **__): raise AssertionError("linear algebra or libm in float64")
+for name in ("solve", "inv", "qr", "svd", "eigh", "lstsq", "cholesky"):
+    setattr(np.linalg, name, refused)
+for name in ("sin", "cos", "exp", "log", "arctan2", "sqrt", "hypot"): setattr(np, name, refused)
+from quasistatic_ref.lab.vectors.files import inputs_read
+from quasistatic_ref.lab.vectors.generate import expected_record
+for layer, wanted in {few!r}.items():
+    (case,) = (c for c in inputs_read({str(VECTORS)!r}, layer) if c.id == wanted)
+    assert expected_record(layer, case)["output"]
+print("done")
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=False, cwd=ROOT
+    )
+    assert (run.returncode, run.stdout.strip()) == (0, "done"), run.stderr
+
+
+def test_a_shape_that_cases_share_stands_once_and_is_put_back(tmp_path):
+    text = (VECTORS / "inputs" / "step.json").read_text()
+    shared = json.loads(text)["shapes"]
+    assert sum(len(shape.get("points", [])) == 992 for shape in shared.values()) == 1
+    assert inputs_text("step", inputs_read(VECTORS, "step")) == text

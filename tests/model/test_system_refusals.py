@@ -1,0 +1,141 @@
+"""System: configurations, names and bodies that cannot be, each refused in words."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.tolerances import UNIT_QUATERNION
+from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
+from tests.tolerances import ROUNDING
+
+
+def test_a_configuration_keeps_its_bits_when_checked(
+    scene: System, q: np.ndarray, rng: np.random.Generator
+) -> None:
+    for _ in range(100):
+        q = scene.integrate(q, rng.normal(size=scene.n_v))
+        assert np.array_equal(scene.checked(q), q)
+
+
+def test_a_quaternion_off_by_the_rounding_of_a_file_is_normalised(
+    scene: System, q: np.ndarray
+) -> None:
+    off = q.copy()
+    off[scene.joint("box/base").q.start + 3 :][:4] *= 1 + UNIT_QUATERNION / 2
+    off[scene.joint("arm/spin").q] *= 1 - UNIT_QUATERNION / 2
+    assert not np.array_equal(off, q)
+    assert np.abs(scene.checked(off) - q).max() < ROUNDING
+    assert np.array_equal(scene.checked(scene.checked(off)), scene.checked(off))
+
+
+BAD_Q: dict[str, tuple[str, int, float, str]] = {
+    "nan": ("arm/swing", 0, np.nan, r"q\[arm/swing\]: must be finite"),
+    "inf": ("box/base", 1, np.inf, r"q\[box/base\]: must be finite"),
+    "zero quaternion": ("box/base", -1, 0.0, r"q\[box/base\]: its quaternion must have length"),
+    "zero turn": ("arm/spin", -1, 0.0, r"q\[arm/spin\]: its \(cos, sin\) must have length one"),
+}
+
+
+@pytest.mark.parametrize(("name", "entry", "value", "words"), BAD_Q.values(), ids=BAD_Q)
+def test_a_configuration_that_is_none_is_refused(
+    scene: System, name: str, entry: int, value: float, words: str
+) -> None:
+    q, at = scene.q_start.copy(), scene.joint(name).q
+    if entry < 0:
+        start = at.start + 3 if scene.joint(name).kind == "floating" else at.start
+        q[start : at.stop] = value
+    else:
+        q[at.start + entry] = value
+    with pytest.raises(ModelError, match=words):
+        scene.checked(q)
+
+
+def test_a_configuration_of_another_length_is_refused(scene: System) -> None:
+    with pytest.raises(ModelError, match=rf"q: must have shape \({scene.n_q},\)"):
+        scene.checked(scene.q_start[:-1])
+    with pytest.raises(ModelError, match="q: must be numbers"):
+        scene.checked(["zero"] * scene.n_q)
+    with pytest.raises(ModelError, match=rf"^q: must have shape \({scene.n_q},\) \(got \(1,\)\)$"):
+        scene.integrate(scene.q_start[:1], np.zeros(scene.n_v))
+    with pytest.raises(ModelError, match=rf"^delta_q: must have shape \({scene.n_v},\)"):
+        scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
+
+
+def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
+    with pytest.raises(ModelError, match="joint: is no joint; did you mean 'arm/slide'"):
+        scene.joint("arm/slid")
+    with pytest.raises(ModelError, match="link: is no link; did you mean 'desk/upper'"):
+        scene.link("desk/uper")
+    with pytest.raises(ModelError, match="body: is no body; did you mean 'desk'"):
+        scene.mass("dessk")
+    with pytest.raises(ModelError, match="body: has a fixed base, on which a wrench does nothing"):
+        scene.centre_of_mass_force(scene.q_start, "desk", np.ones(3), np.ones(3))
+
+
+BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
+    "no name": ({"name": ""}, "body.name: must be a name"),
+    "world": ({"name": "world"}, "body.name: must be a name other than 'world'"),
+    "slash": ({"name": "a/b"}, "body.name: must not contain"),
+    "hash": ({"name": "a#0"}, "body.name: must not contain"),
+    "star": ({"name": "a*"}, "body.name: must not contain"),
+    "space": ({"name": "a b"}, "body.name: must not contain"),
+    "spherical": ({"base": "spherical"}, r"c.base: is not a base; .* \(got 'spherical"),
+    "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, r"c.rpy: must be \[0, 0, yaw\]"),
+    "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a sequence'),
+    "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
+    "link as a joint": ({"actuated": ("tool",)}, "c.actuated: has no such joint"),
+    "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
+    "welded joint": ({"actuated": ("weld",)}, "c.actuated: has no such joint"),
+    "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; say base = "floating"'),
+    "twice": ({"actuated": ("swing", "swing")}, "c.actuated: names a joint twice"),
+    "xyz": ({"xyz": (1, 2)}, "c.xyz: must have shape .3,."),
+    "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must hold finite numbers only"),
+    "unknown position": ({"positions": {"swin": 1}}, "c.positions: has no such joint; did you"),
+    "nan position": ({"positions": {"swing": np.nan}}, "c.positions.swing: must be a finite"),
+    "mimic position": ({"positions": {"swing_mimic": 1}}, "c.positions: mimics 'swing' and has no"),
+    "base position": (
+        {"base": "floating", "positions": {"base": 1}},
+        "c.positions: is placed by xyz and rpy",
+    ),
+    "no file": ({"urdf": "nowhere.urdf"}, "nowhere.urdf: no such file"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "words"), BAD_BODY.values(), ids=BAD_BODY)
+def test_a_body_that_cannot_be_is_refused(
+    tmp_path: Path, changes: dict[str, Any], words: str
+) -> None:
+    good = {"name": "c", "urdf": written(tmp_path, CHAIN)}
+    System([Body(**good)])
+    with pytest.raises(ModelError, match=words):
+        System([Body(**(good | changes))])
+
+
+def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
+    body = Body("box", written(tmp_path, BOX))
+    with pytest.raises(ModelError, match=r"body.name: is the name of two bodies \(got 'box'\)"):
+        System([body, body])
+
+
+def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path: Path) -> None:
+    mote = inertial("1", ("1", "1", "1")).replace(
+        "<inertial>", '<inertial><origin xyz="1e9 0 0"/>'
+    )  # its moment about the base, 1e18 + 1, has no room for the 1
+    path = written(tmp_path, robot(link("a", inertial=mote)))
+    with pytest.raises(ModelError, match="mote: its mass matrix M_u is singular in float64"):
+        System([Body("mote", path, "floating")])
+    assert System([Body("mote", path, "floating", "all")]).n_u == 0
+
+
+def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path: Path) -> None:
+    """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 1e-5, I2 = 2^40 all four are I2."""
+    light, heavy = (inertial("1", (moment,) * 3) for moment in ("1e-5", str(2**40)))
+    links = [link("b0"), link("b1", inertial=light), link("b2", inertial=heavy)]
+    path = written(tmp_path, robot(*links, joint("one", "b0", "b1"), joint("two", "b1", "b2")))
+    with pytest.raises(ModelError, match="mass matrix M_u is singular in float64") as caught:
+        System([Body("arm", path, "fixed", ())])
+    assert caught.value.value == ["arm/one", "arm/two"]

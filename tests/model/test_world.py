@@ -1,0 +1,70 @@
+"""A world of many bodies in parts, and the limits of its joints."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.model.workspace import PART
+from quasistatic_ref.shapes.placed_shape import Sphere
+from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.tolerances import ROUNDING
+
+GRAVITY = np.array([1.0, -2.0, -9.81])
+
+
+def balls(count: int) -> System:
+    """Free balls, each of another mass, place and orientation."""
+    return System([
+        Body.of_shape(f"ball{k}", Sphere(0.1), 1.0 + k, xyz=(k, 2 * k, -k), rpy=(0.1 * k, 0.2, 0.3))
+        for k in range(count)
+    ])  # fmt: skip
+
+
+def test_a_part_holds_as_many_bodies_as_have_room() -> None:
+    # Six coordinates a ball: 48 of a part are those of 8 balls, and 17 = 8 + 8 + 1.
+    full = PART // 6
+    assert 6 * full == PART
+    parts = balls(2 * full + 1).workspace().parts
+    assert [part.model.nv for part in parts] == [PART, PART, 6]
+
+
+def test_bodies_of_all_parts_move_and_weigh_as_each_alone() -> None:
+    """Of a ball about its centre: J = [R 0; 0 R], and its weight is m R' g."""
+    system = balls(9)
+    assert len(system.workspace().parts) == 2
+    kinematics = system.kinematics(system.q_start)
+    J = np.zeros((10, 6, 54))
+    weight = np.zeros(54)
+    for k in range(9):
+        number, v = system.link(f"ball{k}"), system.joint(f"ball{k}/base").v
+        R = Rotation.from_euler("xyz", [0.1 * k, 0.2, 0.3]).as_matrix()
+        np.testing.assert_allclose(kinematics.R[number], R, rtol=0, atol=ROUNDING)
+        assert kinematics.t[number] == pytest.approx([k, 2 * k, -k], abs=ROUNDING)
+        J[number, :, v] = np.kron(np.eye(2), R)
+        weight[v] = [*((1.0 + k) * R.T @ GRAVITY), 0, 0, 0]
+    np.testing.assert_allclose(kinematics.J, J, rtol=0, atol=ROUNDING)
+    # Weights are of size 100.
+    force = system.gravity_force(system.q_start, GRAVITY)
+    np.testing.assert_allclose(force, weight, rtol=0, atol=100 * ROUNDING)
+
+
+LIMITS = {
+    "both sides": ("revolute", 'lower="-1" upper="2"', (-1.0, 2.0)),
+    "up to zero": ("prismatic", 'lower="-1"', (-1.0, 0.0)),
+    "from zero": ("prismatic", 'upper="2"', (0.0, 2.0)),
+    "one position": ("revolute", 'lower="0.5" upper="0.5"', (0.5, 0.5)),
+    "nothing said": ("revolute", "", None),
+    "turning on": ("continuous", 'lower="-1" upper="2"', None),
+}
+
+
+@pytest.mark.parametrize(("kind", "said", "limits"), LIMITS.values(), ids=LIMITS)
+def test_a_joint_has_the_limits_that_its_file_gives_it(
+    kind: str, said: str, limits: tuple[float, float] | None
+) -> None:
+    hinge = joint("j", "a", "b", kind)
+    written = hinge.replace('lower="-1" upper="1"', said)
+    assert written != hinge
+    system = System([Body("one", robot(link("a"), link("b"), written))])
+    assert system.joint("one/j").limits == limits

@@ -1,0 +1,139 @@
+"""Bodies without a file: solids with the inertia of their volume, URDF as text."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.solid import solid_inertia
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    PlacedShape,
+    Sphere,
+)
+from tests.model.urdf.urdf_texts import written
+from tests.scenes import BALL, RAIL
+from tests.tolerances import EXACT, INTEGRAL
+
+MASS = 0.7
+
+
+def by_slices(profile, top, corners=()):
+    """Moments of a solid of revolution about z, made of discs of radius profile(z), |z| <= top.
+
+    A disc of mass dm has dm r^2 / 2 about z, and dm (r^2 / 4 + z^2) about x and y.
+    """
+
+    def integral(f):
+        return quad(f, -top, top, points=corners or None, epsabs=0, epsrel=INTEGRAL)[0]
+
+    density = MASS / integral(lambda z: np.pi * profile(z) ** 2)
+    along = density * integral(lambda z: np.pi * profile(z) ** 4 / 2)
+    across = density * integral(lambda z: np.pi * profile(z) ** 2 * (profile(z) ** 2 / 4 + z**2))
+    return [across, across, along]
+
+
+def capsule_profile(radius, half):
+    return lambda z: np.sqrt(max(radius**2 - max(abs(z) - half, 0.0) ** 2, 0.0))
+
+
+SOLIDS = {
+    "sphere": (Sphere(0.03), by_slices(capsule_profile(0.03, 0.0), 0.03)),
+    "cylinder": (Cylinder(0.03, 0.05), by_slices(lambda z: 0.03, 0.05)),
+    "flat cylinder": (Cylinder(0.2, 0.001), by_slices(lambda z: 0.2, 0.001)),
+    "capsule": (
+        Capsule(0.03, 0.05),
+        by_slices(capsule_profile(0.03, 0.05), 0.08, (-0.05, 0.05)),
+    ),
+    "short capsule": (
+        Capsule(0.03, 0.002),
+        by_slices(capsule_profile(0.03, 0.002), 0.032, (-0.002, 0.002)),
+    ),
+    # Of a cuboid with the sides L = 0.2, W = 0.4 and D = 0.6: m (W^2 + D^2) / 12 and so on.
+    "box": (
+        Box((0.1, 0.2, 0.3)),
+        [MASS / 12 * sides for sides in (0.4**2 + 0.6**2, 0.2**2 + 0.6**2, 0.2**2 + 0.4**2)],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("shape", "moments"), SOLIDS.values(), ids=SOLIDS)
+def test_the_inertia_is_that_of_the_volume(shape, moments):
+    np.testing.assert_allclose(solid_inertia(shape, MASS), moments, rtol=10 * INTEGRAL)
+
+
+@pytest.mark.parametrize(("shape", "moments"), SOLIDS.values(), ids=SOLIDS)
+def test_a_body_of_a_shape_is_a_free_solid_about_its_centre(shape, moments):
+    system = System([Body.of_shape("it", shape, MASS, xyz=(1, 2, 3), rpy=(0.1, 0.2, 0.3))])
+    expected = np.diag([MASS] * 3 + list(moments))
+    np.testing.assert_allclose(
+        system.M_u(system.q_start), expected, rtol=10 * INTEGRAL, atol=INTEGRAL * MASS
+    )
+    (placed,) = system.shapes
+    assert placed.name == "it/solid#0"
+    assert repr(placed.shape) == repr(shape)  # to the last bit
+    np.testing.assert_array_equal(placed.R, np.eye(3))
+    np.testing.assert_array_equal(placed.t, np.zeros(3))
+    np.testing.assert_allclose(system.q_start[:3], [1, 2, 3], rtol=EXACT)
+    assert (system.n_a, system.n_u) == (0, 6)
+
+
+def test_a_solid_may_be_driven_fixed_or_planar():
+    ball = Sphere(0.1)
+    bodies = [
+        Body.of_shape("driven", ball, 1.0, actuated="all"),
+        Body.of_shape("post", ball, 1.0, base="fixed"),
+        Body.of_shape("puck", ball, 1.0, base="planar"),
+    ]
+    system = System(bodies)
+    assert [system.n_a, system.n_u] == [6, 3]
+
+
+WRONG = {
+    "no solid": (
+        (Ellipsoid((1, 2, 3)), 1.0),
+        "it.shape: must be a Sphere, Box",
+    ),
+    "placed": (
+        (PlacedShape("s", 0, np.eye(3), np.zeros(3), Sphere(1)), 1.0),
+        "it.shape: must be a Sphere",
+    ),
+    "nothing": ((None, 1.0), "it.shape: must be a Sphere"),
+    "no mass": ((Sphere(1), 0.0), "it.mass: must be greater than 0"),
+    "a negative mass": ((Sphere(1), -1.0), "it.mass: must be greater than 0"),
+    "not finite": ((Sphere(1), np.nan), "it.mass: must be a finite number"),
+    "words": ((Sphere(1), "heavy"), "it.mass: must be a finite number"),
+}
+
+
+@pytest.mark.parametrize(("given", "says"), WRONG.values(), ids=WRONG)
+def test_other_solids_are_refused(given, says):
+    with pytest.raises(ModelError) as caught:
+        Body.of_shape("it", *given)
+    assert str(caught.value).startswith(says)
+
+
+@pytest.mark.parametrize("text", [BALL, RAIL, f"\n  <?xml version='1.0'?>\n{BALL}"])
+def test_a_urdf_may_be_given_as_text(tmp_path, text):
+    path = written(tmp_path, text.strip())
+    base = "floating" if "ball" in text else "fixed"
+    actuated = () if "ball" in text else "all"
+    one = System([Body("it", path, base, actuated)])
+    two = System([Body("it", text.lstrip(), base, actuated)])
+    np.testing.assert_array_equal(one.M_u(one.q_start), two.M_u(two.q_start))
+    assert [c.name for c in one.coordinates] == [c.name for c in two.coordinates]
+    assert [s.name for s in one.shapes] == [s.name for s in two.shapes]
+    np.testing.assert_array_equal(one.masses, two.masses)
+
+
+def test_what_is_wrong_in_a_text_is_said_of_the_text():
+    with pytest.raises(ModelError, match=r"^<robot>: line 1: is not well-formed XML"):
+        System([Body("it", "<robot")])
+    text = BALL.replace("0.05", "-0.05")
+    with pytest.raises(ModelError, match=r"^<robot>: link\[ball\]\.collision\[0\]\.sphere\.radius"):
+        System([Body("it", text, "floating")])

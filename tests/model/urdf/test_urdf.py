@@ -1,0 +1,250 @@
+"""URDF files: what is loaded is what was written, and anything else is refused in words."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.urdf import urdf as urdf_module
+from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
+from tests.model.urdf.urdf_texts import (
+    BOX,
+    CHAIN,
+    collision,
+    inertial,
+    joint,
+    link,
+    mimic,
+    robot,
+    written,
+)
+from tests.tolerances import ROUNDING
+
+
+def test_a_chain_is_loaded_as_written(tmp_path: Path) -> None:
+    urdf = loaded_urdf(written(tmp_path, CHAIN), base="floating")
+    assert urdf.links == ("base_link", "upper", "lower", "slider", "follower", "tool")
+    assert [shape.name for shape in urdf.shapes] == ["base_link#0", "upper#0", "tool#0"]
+    assert [shape.link for shape in urdf.shapes] == [0, 1, 5]
+    assert urdf.shapes[1].shape == Sphere(0.1)
+    assert urdf.shapes[1].t == pytest.approx([0, 0.1, 0.2], abs=ROUNDING)
+    turned = Rotation.from_euler("xyz", [0.2, 0, 0]).as_matrix()
+    assert np.abs(urdf.shapes[1].R - turned).max() < ROUNDING
+    # The tool is welded on: its shape is still placed in its own frame.
+    assert urdf.shapes[2].shape == Capsule(0.02, 0.05)
+    assert urdf.shapes[2].t == pytest.approx([0, 0, 0], abs=ROUNDING)
+
+
+def test_every_primitive_keeps_its_sizes(tmp_path: Path) -> None:
+    shapes = (
+        '<box size="0.1 0.2 0.3"/>',
+        '<sphere radius="1.5"/>',
+        '<cylinder radius="0.2" length="3"/>',
+        '<capsule radius="0.2" length="3"/>',
+    )
+    text = robot(link("a", "".join(collision(shape) for shape in shapes)))
+    box, *others = (placed.shape for placed in loaded_urdf(written(tmp_path, text)).shapes)
+    assert isinstance(box, Box)
+    assert np.array_equal(box.half_extents, np.array([0.1, 0.2, 0.3]) / 2)
+    assert others == [Sphere(1.5), Cylinder(0.2, 1.5), Capsule(0.2, 1.5)]
+
+
+def test_what_the_model_does_not_use_is_listed(tmp_path: Path) -> None:
+    visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
+    text = robot(link("a", visual), link("b"), joint("j", "a", "b"), "<gazebo/>")
+    ignored = loaded_urdf(written(tmp_path, text)).file.ignored
+    assert ignored == ("robot.gazebo", "link[a].visual", "joint[j].limit")
+
+
+def test_a_path_with_any_letters_is_read(tmp_path: Path) -> None:
+    text = BOX.replace('name="r"', 'name="Кубик"').replace("<robot", "\ufeff<robot", 1)
+    assert loaded_urdf(written(tmp_path, text, "ящик €.urdf")).links == ("box",)
+
+
+def test_a_link_and_a_joint_may_share_a_name(tmp_path: Path) -> None:
+    text = robot(link("a"), link("b"), joint("b", "a", "b"))
+    assert loaded_urdf(written(tmp_path, text)).links == ("a", "b")
+
+
+def test_a_welded_frame_needs_no_mass(tmp_path: Path) -> None:
+    text = robot(link("dummy", inertial=""), link("real"), joint("w", "dummy", "real", "fixed"))
+    assert loaded_urdf(written(tmp_path, text), base="floating").links == ("dummy", "real")
+
+
+def test_a_fixed_base_needs_no_mass(tmp_path: Path) -> None:
+    text = robot(link("stand", inertial=""))
+    assert loaded_urdf(written(tmp_path, text)).links == ("stand",)
+    with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
+        loaded_urdf(written(tmp_path, text), base="floating")
+
+
+def test_a_flat_plate_is_a_body_and_a_needle_beyond_it_is_not(tmp_path: Path) -> None:
+    plate = robot(link("a", inertial=inertial(moments=("0.1", "0.2", "0.3000001"))))
+    assert loaded_urdf(written(tmp_path, plate), base="floating").notes == ()
+    beyond = robot(link("a", inertial=inertial(moments=("0.1", "0.2", "0.30001"))))
+    with pytest.raises(ModelError, match="inertia: is that of no body"):
+        loaded_urdf(written(tmp_path, beyond), base="floating")
+
+
+def test_what_a_fixed_joint_would_mimic_is_ignored(tmp_path: Path) -> None:
+    text = robot(
+        link("a"), link("b"), link("c"), joint("j", "a", "b"),
+        joint("k", "b", "c", "fixed", more=mimic("j")),
+    )  # fmt: skip
+    assert "joint[k].mimic" in loaded_urdf(written(tmp_path, text)).file.ignored
+
+
+NO_WEIGHT = (
+    "link[a].inertial.mass: must be greater than 0; accepted, because no un-actuated joint moves "
+    "this link; its actuated joints carry no weight of it, also without gravity compensation"
+)
+
+
+def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
+    text = robot(
+        link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
+    )
+    path = written(tmp_path, text)
+    notes = loaded_urdf(path, base="floating", actuated="all").notes
+    assert notes == (NO_WEIGHT,)
+    with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
+        loaded_urdf(path, base="floating", actuated=("base",))
+    with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
+        loaded_urdf(path, base="floating", actuated=("j",))
+
+
+def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:
+    needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
+    welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
+    (note,) = loaded_urdf(written(tmp_path, welded)).notes
+    assert note.startswith("link[b].inertial.inertia: is that of no body")
+    assert note.endswith("; accepted, because no un-actuated joint moves this link")
+    massless = robot(
+        link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
+    )
+    (note,) = loaded_urdf(written(tmp_path, massless), base="floating").notes
+    whole = "the inertia of all links welded to it is that of a body"
+    assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
+
+
+@pytest.mark.parametrize("base", ["floating", "planar"])
+def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path: Path, base: str) -> None:
+    path = written(tmp_path, robot(link("a", inertial="")))
+    with pytest.raises(ModelError, match=f"is missing, but the {base} base moves this link"):
+        loaded_urdf(path, base=base)
+
+
+def test_an_axis_that_is_not_written_is_x() -> None:
+    hinge = joint("j", "a", "b").replace('<axis xyz="0 0 1"/>', "")
+    urdf = loaded_urdf(robot(link("a"), link("b"), hinge))
+    assert urdf.file.joints[0].axis.tolist() == [1.0, 0.0, 0.0]
+
+
+def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:
+    model.jointPlacements[1].rotation = Rotation.from_euler("x", 1e-6).as_matrix()
+
+
+def _other_weld(model: pin.Model, _: pin.GeometryModel) -> None:
+    frame = model.frames[model.getFrameId("tool", pin.FrameType.BODY)]
+    frame.placement = frame.placement * pin.SE3(np.eye(3), np.array([0, 0, 1e-6]))
+
+
+def _other_mass(model: pin.Model, _: pin.GeometryModel) -> None:
+    model.inertias[2].mass *= 1 + 1e-6
+
+
+def _other_centre(model: pin.Model, _: pin.GeometryModel) -> None:
+    model.inertias[4].lever = model.inertias[4].lever + 1e-6
+
+
+def _no_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+    geometry.removeGeometryObject(geometry.geometryObjects[0].name)
+
+
+def _other_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+    geometry.geometryObjects[1].geometry = Sphere(0.2).coal
+
+
+def _moved_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+    geometry.geometryObjects[1].placement = pin.SE3(np.eye(3), np.array([0, 0.1, 0.2]))
+
+
+def _other_name(model: pin.Model, _: pin.GeometryModel) -> None:
+    model.names[1] = "swung"
+
+
+TAMPERED = {
+    _other_axis: r"link\[upper\]: its joint's origin, axis or mimic was not loaded as written",
+    _other_weld: r"link\[tool\]: its joint's origin, axis or mimic was not loaded as written",
+    _other_mass: r"link\[lower\].inertial: .* was not loaded as written \(2 kg\) \(got 2\.0",
+    _other_centre: r"link\[follower\].inertial: mass, centre or inertia was not loaded",
+    _no_shape: r"link\[base_link\].collision: only 0 of the shapes written were loaded",
+    _other_shape: r"link\[upper\].collision\[0\]: was not loaded as written",
+    _moved_shape: r"link\[upper\].collision\[0\]: was not loaded as written",
+    _other_name: r"joints: differ from those loaded.*swung",
+}
+
+
+@pytest.mark.parametrize("tamper", TAMPERED, ids=lambda tamper: tamper.__name__)
+def test_a_loader_that_misreads_is_noticed(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    tamper: Callable[[pin.Model, pin.GeometryModel], None],
+) -> None:
+    honest = urdf_module._loaded
+
+    def dishonest(*arguments: object) -> tuple[pin.Model, pin.GeometryModel]:
+        model, geometry = honest(*arguments)
+        tamper(model, geometry)
+        return model, geometry
+
+    monkeypatch.setattr(urdf_module, "_loaded", dishonest)
+    with pytest.raises(ModelError, match=TAMPERED[tamper]):
+        loaded_urdf(written(tmp_path, CHAIN))
+
+
+OTHER_TEXT = {
+    "axis": ('xyz="1 2 -1"', 'xyz="1 2 1"', r"link\[upper\]: its joint's origin, axis or mimic"),
+    "multiplier": ('"-0.7"', '"-0.8"', r"link\[follower\]: its joint's origin, axis or mimic"),
+    "offset": ('offset="0.2"', 'offset="0.1"', r"link\[follower\]: its joint's origin, axis or"),
+    "kind": ('"slide" type="prismatic"', '"slide" type="revolute"', r"link\[slider\]: its joint's"),
+    "placement": ("0.1 0.2 0.3", "0.1 0.2 0.4", r"link\[upper\]: its joint's origin"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "words"), OTHER_TEXT.values(), ids=OTHER_TEXT)
+def test_a_loader_of_another_text_is_noticed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str, words: str
+) -> None:
+    honest = urdf_module._loaded
+    text = CHAIN if old != "0.1 0.2 0.3" else CHAIN.replace('size="0.1 0.2 0.3"', 'size="1 2 3"')
+    assert old in text
+
+    def dishonest(read: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
+        assert old in read
+        return honest(read.replace(old, new), base)
+
+    monkeypatch.setattr(urdf_module, "_loaded", dishonest)
+    with pytest.raises(ModelError, match=words):
+        loaded_urdf(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("misread", range(5))
+def test_every_joint_of_a_chain_is_compared(monkeypatch: pytest.MonkeyPatch, misread: int) -> None:
+    honest = urdf_module._loaded
+    links = [link(f"l{k}") for k in range(6)]
+    joints = [joint(f"j{k}", f"l{k}", f"l{k + 1}", axis="0 0 1") for k in range(5)]
+    other = joint(f"j{misread}", f"l{misread}", f"l{misread + 1}", axis="0 1 0")
+
+    def dishonest(read: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
+        wrong = [*joints[:misread], other, *joints[misread + 1 :]]
+        return honest(robot(*links, *wrong), base)
+
+    monkeypatch.setattr(urdf_module, "_loaded", dishonest)
+    with pytest.raises(ModelError, match=rf"link\[l{misread + 1}\]: its joint's origin, axis"):
+        loaded_urdf(robot(*links, *joints))

@@ -1,0 +1,193 @@
+"""URDF files that cannot be used: each defect is one sentence with file, element, value."""
+
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.model.urdf.urdf_texts import (
+    BOX,
+    CHAIN,
+    INERTIAL,
+    collision,
+    joint,
+    link,
+    mimic,
+    robot,
+    written,
+)
+
+TWO = robot(link("a", collision('<sphere radius="0.5"/>')), link("b"), joint("j", "a", "b"))
+THREE = robot(
+    link("a"), link("b"), link("c"), joint("j", "a", "b"), joint("k", "b", "c", more=mimic("j"))
+)
+EXPANSION = '<!DOCTYPE robot [<!ENTITY a "aaaaaaaa"><!ENTITY b "&a;&a;&a;">]>'
+REFUSED: dict[str, tuple[str, str, str, str]] = {
+    # name: text, what is replaced, by what, words of the sentence
+    "empty file": (TWO, TWO, "", "line 1: is not well-formed XML: no element found"),
+    "malformed": (TWO, "</robot>", "", "line 1: is not well-formed XML: no element found"),
+    "another root": (TWO, "robot", "model", r"root element: must be <robot> \(got 'model'\)"),
+    "doctype": (TWO, "<robot", EXPANSION + "<robot", "line 1: a DOCTYPE is not allowed"),
+    "bare doctype": (TWO, "<robot", "<!DOCTYPE robot><robot", "line 1: a DOCTYPE is not allowed"),
+    "entity": (TWO, "0.5", "&half;", "is not well-formed XML: undefined entity"),
+    "xacro": (TWO, "</robot>", "<xacro:arm/></robot>", r"robot.xacro:arm: is a macro: expand"),
+    "version": (TWO, '"1.1"', '"3.0"', r"robot.version: must be one of 1.0, 1.1, 1.2.*'3.0'"),
+    "capsule": (
+        CHAIN,
+        ' version="1.1"',
+        "",
+        r'link\[tool\].collision: only 0 of the shapes.*<capsule> needs <robot version="1.1">',
+    ),
+    "mesh": (
+        TWO,
+        '<sphere radius="0.5"/>',
+        '<mesh filename="a.stl"/>',
+        r"link\[a\].collision\[0\].mesh.filename: no such file .*'a.stl'",
+    ),
+    "unknown shape": (TWO, "sphere", "spehre", "spehre: is not a shape; did you mean 'sphere'"),
+    "two shapes": (
+        TWO,
+        '<sphere radius="0.5"/>',
+        '<sphere radius="0.5"/><box size="1 1 1"/>',
+        "geometry: must hold exactly one shape.*sphere.*box",
+    ),
+    "no shape": (TWO, '<sphere radius="0.5"/>', "", "geometry: must hold exactly one shape"),
+    "no geometry": (
+        TWO,
+        '<geometry><sphere radius="0.5"/></geometry>',
+        "",
+        r"collision\[0\].geometry: is missing",
+    ),
+    "misspelt collision": (TWO, "collision", "colision", "a].colision: is unknown; did you mean"),
+    "zero radius": (
+        TWO,
+        '"0.5"',
+        '"0"',
+        r"sphere.radius: must be a positive length \(got '0'\)",
+    ),
+    "negative radius": (TWO, '"0.5"', '"-1"', "sphere.radius: must be a positive length.*'-1'"),
+    "nan radius": (TWO, '"0.5"', '"nan"', "sphere.radius: must be a finite decimal.*'nan'"),
+    "tailed radius": (TWO, '"0.5"', '"0.5m"', "sphere.radius: must be a finite decimal.*'0.5m'"),
+    "decimal comma": (TWO, '"0.5"', '"0,5"', "sphere.radius: must be a finite decimal.*'0,5'"),
+    "no radius": (TWO, 'radius="0.5"', "", "sphere.radius: is missing"),
+    "misspelt attribute": (TWO, "radius", "radus", "sphere.radus: is unknown; did you mean"),
+    "negative box": (
+        TWO,
+        '<sphere radius="0.5"/>',
+        '<box size="1 -2 3"/>',
+        r"box.size: must be three positive lengths \(got '1 -2 3'\)",
+    ),
+    "two sizes": (TWO, '<sphere radius="0.5"/>', '<box size="1 2"/>', "box.size: must be 3 num"),
+    "flat cylinder": (
+        TWO,
+        '<sphere radius="0.5"/>',
+        '<cylinder radius="1" length="0"/>',
+        r"cylinder.length: must be a positive length \(got '0'\)",
+    ),
+    "zero mass": (TWO, '<mass value="2"/>', '<mass value="0"/>', r"mass: must be greater than 0"),
+    "negative mass": (TWO, 'value="2"', 'value="-2"', r"link\[a\].inertial.mass:.*\(got -2.0\)"),
+    "infinite mass": (TWO, 'value="2"', 'value="1e999"', "mass.value:.*overflows.*'1e999'"),
+    "no mass": (TWO, '<mass value="2"/>', "", r"link\[a\].inertial.mass: is missing"),
+    "two masses": (TWO, '<mass value="2"/>', '<mass value="2"/>' * 2, "given more than once"),
+    "no inertial": (
+        TWO,
+        f'<link name="b">{INERTIAL}',
+        '<link name="b">',
+        r"link\[b\].inertial: is missing, but joint 'j' moves this link",
+    ),
+    "two inertials": (TWO, INERTIAL, INERTIAL * 2, r"link\[a\].inertial: is given more than once"),
+    "no ixy": (TWO, 'ixy="0.001"', "", r"inertia.ixy: is missing"),
+    "nan ixy": (TWO, 'ixy="0.001"', 'ixy="nan"', "inertia.ixy: must be a finite decimal number"),
+    "indefinite": (TWO, 'ixx="0.02"', 'ixx="-0.02"', "inertia: must be positive definite"),
+    "no inertia": (TWO, 'ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0.002" iyz="-0.003"',
+        'ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"', "inertia: must be positive definite"),
+    "no body": (TWO, 'izz="0.04"', 'izz="0.4"', "inertia: is that of no body: the largest"),
+    "zero axis": (TWO, '"0 0 1"', '"0 0 0"', r"joint\[j\].axis.xyz: must not be zero"),
+    "nan axis": (TWO, '"0 0 1"', '"0 0 nan"', r"joint\[j\].axis.xyz: must be a finite"),
+    "two numbers": (TWO, '"0 0 1"', '"0 1"', r"axis.xyz: must be 3 numbers \(got '0 1'\)"),
+    "two axes": (TWO, "<axis", '<axis xyz="1 0 0"/><axis', r"\[j\].axis: is given more than once"),
+    "bad origin": (TWO, "<limit", '<origin xyz="1 2 x"/><limit', r"joint\[j\].origin.xyz:.*'x'"),
+    "degrees": (TWO, "<limit", '<origin rpy_deg="0 0 90"/><limit', "origin.rpy_deg: is unknown"),
+    "planar": (TWO, "revolute", "planar", r"joint\[j\].type: this type is not supported.*planar"),
+    "floating": (TWO, "revolute", "floating", 'not supported.*base = "floating"'),
+    "spherical": (TWO, "revolute", "ball", r"joint\[j\].type: this type is not supported.*'ball'"),
+    "no type": (TWO, 'type="revolute"', "", r"joint\[j\].type: is missing"),
+    "no limit": (TWO, "<limit", "<bound", r"joint\[j\].limit: is missing: URDF asks for effort"),
+    "no effort": (TWO, 'effort="1"', "", r"joint\[j\].limit.effort: is missing"),
+    "bad upper": (TWO, 'upper="1"', 'upper="one"', r"\[j\].limit.upper: must be a finite.*'one'"),
+    "bad damping": (
+        TWO,
+        "<limit",
+        '<dynamics damping="low"/><limit',
+        "pinocchio cannot load it: its URDF parser refuses it",
+    ),
+    "no link name": (TWO, 'name="b"', "", "link.name: is missing"),
+    "two links": (TWO, 'link name="b"', 'link name="a"', r"link\[a\]: is the name of two links"),
+    "two joints": (THREE, 'name="k"', 'name="j"', r"joint\[j\]: is the name of two joints"),
+    "unknown parent": (TWO, 'parent link="a"', 'parent link="aa"', r"j\].parent: is no link; did"),
+    "two parents": (
+        THREE,
+        "</robot>",
+        joint("l", "a", "c") + "</robot>",
+        r"joint\[l\].child: is already the child of joint 'k' \(got 'c'\)",
+    ),
+    "two roots": (THREE, "</robot>", link("d") + "</robot>", "root link: there must be exactly"),
+    "a loop": (TWO, "</robot>", joint("l", "b", "a") + "</robot>", "root link: there must be ex"),
+    "a loop aside": (
+        TWO,
+        "</robot>",
+        link("c") + link("d") + joint("l", "c", "d") + joint("m", "d", "c") + "</robot>",
+        r"tree: joints not reached from 'a' \(got \['l', 'm'\]\)",
+    ),
+    "mimics nothing": (THREE, 'mimic joint="j"', 'mimic joint="x"', r"\[k\].mimic: is no joint"),
+    "mimics itself": (THREE, 'mimic joint="j"', 'mimic joint="k"', "neither fixed nor a mimic"),
+    "continuous mimic": (
+        THREE,
+        'name="k" type="revolute"',
+        'name="k" type="continuous"',
+        r"joint\[k\].mimic: a continuous joint can only mimic",
+    ),
+    "mimic first": (
+        robot(link("a"), link("b"), link("c"), joint("z", "a", "b"), joint("k", "a", "c")),
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>',
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/>' + mimic("z") + "</joint></robot>",
+        "a mimic joint is met before the joint that it mimics",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "old", "new", "words"), REFUSED.values(), ids=REFUSED)
+def test_a_defect_is_one_sentence_that_names_the_file(
+    tmp_path: Path, text: str, old: str, new: str, words: str
+) -> None:
+    assert old in text
+    count = -1 if old in ("robot", "collision") else 1
+    path = written(tmp_path, text.replace(old, new, count))
+    with pytest.raises(ModelError, match=words) as caught:
+        loaded_urdf(path, base="floating")  # so that the root's inertia matters
+    assert str(caught.value).startswith(f"{path}: ")
+
+
+@pytest.mark.parametrize("text", [TWO, THREE, CHAIN, BOX])
+def test_the_texts_are_good_before_they_are_spoilt(tmp_path: Path, text: str) -> None:
+    assert loaded_urdf(written(tmp_path, text)).links
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ModelError, match=r"nowhere\.urdf: no such file"):
+        loaded_urdf(tmp_path / "nowhere.urdf")
+
+
+def test_another_encoding_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_bytes(TWO.encode("utf-16"))
+    with pytest.raises(ModelError, match="line 1: is not UTF-8 text"):
+        loaded_urdf(path)
+
+
+def test_a_joint_named_base_cannot_float(tmp_path: Path) -> None:
+    path = written(tmp_path, TWO.replace('name="j"', 'name="base"'))
+    assert loaded_urdf(path).links == ("a", "b")
+    with pytest.raises(ModelError, match=r"joint\[base\]: this name is taken by the floating base"):
+        loaded_urdf(path, base="floating")

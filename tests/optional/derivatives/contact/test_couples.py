@@ -1,0 +1,182 @@
+"""Contacts as two features: which corners they are, how these slide on rims, which are level."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.contact.contact_rates import (
+    _dependent,
+    contact_rates,
+    merged_features,
+    nearly_level,
+)
+from quasistatic_ref.optional.derivatives.contact.couples import Rim, couples, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
+from validation.derivatives import rate
+
+FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
+
+
+def pair_of(system, fixed, moving, first, k):
+    """A fixed shape at the origin and one of the body, either of them being alpha's."""
+    sides = [
+        PlacedShape("fixed", 0, np.eye(3), np.zeros(3), fixed),
+        PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), moving),
+    ]
+    alpha, beta = sides if first == "fixed" else sides[::-1]
+    return ContactPair("c", alpha, beta, 0.5, 0.01, 6, k)
+
+
+def body(xyz, rpy=(0.0, 0.0, 0.0)):
+    return System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=xyz, rpy=rpy)])
+
+
+def kept(system, pair, q=None):
+    where = system.kinematics(system.q_start if q is None else q)
+    points = closest_points([pair], where)
+    return points, couples([pair], points, where.R, where.t)
+
+
+@pytest.mark.parametrize("first", ["fixed", "body"])
+def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
+    # Of the eight corners of a cylinder over a floor the first of each rim is its lowest point,
+    # the others are quarter turns from it: all slide as the cylinder turns.
+    system = body((0.01, 0.02, 0.08), (0.4, 0.3, 0.2))
+    pair = pair_of(system, FLOOR, Cylinder(0.04, 0.06), first, 9)
+    points, found = kept(system, pair)
+    assert {c.rim.quarter for c in found if c.rim is not None} == {0, 1, 2, 3}
+    n_c = len(found)
+    J = MotionRates(system.kinematics(system.q_start), system.motion).J
+    rates = contact_rates(found, tuple(np.tile(d, (n_c, 1)) for d in TANGENTS), J)
+    assert rates.unique.all()
+    for column, e in enumerate(np.eye(6)):
+
+        def moved(t, e=e):
+            there = closest_points(
+                [pair], system.kinematics(system.integrate(system.q_start, t * e))
+            )
+            # Contacts come by distance: these are put in the order of `points`, by their numbers.
+            order = np.argsort(there.point)[np.argsort(np.argsort(points.point))]
+            return np.stack([there.alpha[order], there.beta[order]])
+
+        expected = rate(moved)
+        for own, side in zip((rates.alpha, rates.beta), expected, strict=True):
+            np.testing.assert_allclose(own[:, :, column], side, atol=DIFFERENCE_OF_STEPS)
+
+
+def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
+    # Alpha's candidates are 0 to 4, beta's 5 to 9: of each cone the tip, then its rim.
+    system = body((0.01, 0.0, 0.2), (0.4, 0.3, 0.2))
+    _, found = kept(system, pair_of(system, Cone(0.05, 0.06), Cone(0.03, 0.04), "fixed", 11))
+    expected = {0: None, 5: None, 10: None}
+    expected |= {1 + quarter: Rim(0, quarter, 0.05) for quarter in range(4)}
+    expected |= {6 + quarter: Rim(1, quarter, 0.03) for quarter in range(4)}
+    points = kept(system, found[0].pair)[0].point
+    assert {int(k): c.rim for k, c in zip(points, found, strict=True)} == expected
+
+
+def test_the_ball_about_a_capsule_s_corner_is_its_own():
+    # The corners of a capsule are the ends of its segment, t +- half_length * axis.
+    system = body((0.0, 0.0, 0.2), (0.4, 0.3, 0.2))
+    capsule = Capsule(0.03, 0.05)
+    _, found = kept(system, pair_of(system, FLOOR, capsule, "fixed", 2))
+    own = found[0].bodies[1]
+    ends = [own.t - 0.05 * own.R[:, 2], own.t + 0.05 * own.R[:, 2]]
+    ends.sort(key=lambda end: end[2])
+    for couple, end in zip(found, ends, strict=True):
+        other, centre, radius = couple.centre
+        assert (other, radius) == (0, 0.03)
+        np.testing.assert_allclose(centre, end, atol=ROUNDING)
+
+
+def test_a_cloud_is_as_large_as_the_longest_side_of_its_box():
+    system = body((0.0, 0.0, 0.2))
+    points = PointCloud(np.array([[0.1, 0.5, 0.0], [0.3, 0.5, 0.1], [0.2, 0.4, 0.0]]))
+    _, (couple,) = kept(system, pair_of(system, FLOOR, points, "fixed", 1))
+    np.testing.assert_allclose(couple.size, 0.3 - 0.1, rtol=ROUNDING)
+
+
+def test_a_level_rim_whose_body_turns_has_no_lowest_point():
+    z = np.array([0.0, 0.0, 1.0])
+    cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
+    about_z = np.cross(z[:, None], z[:, None], axis=0)  # z x z: it does not tilt
+    about_x = np.cross(np.array([[1.0], [0], [0]]), z[:, None], axis=0)
+    rim = Rim(0, 1, 0.04)
+    assert np.array_equal(rim_velocity(rim, cylinder, z, about_z), np.zeros((3, 1)))
+    assert rim_velocity(rim, cylinder, z, about_x) is None
+
+
+@pytest.mark.parametrize("away", [0.0, 5.0])
+def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
+    # Of a tilt between rounding and LEVEL, 1e-5, the lowest point of a rim is not well known.
+    slight, much = (0.0, 3e-6, 0.0), (0.0, 1e-3, 0.0)
+    for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
+        system = body((away, away, 0.06), rpy)
+        _, (couple,) = kept(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
+        end = couple.bodies[1].t + couple.bodies[1].R @ np.array([0.04, 0.0, -0.06])
+        assert nearly_level(couple._replace(points=(end, end))) == expected
+        middle = couple.bodies[1].t + couple.bodies[1].R @ np.array([0.01, 0.0, -0.06])
+        assert not nearly_level(couple._replace(points=(middle, middle)))
+
+
+def test_merged_features_are_those_of_either_side_with_their_ends_free():
+    x, y = np.eye(3)[:2]
+    system = body((0.0, 0.0, 0.2))
+    _, (couple,) = kept(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
+    one, other = Feature(np.eye(3), x[None], y[None]), Feature(2 * np.eye(3), y[None])
+    first, second = merged_features(couple._replace(features=(one, other)))
+    np.testing.assert_allclose(first.free.T @ first.free, np.diag([1.0, 1, 0]), atol=ROUNDING)
+    assert np.array_equal(first.bend, one.bend)
+    assert len(first.ends) == 0
+    assert second is other
+
+
+def test_a_rim_is_nearly_level_up_to_the_tolerances():
+    x, z, tall = np.array([0.04, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]), Cylinder(0.04, 0.06)
+    _, (couple,) = kept(still := body((0.0, 0.0, 0.0)), pair_of(still, FLOOR, tall, "fixed", 1))
+    ways = ((SPLIT, False), (2 * SPLIT, True), (LEVEL, True), (2 * LEVEL, False))
+    for tilt, expected in ways:
+        at = couple._replace(n=z + tilt * np.array([1.0, 0.0, 0.0]))
+        end = (1 - ON_RIM) * x - 0.06 * z
+        assert nearly_level(at._replace(points=(end, end))) == expected
+        inside = (1 - 2 * ON_RIM) * x - 0.06 * z
+        assert not nearly_level(at._replace(points=(inside, inside)))
+
+
+def test_a_rim_is_level_and_stays_so_up_to_the_tolerances():
+    x, z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+    cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
+    for tilt, rate_of, expected in ((1.0, 2.0, None), (2.0, 2.0, "slides"), (1.0, 1.0, "rests")):
+        turning = rate_of * ON_RIM * x[:, None]
+        found = rim_velocity(Rim(0, 1, 0.04), cylinder, z + tilt * LEVEL * x, turning)
+        assert (found is None) == (expected is None)
+        assert expected != "rests" or not found.any()
+
+
+def test_directions_as_near_to_each_other_as_counts_are_one():
+    x, y = np.eye(3)[:2]
+    system = body((0.0, 0.0, 0.2))
+    _, (couple,) = kept(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
+    for share, count in ((1.0, 1), (2.0, 2)):
+        one = Feature(np.eye(3), x[None], share * ON_RIM * y[None])
+        assert len(merged_features(couple._replace(features=(one, one)))[0].free) == count
+        ways = tuple(Feature(np.eye(3), way[None]) for way in (x, share * UNIQUE * y))
+        assert _dependent(ways) == (count == 1)

@@ -1,0 +1,178 @@
+"""What each shape is about points of its surface, on rims and next to them: closed forms."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.optional.derivatives.contact.features import _of_polytope, ball, feature
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace
+from quasistatic_ref.tolerances import LEVEL, ON_RIM
+from tests.tolerances import EXACT, ROUNDING
+
+X, Y, Z = np.eye(3)
+C, S = 0.6, 0.8  # a cosine and its sine
+U, AROUND = np.array([C, S, 0.0]), np.array([-S, C, 0.0])
+TILTED = np.array([2.0, 3.0, 6.0]) / 7
+BOX, LOG, PILL = Box(np.array([0.01, 0.02, 0.03])), Cylinder(0.01, 0.02), Capsule(0.01, 0.01)
+MESH = convex_hull(BOX.corners(Z)[0])
+# A cone of base radius 0.03 and height 0.04: its slant is 0.05, and the normal of its side is
+# 0.8 outwards and 0.6 up. Its generator through the azimuth of U goes 0.6 inwards and 0.8 up.
+CONE, SIDE = Cone(0.03, 0.02), 0.8 * U + 0.6 * Z
+GENERATOR = 0.8 * Z - 0.6 * U
+HALF_AXES = np.array([0.01, 0.02, 0.03])
+TETRAHEDRON = convex_hull([[0, 0, 0], [0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]])
+# Of its edge between the faces with normals -Z and (1, 1, 1) / sqrt 3, the normal halfway.
+EDGE = (np.ones(3) / np.sqrt(3) - Z) / np.linalg.norm(np.ones(3) / np.sqrt(3) - Z)
+NO = np.zeros((3, 3))
+TOP = 0.01 * Z  # of the segment of PILL
+# Of a ball of radius r the farthest point along n is r n / |n|, and its derivative r (I - n n').
+BALL = 0.01 * (np.eye(3) - np.outer(TILTED, TILTED))
+FREE = {
+    "a half-space": (HalfSpace(TILTED, 0.0), 0 * X, TILTED, NO, "normal"),
+    "a face of a box": (BOX, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
+    "a face of a mesh": (MESH, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
+    "an edge of a box": (BOX, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
+    "an edge of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
+    "a blunt edge of a mesh": (TETRAHEDRON, 0.01 * (X + Y), EDGE, NO, [(X - Y) / np.sqrt(2)]),
+    "a corner of a mesh": (MESH, np.array([0.01, 0.02, 0.03]), TILTED, NO, []),
+    "the side of a capsule": (PILL, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
+    "an end of a capsule": (PILL, TOP + 0.01 * TILTED, TILTED, BALL, []),
+    "the side of a cylinder": (LOG, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
+    "a side of a cylinder along y": (LOG, 0.01 * Y, Y, 0.01 * np.outer(X, X), [Z]),
+    "the top of a cylinder": (LOG, np.array([0.0, 0.005, 0.02]), Z, NO, "normal"),
+    # At half of its height its radius is 0.015, about a normal that is 0.8 outwards.
+    "the side of a cone": (
+        CONE,
+        0.015 * U,
+        SIDE,
+        0.015 / 0.8 * np.outer(AROUND, AROUND),
+        [GENERATOR],
+    ),
+    "the base of a cone": (CONE, np.array([0.0, 0.01, -0.02]), -Z, NO, "normal"),
+    "the tip of a cone": (CONE, 0.02 * Z, Z, NO, []),
+}
+"""Shape, point, normal, D, and F: unit vectors, or all across the normal."""
+
+
+def span(vectors):
+    """Projection onto what orthonormal vectors (k, 3) span."""
+    return np.array(vectors).reshape(-1, 3).T @ np.array(vectors).reshape(-1, 3)
+
+
+def like(found, expected):
+    np.testing.assert_allclose(found, expected, rtol=EXACT, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_a_feature_bends_and_is_straight_as_its_shape_is(name) -> None:
+    shape, x, n, bend, free = FREE[name]
+    found = feature(shape, x, n)
+    like(found.bend, bend)
+    like(span(found.free), np.eye(3) - np.outer(n, n) if free == "normal" else span(free))
+    assert not len(found.ends)
+
+
+def test_a_ball_bends_alike_across_its_normal_and_not_along_it() -> None:
+    like(ball(0.01, TILTED).bend, BALL)
+
+
+def test_an_ellipsoid_bends_as_its_farthest_point_moves() -> None:
+    # The farthest point along n is E^2 n / |E n|, and D is its derivative.
+    height = np.sqrt(np.sum((HALF_AXES * TILTED) ** 2))
+    there = HALF_AXES**2 * TILTED / height
+    found = feature(Ellipsoid(HALF_AXES), there, TILTED)
+    like(found.bend, (np.diag(HALF_AXES**2) - np.outer(there, there)) / height)
+
+
+ENDS = {
+    "an edge of a box, along a face": (BOX, np.array([0.01, 0.02, 0.0]), X, [Z], [Y]),
+    "an edge of a mesh, along a face": (MESH, np.array([0.01, 0.02, 0.0]), X, [Z], [Y]),
+    "a corner of a box, along a face": (BOX, np.array([0.01, 0.02, 0.03]), X, [], [Y, Z]),
+    "a corner of a mesh, along a face": (MESH, np.array([0.01, 0.02, 0.03]), X, [], [Y, Z]),
+    "a low corner of a mesh": (MESH, -np.array([0.01, 0.02, 0.03]), -X, [], [Y, Z]),
+    "an end of a capsule's side": (PILL, TOP + 0.01 * U, U, [], [Z]),
+    "the rim of a cylinder's side": (LOG, 0.01 * U + 0.02 * Z, U, [], [Z]),
+    "the rim of a cylinder's top": (LOG, 0.01 * U + 0.02 * Z, Z, [], [X, Y]),
+    "the rim of a cone's side": (CONE, 0.03 * U - 0.02 * Z, SIDE, [], [GENERATOR]),
+    "the tip of a cone, along its side": (CONE, 0.02 * Z, SIDE, [], [GENERATOR]),
+}
+"""Shape, point, normal, F, and the directions in which the feature ends."""
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_a_feature_ends_where_another_begins(name) -> None:
+    shape, x, n, free, ends = ENDS[name]
+    found = feature(shape, x, n)
+    like(span(found.free), span(free))
+    like(span(found.ends), span(ends))
+
+
+RIMS = {
+    "a face of a box": (BOX, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
+    "a face of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
+    "the side of a capsule": (PILL, TOP + 0.01 * U, U, Z, 0.02),
+    "the side of a cylinder": (LOG, 0.01 * U + 0.02 * Z, U, Z, 0.03),
+    "the top of a cylinder": (LOG, 0.01 * U + 0.02 * Z, Z, U, 0.03),
+    "the side of a cone": (CONE, 0.03 * U - 0.02 * Z, SIDE, -GENERATOR, 0.05),
+    "the base of a cone": (CONE, 0.03 * U - 0.02 * Z, -Z, U, 0.05),
+}
+"""Shape, point of a rim, normal, the way to the rim from inside of the face, the shape's size [m].
+
+Of a capsule, a cylinder and a cone the size is radius + half_length, of a box its longest side.
+"""
+
+
+@pytest.mark.parametrize("name", RIMS)
+def test_near_a_rim_is_on_it_and_a_share_of_the_size_away_is_not(name) -> None:
+    shape, x, n, way, size = RIMS[name]
+    near, away = (feature(shape, x - share * ON_RIM * size * way, n) for share in (0.3, 3.0))
+    assert len(near.ends) > 0
+    assert not len(away.ends)
+    assert len(away.free) > len(near.free)
+
+
+def test_a_rim_is_as_curved_as_its_normal_leans_outwards() -> None:
+    n = C * U + S * Z
+    found = feature(LOG, 0.01 * U + 0.02 * Z, n)
+    like(span(found.arc), np.outer(AROUND, AROUND))
+    like(found.curvature, C / 0.01)
+    down = feature(CONE, 0.03 * U - 0.02 * Z, C * U - S * Z)
+    like(span(down.arc), np.outer(AROUND, AROUND))
+    like(down.curvature, C / 0.03)
+
+
+# Of sizes that add up to 1 / ON_RIM what is near to a rim is within one metre of it.
+FAR = 1 / ON_RIM - 2
+NEEDLE = Cone(1.0, 0.5 / ON_RIM)  # the normal of its side is ON_RIM from level
+HUGE = convex_hull(Box(np.array([2.0, 2.0, 4.0])).corners(Z)[0])
+BORDERS = {
+    "near an edge of a box": (Box(np.array([2.0, 2.0, 1 / ON_RIM])), X, X, 2, 0),
+    "an edge of a box, by its normal": (BOX, np.array([0.01, 0.02, 0.0]), X + ON_RIM * Y, 1, 1),
+    "near the end of a capsule": (Capsule(FAR, 2.0), FAR * X + Z, X, 0, 1),
+    "the end of a capsule, by its normal": (PILL, TOP + 0.01 * X, X + ON_RIM * Z, 0, 1),
+    "near the rim of a cap": (Cylinder(2.0, FAR), X + FAR * Z, Z, 0, 2),
+    "near the rim of a side": (Cylinder(FAR, 2.0), FAR * X + Z, X, 0, 1),
+    "a rim, by its normal": (LOG, 0.01 * X + 0.02 * Z, X + ON_RIM * Z, 0, 1),
+    "a level rim, by its normal": (LOG, 0.01 * X + 0.02 * Z, LEVEL * X + Z, 0, 2),
+    "near the base of a cone": (Cone(FAR, 2.0), -Z, -Z, 2, 0),
+    "near the rim of a base": (Cone(2.0, FAR), X - FAR * Z, -Z, 0, 2),
+    "the rim of a needle, by its normal": (NEEDLE, X - 0.5 / ON_RIM * Z, X, 0, 1),
+    "near the tip of a cone": (Cone(FAR, 2.0), Z, Z, 0, 1),
+}
+"""Shape, point, normal, as near to a rim as counts, and how many vectors F and ends have there."""
+
+
+@pytest.mark.parametrize("name", BORDERS)
+def test_as_near_to_a_rim_as_counts_is_on_it(name) -> None:
+    shape, x, n, free, ends = BORDERS[name]
+    found = feature(shape, x, n)
+    assert (len(found.free), len(found.ends)) == (free, ends)
+
+
+def test_as_near_to_an_edge_of_a_mesh_as_counts_is_on_it() -> None:
+    flat, corner = polytope(HUGE), np.array([2.0, 2.0, 4.0])
+    assert len(_of_polytope(flat, 2 * X + Y, X, 1.0).free) == 1
+    # A corner ends an edge within ten times as far, and along edges that the normal is across.
+    assert len(_of_polytope(flat, corner - X - Y - Z, X, 0.1).ends) == 2
+    assert len(_of_polytope(flat, corner, X + ON_RIM * (Y + Z), 1e-3).ends) == 2

@@ -1,0 +1,106 @@
+"""Points that are as near as the farthest that a pair keeps, and the same a little apart."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.optional.derivatives.contact.couples import couples
+from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.tolerances import TIED
+from tests.contact.still import pair, placed
+
+TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+AT = np.array([0.5, -0.4, 0.3])
+FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+BALL = Sphere(0.1)
+HEIGHTS = np.array([0.03, 0.01, 0.02, 0.03, 0.04])
+"""Points 0 and 3 are level: of three that are kept, one is left out that is as near."""
+
+
+def ties(alpha, beta, k, poses):
+    p = pair(placed(alpha, 1), placed(beta, 2), k)
+    R = np.array([np.eye(3), poses[0][0], poses[1][0]])
+    t = np.array([np.zeros(3), poses[0][1], poses[1][1]])
+    points = pair_closest_points(p, R, t)
+    return tied_points(couples([p], points, R, t), points)
+
+
+def both(solid, body, k):
+    """Of a body whose points are given in the frame of a solid that is turned; either one first.
+
+    The body's own frame is a tenth of a metre to the side.
+    """
+    side = np.array([0.1, 0.0, 0.0])
+    poses = (TURNED, AT), (TURNED, AT + TURNED @ side)
+    shifted = PointCloud(body.points - side) if isinstance(body, PointCloud) else body
+    found = ties(solid, shifted, k, poses)
+    assert ties(shifted, solid, k, poses[::-1]) == found
+    return found
+
+
+def cloud(solid, heights):
+    """Points at given heights above a solid, in its frame; 0.06 m across above the floor."""
+    angle = 2.4 * np.arange(len(heights))
+    across = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    if solid is FLOOR:
+        return PointCloud(0.03 * across + np.outer(heights, [0.0, 0.0, 1.0]))
+    return PointCloud((0.1 + np.array(heights))[:, None] * across)
+
+
+@pytest.mark.parametrize("solid", [FLOOR, BALL])
+def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid) -> None:
+    kept, out = both(solid, cloud(solid, HEIGHTS), 3)
+    assert sorted(kept + out) == [0, 3]
+    assert len(kept) == 1
+    for k in (1, 2, 4, 5, 6):
+        assert both(solid, cloud(solid, HEIGHTS), k) == ([], [])
+
+
+@pytest.mark.parametrize("solid", [FLOOR, BALL])
+def test_two_that_are_kept_are_tied_with_one_that_is_not(solid) -> None:
+    kept, out = both(solid, cloud(solid, [0.03, 0.01, 0.03, 0.03, 0.04]), 3)
+    assert sorted(kept + out) == [0, 2, 3]
+    assert len(kept) == 2
+
+
+@pytest.mark.parametrize("solid", [FLOOR, BALL])
+def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
+    # Equal is what differs by at most TIED * size, and the size is between 0.01 and 1 m here.
+    for off, expected in ((TIED, False), (-TIED, False), (TIED * 0.01, True), (-TIED * 0.01, True)):
+        near = cloud(solid, HEIGHTS + np.array([off, 0.0, 0.0, 0.0, 0.0]))
+        assert (both(solid, near, 3) != ([], [])) == expected
+    # Points 0 and 1 are kept, and one of 2 and 3, which are higher by `off`; the other is left out.
+    for off, with_0 in ((TIED, False), (TIED * 0.01, True)):
+        higher = cloud(solid, [0.03, 0.01, 0.03 + off, 0.03 + off, 0.04])
+        kept, out = both(solid, higher, 3)
+        assert out in ([2], [3])
+        assert kept == [0] * with_0 + [5 - out[0]]
+
+
+def test_of_many_points_the_one_left_out_is_found() -> None:
+    heights = 0.05 + 0.001 * np.arange(2000)
+    heights[[1999, 700, 3, 1200]] = 0.02, 0.03, 0.04, 0.04
+    kept, out = both(FLOOR, cloud(FLOOR, heights), 3)
+    assert sorted(kept + out) == [3, 1200]
+
+
+def test_corners_of_a_box_on_the_floor_are_tied_but_not_of_a_tilted_one() -> None:
+    box, floor = Box(np.array([0.1, 0.1, 0.1])), (np.eye(3), np.zeros(3))
+    lying = np.eye(3), np.array([0.0, 0.0, 0.1])
+    kept, out = ties(FLOOR, box, 3, (floor, lying))
+    assert sorted(kept + [i for i in out if i < 4]) == [0, 1, 2, 3]
+    tilted = Rotation.from_euler("xy", [0.1, 0.25]).as_matrix(), np.array([0.0, 0.0, 0.2])
+    assert ties(FLOOR, box, 3, (floor, tilted)) == ([], [])
+    assert ties(FLOOR, box, 1, (floor, lying)) == ([], [])
+
+
+def test_heights_that_differ_by_as_much_as_counts_as_equal_are_tied() -> None:
+    # Of a size of 1 / TIED that is one metre: of points at 1, 2, 3 and 5 m two are kept.
+    p = pair(placed(FLOOR, 1), placed(cloud(FLOOR, [1.0, 2.0, 3.0, 5.0]), 2), 2)
+    poses = np.array([np.eye(3)] * 3), np.zeros((3, 3))
+    points = pair_closest_points(p, *poses)
+    for share, expected in ((1.0, ([0, 1], [2])), (0.99, ([], []))):
+        kept = [c._replace(extents=(np.inf, share / TIED)) for c in couples([p], points, *poses)]
+        assert tied_points(kept, points) == expected

@@ -1,0 +1,80 @@
+"""The barrier's Newton method alone: a closed form at every size, a row at rest, too few steps."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.optional.derivatives.step import barrier
+from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
+from tests.helpers import changed, hessian, point_on_floor, random_step
+from tests.tolerances import ACTIVE_SET, CLOSED_FORM
+
+H_OF_POINT = 0.01
+"""h [s]."""
+
+
+def pressed(m, force, kappa):
+    """A point that a force presses onto a floor without friction, and its displacement.
+
+    Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z.
+    """
+    step = point_on_floor(m, 0.0, force=(0.0, 0.0, -force), h=H_OF_POINT)
+    a, b, c = m / H_OF_POINT, H_OF_POINT * force, -int(step.counts[0]) * kappa
+    return step, np.array([0.0, 0.0, -2 * c / (b + np.sqrt(b * b - 4 * a * c))])
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e-12, 1e12])
+def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
+    kappa = 1e-4 * scale
+    step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
+    found = barrier_step(step, kappa)
+    np.testing.assert_allclose(found.x, z, rtol=CLOSED_FORM, atol=0.0)
+    np.testing.assert_allclose(found.lam, kappa / found.slack, rtol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-12])
+def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeypatch):
+    kappa, answers = 1e-4 * scale, 0
+    step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
+    for steps in range(30):
+        monkeypatch.setattr(barrier, "STEPS", steps)
+        try:
+            found = barrier_step(step, kappa)
+        except StepNotSolved:
+            assert not answers
+            continue
+        np.testing.assert_allclose(found.x, z, rtol=ACTIVE_SET, atol=0.0)
+        answers += 1
+    assert 0 < answers < 29
+
+
+def test_a_method_that_rounding_keeps_from_settling_gives_its_best_point(rng, monkeypatch):
+    # The minimiser is unique: what is best of steps without an end is the answer that settled.
+    step = random_step(rng)
+    settled = barrier_step(step, 1e-6)
+    monkeypatch.setattr(barrier, "SETTLED", 1e-18)
+    monkeypatch.setattr(barrier, "NOTHING", 0.0)
+    off = barrier_step(step, 1e-6).x - settled.x
+    energy = settled.x @ hessian(step) @ settled.x
+    assert off @ hessian(step) @ off <= CLOSED_FORM**2 * energy
+
+
+def test_a_row_that_no_coordinate_moves_keeps_its_gap():
+    kappa = 1e-4
+    step, z = pressed(0.3, 2.0, kappa)
+    two = repeated(step.contacts, [0, 0])
+    J = two.J.copy()
+    J[1] = 0.0
+    rests = step.replace(contacts=changed(two, J=J, phi=[0.0, 0.5]))
+    found = barrier_step(rests, kappa)
+    np.testing.assert_allclose(found.x, z, rtol=CLOSED_FORM, atol=0.0)
+    still = found.slack[int(rests.offsets[1]) :]
+    np.testing.assert_allclose(still, 0.5, rtol=CLOSED_FORM)
+
+
+def test_rows_that_are_far_push_as_little_as_kappa_says(rng):
+    # lam = kappa / slack, of 1e-30 or less: far below the rounding of the loads, and yet known.
+    step = random_step(rng)
+    found = barrier_step(step.replace(contacts=changed(step.contacts, phi=[1.0, 2.0, 3.0])), 1e-30)
+    np.testing.assert_allclose(found.lam, 1e-30 / found.slack, rtol=CLOSED_FORM)

@@ -1,0 +1,282 @@
+"""Derivatives of the exact optimum against central differences without rounding, and verdicts.
+
+The differences are taken of optima in rational numbers, of problems formed here by plain loops of
+fractions, at parameters moved by 2^-80 of their size: their truncation is below 1e-40.
+"""
+
+from fractions import Fraction as F
+from math import lcm
+
+import numpy as np
+import pytest
+from flint import fmpq, fmpz_mat
+
+from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.certificate import exact_certificate
+from quasistatic_ref.certify.degeneracy import strictly_active
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from tests.helpers import (
+    changed,
+    pinch,
+    point_on_floor,
+    random_step,
+    sphere_on_floor,
+)
+from tests.tolerances import EXACT, ROUNDING
+from validation.random_steps import any_step
+
+WAYS = ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
+TINY = F(1, 2**80)
+
+
+def numbers(step):
+    """Every parameter of a step as a fraction, by name."""
+    c = step.contacts
+    p = {"h": F(step.h)}
+    p |= {("delta_q_bar_a", i): F(v) for i, v in enumerate(step.delta_q_bar_a)}
+    p |= {("tau_a", i): F(v) for i, v in enumerate(step.tau_a)}
+    p |= {("tau_u", i): F(v) for i, v in enumerate(step.tau_u)}
+    p |= {("K_q", i): F(v) for i, v in enumerate(np.diag(step.K_q))}
+    for name in ("phi", "mu_v", "mu_omega"):
+        p |= {(name, j): F(v) for j, v in enumerate(getattr(c, name))}
+    return p
+
+
+def form_of(step, p):
+    """Eqs. (1), (4)-(8), (13) of the pyramid by loops of fractions, then in integers."""
+    n_a, n, c, h = step.n_a, step.n_v, step.contacts, p["h"]
+    K = [[F(v) for v in row] for row in step.K_q]
+    for i in range(n_a):
+        K[i][i] = p["K_q", i]
+    H, g = [[F(0)] * n for _ in range(n)], [F(0)] * n
+    for i in range(n_a):
+        H[i][:n_a] = [h * v for v in K[i]]
+        pull = sum((K[i][k] * p["delta_q_bar_a", k] for k in range(n_a)), F(0))
+        g[i] = h * (pull + p["tau_a", i])
+    for i in range(step.n_u):
+        H[n_a + i][n_a:] = [F(v) / h for v in step.M_u[i]]
+        g[n_a + i] = h * p["tau_u", i]
+    A, b = [], []
+    for j in range(c.n_c):
+        J = [[F(v) for v in row] for row in c.J[j]]
+        axes = [[F(v) for v in getattr(c, key)[j]] for key in ("n", "d1", "d2")]
+        for t1, t2, w in WAYS[: c.rows[j]]:
+            m1, m2, spin = t1 * p["mu_v", j], t2 * p["mu_v", j], w * p["mu_omega", j]
+            d = [axes[0][k] + m1 * axes[1][k] + m2 * axes[2][k] for k in range(3)]
+            A.append([sum(d[k] * J[k][v] for k in range(3)) + spin * J[3][v] for v in range(n)])
+            b.append(-p["phi", j])
+    H, g = whole(H, [[v] for v in g])
+    A, b = whole(A, [[v] for v in b]) if A else (fmpz_mat(0, n), fmpz_mat(0, 1))
+    return ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1))
+
+
+def whole(*parts):
+    """Fractions times their common denominator."""
+    common = lcm(*(v.denominator for part in parts for row in part for v in row))
+    return tuple(fmpz_mat([[int(v * common) for v in row] for row in part]) for part in parts)
+
+
+def optimum(step, p, warm):
+    """The exact optimum as fractions, or None."""
+    end = dual_active_set(form_of(step, p), warm)
+    if isinstance(end, Farkas):
+        return None
+    solution = end.point.rational
+    d = int(solution.denominator)
+    return [F(int(v), d) for v in solution.x]
+
+
+def moved(step, key, warm, sides=(-1, 0, 1)):
+    """Optima at the parameter less a little, as it is, and plus a little; and that little."""
+    p = numbers(step)
+    little = TINY * (abs(p[key]) or 1)
+    return [optimum(step, p | {key: p[key] + s * little}, warm) for s in sides], little
+
+
+def column(found, key):
+    name, i = key if isinstance(key, tuple) else (key, 0)
+    return getattr(found, name)[:, i]
+
+
+def said(step, key):
+    name, i = key if isinstance(key, tuple) else (key, 0)
+    if name in ("phi", "mu_v", "mu_omega"):
+        return f"{name}[{step.contacts.name[i]}]"
+    return {"h": "h", "K_q": f"K_q[{i}, {i}]"}.get(name, f"{name}[{i}]")
+
+
+@pytest.mark.parametrize("block", range(10))
+def test_derivatives_agree_with_central_differences_on_500_random_steps(block):
+    compared = refused = 0
+    for seed in range(50 * block, 50 * block + 50):
+        rng = np.random.default_rng(seed)
+        n_a, n_u, n_c = (int(v) for v in rng.integers(0, 4, 3))
+        step = any_step(rng, n_a, n_u + (n_a + n_u == 0), n_c)
+        try:
+            best = exact_step(step)
+        except StepNotSolved:
+            continue
+        found = sensitivity(step, exact_certificate(step, best))
+        keys = list(numbers(step))
+        for k in rng.permutation(len(keys))[:4]:
+            key = keys[k]
+            if said(step, key) in found.why_not:
+                assert np.isnan(column(found, key)).all()
+                refused += 1
+                continue
+            (below, above), little = moved(step, key, best.working_set, (-1, 1))
+            expected = [float((a - b) / (2 * little)) for a, b in zip(above, below, strict=True)]
+            scale = max(map(abs, expected))
+            np.testing.assert_allclose(
+                column(found, key), expected, rtol=ROUNDING, atol=ROUNDING * scale
+            )
+            compared += 1
+    assert compared > 50
+    assert refused > 0
+
+
+def found_at(step):
+    return sensitivity(step, solve_step(step).certificate)
+
+
+def test_a_sticking_contact_with_dependent_rows_is_differentiable():
+    step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
+    found = found_at(step)
+    assert found.why_not == {}
+    # It follows the floor, delta_z = -phi, however rough that is, and rolls with m + I / r^2.
+    np.testing.assert_allclose(found.phi[:, 0], [0, 0, -1, 0, 0, 0], rtol=EXACT, atol=EXACT)
+    for name in ("mu_v", "mu_omega"):
+        np.testing.assert_allclose(getattr(found, name), 0.0, rtol=EXACT, atol=EXACT)
+    rolled = 0.01**2 / (0.3 + 2e-4 / 0.04**2)
+    np.testing.assert_allclose(found.tau_u[0, 0], rolled, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(found.tau_u[2], 0.0, rtol=EXACT, atol=EXACT)
+
+
+def test_a_sliding_point_has_the_derivatives_of_its_closed_form():
+    # v (1 + mu^2) = h^2 (F - mu W) / m; along d1 a single row is active.
+    m, mu, force, weight, h = 0.3, 0.5, 4.0, 3.0, 0.01
+    found = found_at(point_on_floor(m, mu, force=(force, 0.0, -weight), h=h))
+    v = h**2 * (force - mu * weight) / (m * (1 + mu**2))
+    dv = {
+        "tau_u": h**2 / (m * (1 + mu**2)),
+        "h": 2 * v / h,
+        "mu_v": -(h**2) * weight / (m * (1 + mu**2)) - 2 * mu * v / (1 + mu**2),
+    }
+    for name, expected in dv.items():
+        np.testing.assert_allclose(getattr(found, name)[0, 0], expected, rtol=ROUNDING, atol=0.0)
+    assert found.why_not == {}
+
+
+def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative():
+    step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
+    step = step.replace(contacts=repeated(step.contacts, [0, 0]))
+    found = found_at(step)
+    assert set(found.why_not) == {"phi[c0]", "phi[c1]"}
+    assert found.why_not["phi[c0]"] == "the equations of c0 and c1 would contradict each other"
+    # One-sided differences: lowering one gap lets the other carry on, raising it lifts the body.
+    (below, at, above), little = moved(step, ("phi", 0), ())
+    assert float((above[2] - at[2]) / little) == 0.0
+    assert float((at[2] - below[2]) / little) == -1.0
+
+
+def test_a_contact_that_touches_without_load_holds_on_one_side_only():
+    step = point_on_floor(force=(0.0, 0.0, 0.0))
+    found = found_at(step)
+    expected = "c0 touches without load: it holds on one side only"
+    assert found.why_not["phi[c0]"] == expected
+    assert found.why_not["tau_u[2]"] == expected
+    assert "h" not in found.why_not  # nothing drives it, whatever h is
+    (below, at, above), _ = moved(step, ("tau_u", 2), ())
+    assert above[2] > at[2] == below[2]
+
+
+def test_two_rows_that_press_only_against_each_other_are_strictly_active():
+    """X >= 0 and -x >= 0 at x = 0 and no load: any equal multipliers of both are optimal.
+
+    Neither is in the working set, and each alone would hold on one side only; together they pin x.
+    """
+    pair = Extra(("east", "west"), np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.zeros(2))
+    step = point_on_floor(phi=1.0).replace(extra=pair)
+    answer = solve_step(step)
+    assert answer.certificate.active == ()
+    assert answer.certificate.differentiable
+    assert not answer.certificate.multipliers_unique
+    form = exact_form(step)
+    assert strictly_active(form, (), (4, 5)) == [4, 5]
+    assert strictly_active(form, (), (4,)) == []
+    found = found_at(step)
+    assert not {"tau_u[0]", "h", "phi[c0]"} & set(found.why_not)
+    np.testing.assert_allclose(found.tau_u[:, 0], 0.0, rtol=EXACT, atol=EXACT)
+
+
+def test_at_the_limit_of_friction_a_push_has_no_derivative():
+    # mu W = 1.5 exactly: rows stick without using all of their share.
+    step = point_on_floor(0.3, 0.5, force=(1.5, 0.0, -3.0))
+    far = changed(step.contacts, phi=[1.0])
+    both = repeated(step.contacts, [0, 0])
+    step = step.replace(contacts=changed(both, phi=[0.0, float(far.phi[0])]))
+    found = found_at(step)
+    assert "tau_u[0]" in found.why_not
+    assert "c0" in found.why_not["tau_u[0]"]
+    assert "phi[c1]" not in found.why_not
+    np.testing.assert_allclose(found.phi[:, 1], 0.0, rtol=EXACT, atol=EXACT)
+
+
+def test_a_coefficient_of_zero_cannot_be_smaller():
+    step = point_on_floor(0.3, 0.0, force=(1.0, 0.0, -3.0))
+    found = found_at(step)
+    assert found.why_not["mu_v[c0]"] == "it is zero, cannot be smaller, and c0 touches"
+    open_ = step.replace(contacts=changed(step.contacts, phi=[1.0]))
+    assert found_at(open_).why_not == {}
+
+
+def test_coefficients_that_are_not_used_have_derivative_zero():
+    step = pinch(grip=5.0, offset=0.2)
+    four = step.replace(contacts=changed(step.contacts, rows=[4, 4]))
+    np.testing.assert_allclose(found_at(four).mu_omega, 0.0, rtol=EXACT, atol=EXACT)
+    smooth = found_at(step.replace(cone="frictionless"))
+    np.testing.assert_allclose(smooth.mu_v, 0.0, rtol=EXACT, atol=EXACT)
+
+
+@pytest.mark.parametrize("cone", ["product", "facets-8", "facets-6"])
+def test_other_polyhedral_cones_have_derivatives_too(cone):
+    # Central differences in float64 steps of 1e-6, of exact optima: good to 1e-9.
+    step = random_step(np.random.default_rng(4), rows=(6, 4)).replace(cone=cone)
+    found = found_at(step)
+    for name in ("phi", "mu_v", "mu_omega"):
+        for j in range(2):
+            if f"{name}[c{j}]" in found.why_not:
+                continue
+            value, small = getattr(step.contacts, name)[j], 1e-6 * getattr(step.contacts, name)[j]
+            ends = []
+            for sign in (1, -1):
+                values = getattr(step.contacts, name).copy()
+                values[j] = value + sign * small
+                contacts = changed(step.contacts, **{name: values})
+                ends.append(solve_step(step.replace(contacts=contacts)).delta_q)
+            expected = (ends[0] - ends[1]) / (2 * small)
+            scale = np.abs(solve_step(step).delta_q).max() / value
+            np.testing.assert_allclose(
+                getattr(found, name)[:, j], expected, rtol=1e-6, atol=1e-8 * scale
+            )
+
+
+def test_shapes_are_those_of_the_blocks():
+    found = found_at(random_step(np.random.default_rng(1), 3, 4, (6, 4)))
+    shapes = {"delta_q_bar_a": (7, 3), "tau_a": (7, 3), "K_q": (7, 3), "tau_u": (7, 4)}
+    shapes |= {"phi": (7, 2), "mu_v": (7, 2), "mu_omega": (7, 2), "h": (7, 1)}
+    for name, shape in shapes.items():
+        assert getattr(found, name).shape == shape
+
+
+def test_without_an_exact_certificate_in_a_polyhedral_cone_it_refuses():
+    step = pinch(grip=5.0, offset=0.2)
+    for other, certify in ((step, "residual"), (step.replace(cone="ellipsoid"), "full")):
+        with pytest.raises(InputError, match="needs an exact certificate in a polyhedral cone"):
+            sensitivity(other, solve_step(other, certify=certify).certificate)

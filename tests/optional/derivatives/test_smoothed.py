@@ -1,0 +1,104 @@
+"""The smoothed step: closed forms, differences, and what it tends to."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.nudge import MASS, RADIUS, H, resting
+from quasistatic_ref.lab.scenes.pushes import pushed
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
+from quasistatic_ref.shapes.placed_shape import Sphere
+from quasistatic_ref.step.data import Contacts
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
+from validation.derivatives import rate, unit
+
+G = 9.81
+NONE = np.zeros(0)
+
+
+@pytest.mark.parametrize("kappa", [1e-3, 1e-6, 1e-9])
+def test_a_ball_hovers_where_its_weight_is_borne(kappa):
+    # Six rows of the slack s = phi + z: m z / h + h m g = 6 kappa / s, a quadratic in s.
+    simulator, q = resting(Sphere(RADIUS), RADIUS + 2e-4)
+    found = smoothed(simulator, q, NONE, kappa)
+    a, b, c = MASS / H, H * MASS * G - 2e-4 * MASS / H, -6 * kappa
+    s = (
+        (-b + np.sqrt(b * b - 4 * a * c)) / (2 * a)
+        if b < 0
+        else -2 * c / (b + np.sqrt(b * b - 4 * a * c))
+    )
+    np.testing.assert_allclose(found.result.q[2], RADIUS + s, rtol=ROUNDING)
+    # ds / dphi from the same quadratic.
+    slope = s * MASS / H / (2 * a * s + b)
+    np.testing.assert_allclose(found.dq_dq[2, 2], slope, rtol=1e-9)
+
+
+@pytest.mark.parametrize("couple", [("ellipsoid", "capsule"), ("box", "cloud"), ("cone", "mesh")])
+@pytest.mark.parametrize("kappa", [1e-4, 1e-8])
+def test_derivatives_of_a_smoothed_push_agree_with_differences(couple, kappa):
+    rng = np.random.default_rng(5)
+    simulator, q, q_bar_a = pushed(rng, *couple, k=4)
+    found = smoothed(simulator, q, q_bar_a, kappa)
+    assert found.differentiable
+    system, e = simulator.system, unit(rng, 12)
+
+    def moved(t):
+        end = smoothed(simulator, system.integrate(q, t * e), q_bar_a, kappa).result.q
+        return system.difference(found.result.q, end)
+
+    there = rate(moved, 1e-6)
+    size = np.abs(found.dq_dq).max()
+    assert np.abs(found.dq_dq @ e - there).max() <= 10 * DIFFERENCE_OF_STEPS * size
+    np.testing.assert_allclose(found.along(q=e), found.dq_dq @ e, atol=1e-9 * size)
+
+    def pressed(t):
+        end = smoothed(simulator, q, q_bar_a, kappa, t * e).result.q
+        return system.difference(found.result.q, end)
+
+    size = np.abs(found.dq_dtau).max()
+    assert np.abs(found.dq_dtau @ e - rate(pressed, 1e-4)).max() <= 10 * DIFFERENCE_OF_STEPS * size
+
+
+def test_smoothed_derivatives_tend_to_those_of_the_exact_step():
+    simulator, q, q_bar_a = pushed(np.random.default_rng(5), "ellipsoid", "capsule", k=4)
+    exact = derivatives(simulator, q, q_bar_a)
+    assert exact.differentiable
+    off = []
+    for kappa in (1e-6, 1e-8, 1e-10, 1e-12):
+        found = smoothed(simulator, q, q_bar_a, kappa)
+        far = simulator.system.difference(exact.result.q, found.result.q)
+        off.append((np.abs(far).max(), np.abs(found.dq_dq - exact.dq_dq).max()))
+    places, slopes = np.array(off).T
+    assert (places[1:] < 0.1 * places[:-1]).all()
+    assert (slopes[1:] < 0.1 * slopes[:-1]).all()
+    assert slopes[-1] < 1e-4 * np.abs(exact.dq_dq).max()
+
+
+def test_at_a_kink_the_smoothed_derivative_is_between_those_of_both_sides():
+    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    found = smoothed(simulator, q, NONE, 1e-9)
+    assert found.differentiable
+    assert 0 < found.dq_dq[2, 2] < 1
+    assert not derivatives(simulator, q, NONE).differentiable
+
+
+def test_what_cannot_be_smoothed_is_refused():
+    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    with pytest.raises(InputError, match="greater than 0"):
+        smoothed(simulator, q, NONE, 0.0)
+    step = simulator.step(q, NONE).step
+    closed = step.replace(contacts=two_walls(step.contacts))
+    with pytest.raises(StepNotSolved, match="strictly inside"):
+        barrier_step(closed, 1e-6)
+
+
+def two_walls(contacts):
+    """The contact, closed, and another one from the opposite side: they contradict each other."""
+    c = contacts.dense()
+    return Contacts(
+        ("a", "b"), np.array([-1e-3, -1e-3]), np.stack([c.n[0], -c.n[0]]),
+        np.stack([c.d1[0], c.d1[0]]), np.stack([c.d2[0], -c.d2[0]]), np.stack([c.J[0], c.J[0]]),
+        np.full(2, 0.4), np.full(2, 0.01), np.array([6, 6]),
+    )  # fmt: skip

@@ -1,0 +1,201 @@
+"""Steps as functions of JAX: its own check of gradients, and no number at a kink unsaid."""
+
+import subprocess
+import sys
+
+import jax
+import numpy as np
+import pytest
+from jax.test_util import check_grads
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError, NotDifferentiable
+from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
+from quasistatic_ref.lab.scenes.pushed_block import pushed_block
+from quasistatic_ref.lab.scenes.pushes import pushed
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
+from quasistatic_ref.shapes.placed_shape import Sphere
+from tests.optional.derivatives.test_derivative_verdicts import BOX, FLOOR, free
+from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
+
+G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
+
+
+@pytest.fixture(autouse=True)
+def in_float64():
+    with jax.enable_x64(True):
+        yield
+
+
+def checked(function, *given):
+    """JAX's comparison with differences, forwards and backwards, along random directions."""
+    check_grads(
+        function, given, 1, ("fwd", "rev"), atol=JAX_GRADIENT, rtol=JAX_GRADIENT, eps=JAX_STEP
+    )
+
+
+def floating():
+    """A hand and a body, both floating: quaternions in q and in q_bar_a."""
+    return pushed(np.random.default_rng(5), "ellipsoid", "capsule", k=4)
+
+
+def turning():
+    """A block that turns by (cos, sin), and a finger that pushes it along two rails."""
+    scene = pushed_block(cone="pyramid")
+    q = scene.placed(0.01, 0.02, 0.3, 1e-4)
+    return scene.simulator, q, q[:2] + np.array([4e-3, 1e-3])
+
+
+def planar():
+    """A box in the plane, one corner of which is pushed into a wall."""
+    simulator, q = free(BOX, (0, 0.02, 0), (FLOOR, (0, 0, -1)), base="planar", rpy=(0, 0, 0.3))
+    return simulator, q, NONE
+
+
+SCENES = {"floating": floating, "turning": turning, "planar": planar}
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_gradients_of_a_step_pass_the_check_of_jax(scene):
+    simulator, q, goal = scene()
+    step, force = step_jax(simulator), np.linspace(0.1, 0.2, simulator.system.n_v)
+    q_next, verdict = step(q, goal, force)
+    assert (np.asarray(q_next) == simulator.step(q, goal, force).q).all()
+    assert not verdict.any()
+    checked(lambda *given: step(*given)[0], q, goal, force)
+    checked(jax.jit(lambda *given: step(*given)[0]), q, goal, force)
+
+
+def test_gradients_of_smoothed_steps_in_sequence_pass_the_check_of_jax():
+    simulator, q, goal = turning()
+    step = smoothed_jax(simulator)
+    ended = smoothed(simulator, q, goal, 1e-6).result.q
+    assert (np.asarray(step(q, goal, 1e-6)[0]) == ended).all()
+
+    def run(goals):
+        return jax.lax.scan(lambda q, goal: step(q, goal, 1e-6), jax.numpy.asarray(q), goals)
+
+    goals = goal + np.linspace(0, 4e-3, 5)[:, None]
+    assert not run(goals)[1].any()
+    checked(lambda goals: run(goals)[0], goals)
+
+
+def test_many_steps_at_once_are_those_one_by_one():
+    simulator, q, goal = turning()
+    step = step_jax(simulator)
+    goals = goal + np.linspace(0, 1e-3, 3)[:, None]
+    slope = jax.grad(lambda goal: step(q, goal)[0].sum())
+    at_once = jax.vmap(slope)(goals)
+    np.testing.assert_array_equal(at_once, [slope(one) for one in goals])
+
+
+def test_a_quaternion_s_length_has_no_gradient():
+    simulator, q, goal = floating()
+    step = step_jax(simulator)
+    by_q = jax.jacrev(lambda q: step(q, goal)[0])(q)
+    longer = np.where(np.arange(7) < 3, 1.0, 1.5)
+    scaled = step(q * np.tile(longer, 2), goal * longer)[0]
+    np.testing.assert_allclose(scaled, step(q, goal)[0], atol=ROUNDING)
+    for joint in simulator.system.joints:
+        part = slice(joint.q.start + 3, joint.q.stop)
+        along = np.asarray(by_q)[:, part] @ q[part]
+        assert np.abs(along).max() < 1e-12 * np.abs(by_q).max()
+
+
+def kink():
+    """A ball that just reaches the floor."""
+    return resting(Sphere(RADIUS), RADIUS + H**2 * G)
+
+
+def test_at_a_kink_the_step_is_there_and_its_gradient_is_an_error():
+    simulator, q = kink()
+    step = step_jax(simulator)
+    q_next, verdict = step(q, NONE)
+    assert (np.asarray(q_next) == simulator.step(q, NONE).q).all()
+    assert [kind for kind, is_so in zip(reason.KINDS, verdict, strict=True) if is_so] == [
+        reason.WEAK
+    ]
+    with pytest.raises(
+        NotDifferentiable, match=r"no derivative here: row .* without load"
+    ) as error:
+        jax.grad(lambda q: step(q, NONE)[0][2])(q)
+    assert error.value.reasons == derivatives(simulator, q, NONE).reasons
+    with pytest.raises(jax.errors.JaxRuntimeError, match="no derivative here: row"):
+        jax.block_until_ready(jax.jit(jax.grad(lambda q: step(q, NONE)[0][2]))(q))
+
+
+def test_a_kink_that_does_not_concern_what_is_asked_for_is_only_said():
+    simulator, q = resting(points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0)), 0.0)
+    step = step_jax(simulator)
+    by_force, verdict = jax.jacrev(lambda force: step(q, NONE, force), has_aux=True)(np.zeros(6))
+    assert verdict[reason.KINDS.index(reason.POINTS)]
+    assert np.isfinite(by_force).all()
+    with pytest.raises(NotDifferentiable, match="as near as each other"):
+        jax.jacfwd(lambda q: step(q, NONE)[0])(q)
+
+
+@pytest.mark.parametrize(("way", "slope"), [(UP, 1.0), (-UP, 0.0)])
+def test_one_sided_gradients_are_those_of_the_side_that_is_named(way, slope):
+    simulator, q = kink()
+    step = step_jax(simulator, "one-sided", towards={"q": way})
+    (height, verdict), by_q = jax.value_and_grad(
+        lambda q: (step(q, NONE)[0][2], step(q, NONE)[1]), has_aux=True
+    )(q)
+    assert float(height) == simulator.step(q, NONE).q[2]
+    assert verdict.any()
+    # Above the kink it falls as a free body does; below it ends on the floor.
+    np.testing.assert_allclose(by_q[2], slope, atol=1e-12)
+
+
+def test_a_tie_of_points_has_no_side():
+    simulator, q = resting(points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0)), 0.0)
+    step = step_jax(simulator, "one-sided", towards={"q": UP})
+    with pytest.raises(NotDifferentiable, match="as near as each other"):
+        jax.grad(lambda q: step(q, NONE)[0][2])(q)
+
+
+def test_smoothed_gradients_at_kinks_leave_the_step_exact():
+    simulator, q = kink()
+    step = step_jax(simulator, "smoothed", kappa=1e-9)
+    height, by_q = jax.value_and_grad(lambda q: step(q, NONE)[0][2])(q)
+    assert float(height) == simulator.step(q, NONE).q[2]
+    # At the kink s^2 m / h = 6 kappa, and ds / dphi = s m / h / (2 s m / h): one half.
+    np.testing.assert_allclose(by_q[2], 0.5, rtol=1e-9)
+
+
+def test_a_wrong_question_is_refused_in_a_sentence():
+    simulator, q = kink()
+    with pytest.raises(InputError, match="kinks: must be one of raise, one-sided, smoothed"):
+        step_jax(simulator, "ignore")
+    with pytest.raises(InputError, match="kappa: goes with kinks='smoothed'"):
+        step_jax(simulator, kappa=1e-6)
+    with pytest.raises(InputError, match="towards: goes with kinks='one-sided'"):
+        step_jax(simulator, "one-sided")
+    with pytest.raises(InputError, match="kappa: has no derivative"):
+        jax.grad(lambda kappa: smoothed_jax(simulator)(q, NONE, kappa)[0][2])(1e-6)
+    with jax.enable_x64(False), pytest.raises(InputError, match="must be float64"):
+        step_jax(simulator)(q, NONE)
+
+
+def test_without_jax_one_sentence_names_the_extra(monkeypatch):
+    monkeypatch.setitem(sys.modules, "jax", None)
+    with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[jax\]'"):
+        qr.step_jax(kink()[0])
+
+
+def test_nothing_of_jax_is_imported_before_it_is_asked_for():
+    source = "import sys, quasistatic_ref as q; q.step_jax, q.smoothed; print('jax' in sys.modules)"
+    command = [sys.executable, "-c", source]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
+def test_a_push_s_gradient_by_its_force_is_that_of_the_closed_form():
+    # A point that slides rises by mu_v x: h^2 F = m (1 + mu_v^2) x.
+    simulator, q = resting(points((0.0, 0.0, 0.0)), 0.0)
+    push = np.eye(6)[0] * 2 * MU_V * MASS * G
+    by_force = jax.jacfwd(lambda force: step_jax(simulator)(q, NONE, force)[0])(push)
+    np.testing.assert_allclose(by_force[0, 0], H**2 / (MASS * (1 + MU_V**2)), rtol=1e-9)

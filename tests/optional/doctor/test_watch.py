@@ -1,0 +1,161 @@
+"""What a run warns of, sentence by sentence: what triggers it, and the near miss that does not."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.doctor.watch import watched
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
+from quasistatic_ref.simulate.wrenches import Scene
+from quasistatic_ref.tolerances import BEYOND, IN_METRES, LEAP, SUNK
+from tests.model.urdf.urdf_texts import written
+from tests.scenes import written_scenario
+from tests.tolerances import ROUNDING
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    """A ball of radius 0.05 m, a floor, and a plate that slides along x from -1 m to 1 m."""
+    return written_scenario(tmp_path_factory.mktemp("scene"))
+
+
+def test_a_file_from_before_there_were_warnings_has_none(scene, tmp_path):
+    run = load_scenario(scene).run(progress=False)
+    header = {key: value for key, value in run.header.items() if key != "warnings"}
+    path = Trajectory(header, run.arrays).save(tmp_path / "old.npz")
+    assert trajectory_read(path).warnings == ()
+
+
+def made(scenario, steps=3, **changes):
+    """The record of a run in which nothing happens, but for `changes`."""
+    system, n_c = scenario.system, sum(pair.n_c for pair in scenario.pairs)
+    run = {
+        "phi": np.zeros((steps, n_c)),
+        "point": np.zeros((steps, n_c), dtype=int),
+        "delta_q": np.zeros((steps, system.n_v)),
+        "q_bar_a": np.tile(system.q_start[: system.n_q_a], (steps, 1)),
+    }
+    gap = changes.pop("gap", np.zeros((steps, n_c)))
+    return watched(Scene(system, scenario.pairs), run | changes, gap)
+
+
+@pytest.mark.parametrize(("share", "gap", "warned"), [
+    (1.01, 0.0, True),  # deeper than a hundredth of the ball's diameter, and predicted to touch
+    (0.99, 0.0, False),
+    (1.01, -1.01 * SUNK * 0.1, False),  # as deep as the step before predicted
+    (1.01, -0.02 * SUNK * 0.1, False),  # all but 0.99 of it was
+])  # fmt: skip
+def test_a_contact_that_sinks_unpredicted_needs_shorter_steps(scene, share, gap, warned):
+    phi = np.zeros((3, 2))
+    phi[2, 0] = -share * SUNK * 0.1
+    said = made(load_scenario(scene), phi=phi, gap=np.full((3, 2), gap))
+    depth = share * SUNK * 100.0
+    sentence = (
+        "take a smaller h or move slower: candidate 0 of floor(floor, ball/ball#0) is "
+        f"{depth:.3g} mm deep at step 2; the step before, which is right to first order, left it "
+        "at 0 mm"
+    )
+    assert said == ([sentence] if warned else [])
+
+
+def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
+    # push: a box against a ball has 8 corners and the closest pair, of which one is kept.
+    phi = np.zeros((3, 2))
+    phi[1, 1] = -2 * SUNK * 0.1
+    (said,) = made(load_scenario(scene), phi=phi)
+    assert said.startswith("take a smaller h or move slower, or raise k of contacts.push: ")
+    # Two are kept: a corner that was not one of them is a contact that k left out.
+    scenario = load_scenario(scene, ["contacts.push.k=2"])
+    phi, point = np.zeros((3, 3)), np.array([[0, 8, 3], [0, 8, 3], [0, 5, 8]])
+    phi[2, 1] = -2 * SUNK * 0.1
+    (said,) = made(scenario, phi=phi, point=point)
+    assert said == (
+        "raise k of contacts.push: point 5 of push(rail/plate#0, ball/ball#0) was not among its 2 "
+        "closest at step 1 and is 2 mm deep at step 2"
+    )
+
+
+def test_a_start_in_penetration_is_the_user_s_own_word(scene):
+    phi = np.zeros((3, 2))
+    phi[0] = -0.01
+    assert made(load_scenario(scene), phi=phi) == []
+
+
+@pytest.mark.parametrize(("entry", "motion", "words"), [
+    (2, 1.01 * LEAP * 0.1, "ball/base.x moves"), (2, 0.99 * LEAP * 0.1, None),
+    (5, 1.01 * LEAP, "turns by 14.5 degrees"), (5, 0.99 * LEAP, None),
+    (0, 1.01 * LEAP * 0.2, "rail/slide moves by 50.5 mm"), (0, 0.99 * LEAP * 0.2, None),
+    (1, 7.0, None),  # the wheel touches nothing
+])  # fmt: skip
+def test_a_step_that_moves_a_body_by_a_quarter_of_its_size_is_named(scene, entry, motion, words):
+    delta_q = np.zeros((3, 8))
+    delta_q[1, entry] = motion
+    said = made(load_scenario(scene), delta_q=delta_q)
+    assert len(said) == (words is not None)
+    if words is not None:
+        assert words.replace("base.x", "base") in said[0]
+        assert ", in step 1, " in said[0]
+
+
+@pytest.mark.parametrize(("target", "words"), [
+    (1.0, None), (-1.0, None), (1.0 + BEYOND / 2, None),
+    (1.5, "1.5 m at step 2, or the limit in its URDF, 1 m"),
+    (-1.5, "-1.5 m at step 2, or the limit in its URDF, -1 m"),
+    (1.01 * IN_METRES, "check the unit of the targets of rail/slide: lengths are in metres"),
+])  # fmt: skip
+def test_a_target_beyond_the_limits_of_a_urdf_is_named(scene, target, words):
+    # (cos, sin) of the wheel's angle: it is continuous and has no limits.
+    q_bar_a = np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [target, 1.0, 0.0]])
+    said = made(load_scenario(scene), q_bar_a=q_bar_a)
+    assert len(said) == (words is not None)
+    assert words is None or words in said[0]
+
+
+def test_limits_are_those_of_the_urdf_and_zero_to_zero_says_nothing(scene):
+    limits = {joint.name: joint.limits for joint in load_scenario(scene).system.joints}
+    assert limits == {"rail/slide": (-1.0, 1.0), "rail/turn": None, "ball/base": None}
+    text = (scene.parent / "rail.urdf").read_text().replace('lower="-1" upper="1"', "")
+    written(scene.parent, text, "free.urdf")
+    system = load_scenario(scene, {"bodies.rail.urdf": scene.parent / "free.urdf"}).system
+    assert system.joint("rail/slide").limits is None
+
+
+@pytest.mark.parametrize(("mu_omega", "warned"), [(0.1, False), (0.101, True), (20.0, True)])
+def test_a_mu_omega_longer_than_the_smaller_body_looks_like_millimetres(scene, mu_omega, warned):
+    scenario = load_scenario(scene, {"contacts.floor.mu_omega": mu_omega})
+    sentence = (
+        "check the unit of mu_omega of contacts.floor: it is a length in metres, and "
+        f"{mu_omega:.3g} m is more than the size of the smaller body, 0.1 m"
+    )
+    assert made(scenario) == ([sentence] if warned else [])
+
+
+CORNERS = np.array([[0.0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize(("shape", "expected"), [
+    (Sphere(0.5), 1.0), (Box(np.array([0.5, 2.0, 1.0])), 4.0), (Cylinder(0.5, 2.0), 4.0),
+    (Capsule(0.5, 2.0), 5.0), (Cone(3.0, 2.0), 6.0), (Ellipsoid(np.array([1.0, 2.0, 0.5])), 4.0),
+    (HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), np.inf), (PointCloud(CORNERS), 3.0),
+    (convex_hull(CORNERS), 3.0),
+])  # fmt: skip
+def test_the_extent_of_a_shape_is_the_longest_edge_of_its_box(shape, expected):
+    np.testing.assert_allclose(shape.extent, expected, rtol=ROUNDING)
+
+
+def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):
+    phi = np.zeros((3, 2))
+    phi[2, 0] = -2 * SUNK * 0.1
+    said = made(load_scenario(scene, {"contacts.floor.mu_omega": 20.0}), phi=phi)
+    assert [sentence[:18] for sentence in said] == ["check the unit of ", "take a smaller h o"]

@@ -1,0 +1,62 @@
+"""The ellipsoid at its apex: which rows hold a body that sticks, and what is refused."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.ellipsoid import ellipsoid_verdict
+
+
+def held(force, mu_v, mu_omega=0.0, phi=0.0, h=0.5, lever=1.0):
+    """A body that moves along x, y, z and turns about z, on contacts that are all in one place."""
+    each = (len(mu_v), 1, 1)
+    at = contacts_of(
+        phi, np.tile(np.eye(3), each), np.tile(lever * np.eye(4), each), mu_v, mu_omega, rows=6
+    )
+    return free_step(np.eye(4), [*force, 0.0], at, h).replace(cone="ellipsoid")
+
+
+@pytest.mark.parametrize(
+    ("mu_v", "mu_omega", "rows"),
+    [(0.5, 0.1, (0, 1, 2, 3)), (0.5, 0.0, (0, 1, 2)), (0.0, 0.1, (0, 3)), (0.0, 0.0, (0,))],
+)
+def test_directions_without_friction_hold_nothing(mu_v, mu_omega, rows):
+    step = held((0.0, 0.0, -2.0), [mu_v], mu_omega)
+    assert apex_rows(step, exact_form(step), np.array([1.0, 0, 0, 0])) == rows
+    assert apex_rows(step, exact_form(step), np.zeros(4)) == ()
+
+
+def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
+    """J = 3 and h = 1/2: h f = 3 (lam_0 + lam_1), so f = (3.3, 0, -12) needs (-0.55, 2) in all.
+
+    Of that the first contact can hold |t| <= 0.1 n and the second |t| <= n.
+    """
+    step = held((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
+    form = exact_form(step)
+    lam = np.array([1.0, -0.05, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0])
+    working = apex_rows(step, form, lam)
+    assert working == (0, 1, 2)
+    assert apex_refutation(step, form, working, lam) is None
+    swapped = lam[[0, 5, 2, 3, 4, 1, 6, 7]]
+    assert apex_refutation(step, form, working, swapped) == "the force at c0 is outside of its cone"
+
+
+def test_a_body_that_touches_nothing_is_held_by_nothing():
+    """It falls by h^2 g = 1/4 (0, 0, -2), far above the floor: lam = 0 is in every cone."""
+    step = held((0.0, 0.0, -2.0), [0.5], phi=1.0)
+    delta_q = np.array([0.0, 0.0, -0.5, 0.0])
+    assert ellipsoid_verdict(step, delta_q, (), np.zeros(4), None)
+
+
+@pytest.mark.parametrize(("short", "right"), [(1e-12, True), (1e-5, False)])
+def test_impulses_without_a_claimed_gap_are_in_their_cone_but_for_rounding(short, right):
+    """At the limit of friction, |t| = mu n; n = 2^-14 N s is said to be a little less."""
+    n = 2.0**-14
+    step = held((n, 0.0, -2 * n), [0.5], h=1.0)  # h f = (n, 0, -2 n)
+    lam = np.array([2 * n * (1 - short), -n, 0.0, 0.0])
+    verdict = ellipsoid_verdict(step, np.zeros(4), ((0, 0), (0, 1), (0, 2)), lam, None)
+    assert bool(verdict) == right
+    assert right or "outside of its cone" in verdict.reason

@@ -1,0 +1,144 @@
+"""A pair of the ellipsoid's program, scaled, checked and rounded: closed forms of a point mass."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from flint import arb, arb_mat
+
+from quasistatic_ref.certify.balls import ball_form
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.optional.ellipsoid.enclosure import (
+    Checked,
+    _checked,
+    _impulses,
+    _net,
+    _rounded,
+)
+from quasistatic_ref.optional.ellipsoid.interior import Pair
+from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
+from tests.helpers import point_on_floor, sphere_on_floor
+from tests.tolerances import EXACT, ROUNDING
+
+M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
+"""Mass [kg], friction [-], gap [m] and time step [s] of the point."""
+FORCE = np.array([4.0, -1.0, -0.3 * 9.81])
+"""Its load [N]."""
+
+
+def posed(step=None):
+    """A step in the ellipsoid, its exact form, that in balls, and the scaled program."""
+    step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
+    step = step.replace(cone="ellipsoid")
+    form = exact_form(step)
+    balls = ball_form(form)
+    return step, form, balls, scaled_blocks(step, form, balls)
+
+
+def units(values, unit):
+    """Numbers in SI units, in those of a form."""
+    return [arb(v) / unit for v in np.asarray(values, float).tolist()]
+
+
+def checked(form, delta_q, gap=0.0):
+    """A displacement [m] whose duality gap is `gap` [N m s], in the units of a form."""
+    x = arb_mat(form.n, 1, units(delta_q, form.x_unit))
+    return Checked(x, [], arb(gap) / (form.net_unit * form.x_unit), arb(1))
+
+
+def test_the_gap_of_a_pair_is_the_difference_of_both_objectives():
+    """f(x) = m/2h |x|^2 - h F'x; the least of f - lam'(A x - b) is d = -h/2m |h F + l|^2 - phi l_n.
+
+    A x - b = (phi + x_3, x_1, x_2, 0), and so A'lam is l = (lam_1, lam_2, lam_n).
+    """
+    _, form, balls, frame = posed()
+    x, lam = np.array([3e-3, 1e-3, 5e-3]), np.array([0.02, -3e-3, 4e-3, 0.0])
+    y = units(lam / [1, MU, MU, 1], form.lam_unit)
+    found = _checked(form, balls, frame, checked(form, x).x, [y])
+    impulse = H_STEP * FORCE + lam[[1, 2, 0]]
+    f = M / H_STEP / 2 * x @ x - H_STEP * FORCE @ x
+    d = -H_STEP / M / 2 * impulse @ impulse - PHI * lam[0]
+    assert float(found.gap * form.net_unit * form.x_unit) == pytest.approx(f - d, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
+    """The cone is y_0 >= |(y_1, y_2, y_3)|, here with y_0 = 1."""
+    _, form, balls, frame = posed()
+    for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
+        y = [arb(1), *(arb(share if i == k else 0.0) for i in (1, 2, 3))]
+        found = _checked(form, balls, frame, checked(form, np.zeros(3)).x, [y])
+        assert (found is not None) == inside
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_a_slip_beyond_the_gap_over_mu_is_refused(k):
+    _, form, balls, frame = posed()
+    for share, inside in ((0.99, True), (1.01, False)):
+        x = checked(form, share * PHI / MU * np.eye(3)[k]).x
+        found = _checked(form, balls, frame, x, [[arb(1), arb(0), arb(0), arb(0)]])
+        assert (found is not None) == inside
+
+
+def test_entries_that_the_gap_leaves_undecided_are_zero():
+    """m/2h |x - x*|^2 <= gap: an entry is known to sqrt(2 h gap / m), here 1 mm."""
+    _, form, balls, _ = posed()
+    x, radius = np.array([0.999e-3, 1.001e-3, -2e-3]), 1e-3
+    found = checked(form, x, gap=M / H_STEP / 2 * radius**2)
+    expected = [0.0, x[1], x[2]]
+    np.testing.assert_allclose(_rounded(form, balls, found), expected, rtol=EXACT, atol=EXACT)
+
+
+def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
+    """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
+    _, form, _, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
+    x = np.array([3e-3, 0.0, 5e-3])
+    found = checked(form, x)
+    found.x[1, 0] = -(arb(2) ** -1200)
+    net = _net(form, found)
+    expected = M * x / H_STEP - H_STEP * np.array([4.0, 0.0, -1.0])
+    np.testing.assert_allclose(net, expected, rtol=ROUNDING, atol=0.0)
+    assert not np.signbit(net[1])
+
+
+def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
+    step, form, _, frame = posed()
+    lam = np.array([0.02, -3e-3, 4e-3, -1e-3])
+    found = SimpleNamespace(lam=units(lam, form.lam_unit))
+    none = _impulses(step, form, frame, found, SimpleNamespace(loaded=[False]))
+    assert none.tobytes() == np.zeros(4).tobytes()
+    some = _impulses(step, form, frame, found, SimpleNamespace(loaded=[True]))
+    np.testing.assert_allclose(some, lam, rtol=ROUNDING, atol=0.0)
+
+
+def test_the_scaled_program_has_the_point_and_the_impulse_that_it_is_given():
+    """The lowest point of a sphere moves by v + w x (0, 0, -r), and spins by w_3.
+
+    s is (phi + its height, mu_v times its slips, mu_omega times its spin), and lam is mu y.
+    """
+    radius, mu = 0.04, np.array([1.0, 0.5, 0.5, 0.02])
+    step = sphere_on_floor(radius=radius, phi=PHI, wrench=(1.0, 2.0, -3.0, 0.1, 0.2, 0.3))
+    _, form, _, frame = posed(step)
+    delta_q = np.array([1e-3, -2e-3, 3e-3, 0.01, 0.02, -0.03])
+    lam = np.array([0.02, -3e-3, 4e-3, 1e-4])
+    x, y = frame.start(form, delta_q, lam)
+    (A,), (b,) = frame.problem.A, frame.problem.b
+    found_x, found_y = frame.pair(Pair(x, [], y))
+    found_s = [frame.size * frame.length[0] * v for v in (A * x - b).entries()]
+    moved = delta_q[:3] + np.cross(delta_q[3:], [0, 0, -radius])
+    s = mu * [PHI + moved[2], moved[0], moved[1], delta_q[5]]
+    for unit, values, expected in (
+        (form.x_unit, found_x.entries(), delta_q),
+        (form.slack_unit, found_s, s),
+        (form.lam_unit, found_y[0], lam / mu),
+    ):
+        actual = [float(v * unit) for v in values]
+        np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
+
+
+def test_without_load_the_largest_gap_is_one_in_the_scaled_program():
+    _, _, _, frame = posed(point_on_floor(M, MU, phi=-PHI))
+    (b,) = frame.problem.b
+    np.testing.assert_allclose([float(v) for v in b.entries()], [1, 0, 0, 0], rtol=ROUNDING)
+    _, _, _, frame = posed(point_on_floor(M, MU))  # neither load nor gap: any size will do
+    assert float(frame.size) == 1.0

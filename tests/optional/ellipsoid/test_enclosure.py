@@ -1,0 +1,276 @@
+"""Steps in the ellipsoid: enclosed in balls, exact at apexes, verified, refused where they lie."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from flint import arb, arb_mat
+
+from quasistatic_ref.certify.certificate import in_words, verify
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.optimality import ellipsoid_residuals
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.optional.ellipsoid.enclosure import _of_interior, enclosure
+from quasistatic_ref.optional.ellipsoid.interior import Pair
+from quasistatic_ref.optional.large.bound import error_bound
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.solution_files import solution_read, solution_text
+from quasistatic_ref.tolerances import ENCLOSED
+from tests.helpers import (
+    error,
+    pinch,
+    planted_step,
+    point_on_floor,
+    random_step,
+    sphere_on_floor,
+)
+from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
+
+CONED = ("clarabel", "scs")
+
+
+def round_step(step):
+    return step.replace(cone="ellipsoid")
+
+
+def flat(answer):
+    return np.concatenate([answer.lam, answer.lam_extra])
+
+
+def verified(step, answer):
+    claims = answer.certificate
+    return verify(step, answer.delta_q, claims.active, flat(answer), claims)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, 2.0])
+def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
+    # A mass m, pushed by F along the floor and by W = m g down, slides if F > mu W. KKT with lam_n:
+    # m/h v = h F - mu lam_n along the push, m/h w = lam_n - h W upwards, w = mu v (lift-off):
+    # m/h mu v = lam_n - h W  and  m/h v = h F - mu lam_n  give  v (1 + mu^2) = h^2 (F - mu W) / m.
+    m, mu, F, W, h = 0.3, 0.5, 4.0, 0.3 * 9.81, 0.01
+    push = F * np.array([np.cos(angle), np.sin(angle)])
+    step = round_step(point_on_floor(m, mu, force=(*push, -W), h=h))
+    v = h**2 * (F - mu * W) / m / (1 + mu**2)
+    expected = np.array([*(v * push / F), mu * v])
+    for backend in CONED:
+        answer = solve_step(step, backend)
+        assert answer.certificate.kind == "enclosure"
+        np.testing.assert_allclose(answer.delta_q, expected, rtol=ROUNDING, atol=ROUNDING * v)
+        f_1, f_2, f_n, _ = answer.wrench[0]
+        np.testing.assert_allclose(np.hypot(f_1, f_2), mu * f_n, rtol=ROUNDING, atol=0.0)
+        assert verified(step, answer)
+
+
+def test_a_sticking_point_is_exact_and_carries_the_load():
+    step = round_step(point_on_floor(0.3, 0.5, force=(1.0, 0.5, -0.3 * 9.81)))
+    answer = solve_step(step)
+    assert answer.certificate.kind == "exact"
+    assert answer.certificate.error_bound == 0.0
+    np.testing.assert_allclose(answer.delta_q, np.zeros(3), rtol=EXACT, atol=EXACT)
+    expected = [[-1.0, -0.5, 0.3 * 9.81, 0.0]]
+    np.testing.assert_allclose(answer.wrench, expected, rtol=MULTIPLIERS, atol=MULTIPLIERS)
+    assert verified(step, answer)
+
+
+def test_without_load_on_contacts_the_unconstrained_step_is_exact(rng):
+    step = round_step(point_on_floor(phi=1.0, force=(1.0, 0.0, -1.0)))
+    answer = solve_step(step)
+    assert answer.certificate.kind == "exact"
+    assert answer.certificate.active == ()
+    expected = 1e-4 * np.array([1.0, 0.0, -1.0]) / 0.3
+    np.testing.assert_allclose(answer.delta_q, expected, rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(seed):
+    step = round_step(grasp_step(np.random.default_rng(seed)))
+    answers = [solve_step(step, backend) for backend in (*CONED, "none")]
+    for answer in answers:
+        assert answer.certificate.kind == "enclosure"
+        assert answer.certificate.error_bound < ENCLOSED
+        assert max(answer.certificate.residuals.values()) < ROUNDING
+        np.testing.assert_allclose(answer.delta_q, answers[0].delta_q, rtol=EXACT, atol=EXACT)
+    assert verified(step, answers[0])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_enclosure_agrees_with_many_facets(seed):
+    # The polygon with K corners on the circle loses a share pi^2 / (2 K^2) = 8e-5 of friction.
+    step = random_step(np.random.default_rng(seed), rows=(4, 4))
+    round_answer = solve_step(round_step(step)).delta_q
+    facets = solve_step(step.replace(cone="facets-256")).delta_q
+    assert error(step, facets, round_answer) < 1e-2
+
+
+def test_a_claimed_bound_that_is_too_small_is_refuted():
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    assert answer.certificate.kind == "enclosure"
+    claims = replace(answer.certificate, error_bound=1e-30)
+    verdict = verify(step, answer.delta_q, (), flat(answer), claims)
+    assert "error_bound is claimed" in verdict.reason
+
+
+def test_a_wrong_answer_is_refuted():
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    claims = answer.certificate
+    moved = answer.delta_q * (1 + 1e-12)
+    assert "error_bound" in verify(step, moved, (), flat(answer), claims).reason
+    lam = flat(answer)
+    assert "balance" in verify(step, answer.delta_q, (), 1.001 * lam, claims).reason
+    exact = replace(claims, kind="exact", error_bound=0.0)
+    assert not verify(step, answer.delta_q, (), lam, exact)
+    weak = replace(claims, kind="residual")
+    assert "proves nothing" in verify(step, answer.delta_q, (), lam, weak).reason
+    assert "nothing is proved without lam" in verify(step, answer.delta_q, (), None, claims).reason
+
+
+def test_impulses_outside_of_their_cones_are_refuted_without_a_claimed_gap():
+    """Of a contact that slips, with half of its normal part: raised into its cone it is optimal."""
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    claims = replace(answer.certificate, gap=None)
+    assert verify(step, answer.delta_q, claims.active, flat(answer), claims)
+    lam = flat(answer)
+    lam[::4] *= 0.5
+    for claimed in (claims, answer.certificate):
+        verdict = verify(step, answer.delta_q, claims.active, lam, claimed)
+        assert "outside of" in verdict.reason
+
+
+def test_an_exact_claim_is_checked_to_the_last_bit():
+    step = round_step(pinch(grip=5.0, offset=0.02))
+    answer = solve_step(step)
+    claims = answer.certificate
+    assert claims.kind == "exact"
+    assert verified(step, answer)
+    moved = answer.delta_q.copy()
+    moved[4] = 5e-324
+    assert "delta_q[4]" in verify(step, moved, claims.active, flat(answer), claims).reason
+    slipping = round_step(pinch(grip=5.0, offset=0.2))
+    assert not verify(slipping, answer.delta_q, claims.active, flat(answer), claims)
+
+
+def test_a_set_without_interior_is_reported_as_uncertified():
+    # Two walls without friction, opposite, both touching: only the plane between them is left.
+    step = random_step(np.random.default_rng(0), 3, 4, rows=())
+    J = np.zeros((2, 4, 7))
+    J[:, 2, 0] = 1.0
+    frames = [np.eye(3), np.diag([1.0, -1.0, -1.0])]
+    walls = contacts_of(0.0, frames, J, 0.0, 0.0, (4, 4))
+    step = round_step(step.replace(contacts=walls))
+    answer = solve_step(step)
+    assert enclosure(step) is None
+    assert answer.certificate.kind == "residual"
+    assert answer.certificate.error_bound is None
+    assert "no error bound" in in_words(step, answer.certificate)
+    np.testing.assert_allclose(answer.delta_q[0], 0.0, rtol=0.0, atol=1e-12)
+
+
+def test_an_infeasible_step_is_not_solved():
+    step = random_step(np.random.default_rng(0), 3, 4, rows=(4,))
+    J = np.zeros((1, 4, 7))
+    contacts = replace(step.contacts, J=J, phi=np.array([-1.0]))
+    with pytest.raises(StepNotSolved):
+        solve_step(round_step(step.replace(contacts=contacts)))
+
+
+@pytest.mark.parametrize("backend", ["osqp", "piqp", "daqp", "qpsolvers:clarabel"])
+def test_a_backend_without_cones_is_refused_with_the_names_of_others(backend):
+    with pytest.raises(BackendError, match="the ellipsoid needs one of clarabel, scs"):
+        solve_step(round_step(pinch()), backend)
+
+
+def test_rows_of_the_user_s_own_stand_beside_the_ellipsoid():
+    extra = Extra(("stop",), [[0.0] * 4 + [1.0] + [0.0] * 3], [-1e-4])
+    step = round_step(pinch(grip=5.0, offset=0.2)).replace(extra=extra)
+    answer = solve_step(step)
+    assert answer.certificate.kind == "enclosure"
+    np.testing.assert_allclose(answer.delta_q[4], -1e-4, rtol=ROUNDING, atol=0.0)
+    assert answer.lam_extra[0] > 0
+    assert verified(step, answer)
+
+
+def test_residuals_see_what_is_wrong(rng):
+    step = round_step(sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0.5)))
+    answer = solve_step(step)
+    lam = answer.lam
+    right = ellipsoid_residuals(step, answer.delta_q, lam)
+    assert right.worst < ROUNDING
+    assert ellipsoid_residuals(step, answer.delta_q - 1e-3 * np.eye(6)[2], lam).primal > 5e-4
+    pulled = lam * np.array([-1.0, 1.0, 1.0, 1.0])
+    assert ellipsoid_residuals(step, answer.delta_q, pulled).dual >= lam[0]
+    lifted = ellipsoid_residuals(step, answer.delta_q + 1e-3 * np.eye(6)[2], lam)
+    np.testing.assert_allclose(lifted.complementarity, 1e-3 * lam[0], rtol=1e-6, atol=0.0)
+    without = step.replace(contacts=replace(step.contacts, mu_omega=np.zeros(1)))
+    assert ellipsoid_residuals(without, answer.delta_q, lam).dual >= abs(lam[3])
+
+
+def test_residual_mode_is_judged_by_the_cone(rng):
+    step, _, _ = planted_step(rng)
+    answer = solve_step(round_step(step), certify="residual")
+    assert answer.certificate.kind == "residual"
+    exact = solve_step(round_step(step))
+    assert error(step, answer.delta_q, exact.delta_q) < OPTIMUM
+
+
+def test_a_solution_file_holds_four_impulses_a_contact(tmp_path):
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    path = tmp_path / "solution.json"
+    path.write_text(solution_text(step, answer))
+    read = solution_read(path, step)
+    np.testing.assert_allclose(read.lam, answer.lam, rtol=EXACT, atol=EXACT)
+    lam = answer.lam.reshape(2, 4) / step.h
+    expected = np.stack([lam[:, 1], lam[:, 2], lam[:, 0], lam[:, 3]], axis=1)
+    np.testing.assert_array_equal(read.wrench, expected)  # one division, rounded once
+    assert "enclosed" in in_words(step, answer.certificate)
+
+
+def test_the_interior_point_gives_a_gap_below_what_was_asked():
+    for offset in (0.0, 0.05, 0.2):
+        found = enclosure(round_step(pinch(grip=5.0, offset=offset)))
+        assert found is not None
+        assert found.error < 1e-15
+
+
+def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
+    step = round_step(pinch())
+    with pytest.raises(InputError, match="has no rows"):
+        cone_matrix(step.cone)
+    with pytest.raises(InputError, match="has no rational optimum"):
+        exact_step(step)
+    answer = solve_step(step)
+    assert error_bound(step, answer.delta_q, answer.lam).error == float("inf")
+    assert "proves nothing of a cone" in str(farkas_refutation(step, ["1"] * 8))
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1e3])
+def test_a_light_or_heavy_bar_is_enclosed_just_as_well(scale):
+    step = round_step(pinch(m=0.2 * scale, grip=5.0 * scale, offset=0.2, stiffness=1000.0 * scale))
+    heavy = step.replace(M_u=np.diag([0.2 * scale] * 3 + [1e-4 * scale] * 3))
+    answer, usual = solve_step(heavy), solve_step(round_step(pinch(grip=5.0, offset=0.2)))
+    assert answer.certificate.kind == "enclosure"
+    assert error(heavy, answer.delta_q, usual.delta_q) < ROUNDING
+
+
+def test_what_an_interior_point_shows_is_read_by_shares_of_the_largest():
+    """The largest multiplier is 2^-30 and IDLE 2^-40: up to 2^-70 a block bears nothing.
+
+    Slacks of the program are of about one, and below 2^-40 of a block at its apex.
+    """
+    slacks = [2.0**-50, 1.0, 2.0**-40, np.nextafter(2.0**-40, 0)]
+    pushes = [2.0**-30, 2.0**-80, 2.0**-70, np.nextafter(2.0**-70, 1)]
+    s = [[arb(v), arb(0)] for v in slacks]
+    y = [[arb(v), -arb(v) / 2] for v in pushes]
+    frame = SimpleNamespace(pair=lambda pair: (pair.x, pair.y))
+    guess = _of_interior(frame, Pair(arb_mat(0, 1), s, y))
+    assert guess.held == [True, False, False, True]
+    assert guess.loaded == [True, False, False, True]

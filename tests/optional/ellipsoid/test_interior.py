@@ -1,0 +1,267 @@
+"""The parts of the interior point and of Newton's method in the ellipsoid, in closed form."""
+
+import numpy as np
+import pytest
+from flint import arb, arb_mat, ctx
+
+from quasistatic_ref.optional.ellipsoid.interior import (
+    Blocks,
+    Pair,
+    _centrality,
+    _centred,
+    _inside,
+    _inverse_scaling,
+    _reach,
+    interior_point,
+)
+from quasistatic_ref.optional.ellipsoid.newton import (
+    INWARDS,
+    OPEN,
+    SLIDES,
+    STICKS,
+    _inwards,
+    _linearised,
+    _opening,
+    _projected,
+    _with_multipliers,
+    contact_states,
+    newton_pair,
+)
+from quasistatic_ref.optional.ellipsoid.scaled_blocks import largest
+from tests.tolerances import ROUNDING
+
+FAR = 2.0**30
+
+
+def balls(values):
+    return [arb(float(v)) for v in values]
+
+
+def column(values):
+    return arb_mat(len(values), 1, balls(values))
+
+
+def floats(values):
+    return [float(v) for v in values]
+
+
+def inside(rng, k):
+    """A point well inside of the cone of k coordinates."""
+    v = rng.standard_normal(k)
+    v[0] = np.linalg.norm(v[1:]) + rng.uniform(0.1, 2)
+    return v
+
+
+@pytest.mark.parametrize("k", [1, 2, 4])
+def test_scaling_takes_the_slack_to_the_multiplier(k):
+    """W^-2 s = y, symmetric and positive definite, and of one coordinate y / s."""
+    rng = np.random.default_rng(k)
+    for _ in range(5):
+        s, y = inside(rng, k), inside(rng, k)
+        W = np.array([floats(row) for row in _inverse_scaling(balls(s), balls(y)).tolist()])
+        np.testing.assert_allclose(W @ s, y, rtol=ROUNDING, atol=ROUNDING * np.abs(W).max())
+        np.testing.assert_allclose(W, W.T, rtol=ROUNDING, atol=ROUNDING * np.abs(W).max())
+        assert np.linalg.eigvalsh(W)[0] > 0
+
+
+def test_a_step_to_the_central_path_is_that_of_the_inverse():
+    """y^-1 = (y_0, -y_1, ..) / (y_0^2 - |y_1|^2): of (2, 1, 0) it is (2, -1, 0) / 3."""
+    found = floats(_centred(balls([5, 1, 2]), balls([2, 1, 0]), arb(6)).entries())
+    np.testing.assert_allclose(found, [-5 + 4, -1 - 2, -2], rtol=ROUNDING)
+
+
+def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
+    """On the path s = mu y^-1. Of s = y = (2, 1) the eigenvalues are 1 and 3, in the mean 5."""
+    y, inverse = [2.0, 1.0, 0.0], [2.0, -1.0, 0.0]
+    assert float(_centrality([balls(inverse)], [balls(y)])) == pytest.approx(1, rel=ROUNDING)
+    path = [balls(inverse), balls([1.0])], [balls(y), balls([3.0])]
+    assert float(_centrality(*path)) == pytest.approx(1, rel=ROUNDING)
+    alike = [balls([2.0, 1.0])], [balls([2.0, 1.0])]
+    assert float(_centrality(*alike)) == pytest.approx(1 / 5, rel=ROUNDING)
+    uneven = [balls([1.0]), balls([1.0])], [balls([1.0]), balls([3.0])]
+    assert float(_centrality(*uneven)) == pytest.approx(1 / 2, rel=ROUNDING)
+    for outside in ([1.0, 2.0, 0.0], [-3.0, 1.0, 0.0], [1.0, 1.0, 0.0]):
+        assert float(_centrality([balls(outside)], [balls(y)])) == 0.0
+    complementary = [balls([1.0, 1.0, 0.0])], [balls([1.0, -1.0, 0.0])]  # both on the boundary
+    assert float(_centrality(*complementary)) == 0.0
+
+
+def test_a_start_is_moved_well_inside():
+    assert floats(_inside(column([0.0, 3.0, 4.0]))) == [6.0, 3.0, 4.0]
+    assert floats(_inside(column([7.0, 3.0, 4.0]))) == [7.0, 3.0, 4.0]
+    assert floats(_inside(column([-2.0]))) == [1.0]
+
+
+@pytest.mark.parametrize(
+    ("v", "d", "reach"),
+    [
+        ([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], 1.0),
+        ([2.0, 0.0, 0.0], [0.0, 3.0, 4.0], 2 / 5),
+        ([2.0, 1.0, 0.0], [-1.0, 1.0, 0.0], 1 / 2),  # 2 - t = 1 + t
+        ([2.0, 1.0, 0.0], [0.0, -1.0, 0.0], 3.0),
+        ([1.0, 0.0, 0.0], [1.0, 0.5, 0.0], FAR),
+        ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0], FAR),
+        ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], FAR),  # in parallel with the boundary
+        ([1.0, 0.0, 0.0], [0.0, 0.0, 0.0], FAR),
+        ([4.0], [-2.0], 2.0),
+        ([4.0], [2.0], FAR),
+    ],
+)
+def test_the_way_to_the_boundary_of_a_cone(v, d, reach):
+    assert float(_reach(balls(v), balls(d))) == pytest.approx(reach, rel=ROUNDING)
+
+
+def floor_problem(push=0.0):
+    """H = I, g = (-2, push, 0), and the cone x_0 >= |(x_1, x_2)| of the three coordinates."""
+    A = arb_mat([[arb(int(i == j)) for j in range(3)] for i in range(3)])
+    return Blocks(A, column([-2.0, push, 0.0]), [A], [column([0.0, 0.0, 0.0])])
+
+
+@pytest.mark.parametrize(
+    ("push", "x", "y", "state"),
+    [
+        # The optimum is the projection of g on the cone, and y = x - g.
+        (1.0, [0.0, 0.0, 0.0], [2.0, -1.0, 0.0], STICKS),
+        (4.0, [1.0, 1.0, 0.0], [3.0, -3.0, 0.0], SLIDES),
+    ],
+)
+def test_both_methods_project_on_a_cone(push, x, y, state):
+    problem = floor_problem(push)
+    with ctx.workprec(640):
+        cold = interior_point(problem, arb(2) ** -60)
+        off = column(x) + column([2.0**-20, 0.0, 2.0**-21])
+        near = [balls(np.add(y, [2.0**-20, 0.0, 2.0**-20]))]
+        states = contact_states(problem, off, near)
+        newton = newton_pair(problem, off, near, states)
+    assert states == [state]
+    for pair, tolerance in ((cold, 2.0**-25), (newton, 2.0**-52)):
+        np.testing.assert_allclose(floats(pair.x.entries()), x, rtol=0, atol=tolerance)
+        np.testing.assert_allclose(floats(pair.y[0]), y, rtol=0, atol=4 * tolerance)
+        np.testing.assert_allclose(floats(pair.s[0]), x, rtol=0, atol=tolerance)
+
+
+def test_newton_ends_at_the_free_motion_where_nothing_touches():
+    """4 x = 2, and the row x >= -8 is open by 8.5."""
+    problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [arb_mat([[arb(1)]])], [column([-8.0])])
+    with ctx.workprec(640):
+        pair = newton_pair(problem, column([3.0]), [balls([1.0])], [OPEN])
+    assert floats(pair.x.entries()) == [0.5]
+    assert floats(pair.s[0]) == [8.5]
+    assert float(pair.y[0][0]) == float(INWARDS)
+
+
+def test_without_contacts_the_free_motion_is_the_answer():
+    problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [], [])
+    pair = interior_point(problem, arb(2) ** -60)
+    assert (floats(pair.x.entries()), pair.s, pair.y) == ([0.5], [], [])
+
+
+@pytest.mark.parametrize(
+    ("s", "y", "state"),
+    [
+        ([3.0, 1.0, 0.0], [1.0, 0.5, 0.0], OPEN),  # inside by 2, pressed by 1
+        ([2.0, 1.0, 0.0], [1.0, 0.5, 0.0], SLIDES),  # inside by 1; the impulse by 1/2 of 2
+        ([0.25, 0.25, 0.0], [1.0, 0.5, 0.0], STICKS),  # the impulse inside by 1/2
+        ([0.5, 0.5, 0.0], [1.0, 0.5, 0.0], SLIDES),
+        ([0.5], [1.0], STICKS),  # a row alone has no slip
+        ([1.0], [0.5], OPEN),
+    ],
+)
+def test_the_larger_of_two_slacks_says_what_a_contact_does(s, y, state):
+    A = arb_mat([[arb(int(i == j)) for j in range(len(s))] for i in range(len(s))])
+    b = column(np.ones(len(s)))
+    problem = Blocks(A, column(np.zeros(len(s))), [A], [b])
+    assert contact_states(problem, column(np.add(s, 1.0)), [balls(y)]) == [state]
+
+
+def test_what_slides_is_linearised_with_its_curvature():
+    """At s = (6, 3, 4): c = 6 - 5, C = (1, -0.6, -0.8), and of |s_1:| the second derivative.
+
+    That is (I - u u') / 5 along u = (0.6, 0.8), times the multiplier 10.
+    """
+    problem = floor_problem()
+    x, y = column([6.0, 3.0, 4.0]), [balls([10.0, 0.0, 0.0])]
+    K, C, c, f = _linearised(problem, x, y, [SLIDES])
+    u = np.array([0.6, 0.8])
+    expected = np.eye(3)
+    expected[1:, 1:] += 2 * (np.eye(2) - np.outer(u, u))
+    np.testing.assert_allclose([floats(row) for row in K.tolist()], expected, rtol=ROUNDING)
+    np.testing.assert_allclose(floats(C.entries()), [1, -0.6, -0.8], rtol=ROUNDING)
+    assert floats(c.entries()) == pytest.approx([1.0], rel=ROUNDING)
+    assert floats(f.entries()) == [10.0]
+    K, C, c, f = _linearised(problem, x, y, [STICKS])
+    assert floats(K.entries()) == floats(C.entries()) == np.eye(3).ravel().tolist()
+    assert (floats(c.entries()), floats(f.entries())) == ([6.0, 3.0, 4.0], [10.0, 0.0, 0.0])
+    K, C, c, _ = _linearised(problem, x, y, [OPEN])
+    assert (floats(K.entries()), C.nrows(), c.nrows()) == (np.eye(3).ravel().tolist(), 0, 0)
+
+
+def test_constraints_stand_in_the_order_of_their_contacts():
+    """A row that sticks at s = 7, then what slides at s = (6, 3, 4), with c = 6 - 5."""
+    floor = floor_problem()
+    row = arb_mat([[arb(1), arb(0), arb(0)]])
+    problem = Blocks(floor.H, floor.g, [row, *floor.A], [column([-1.0]), *floor.b])
+    y = [balls([2.0]), balls([10.0, 0.0, 0.0])]
+    _, C, c, f = _linearised(problem, column([6.0, 3.0, 4.0]), y, [STICKS, SLIDES])
+    np.testing.assert_allclose(floats(C.entries()), [1, 0, 0, 1, -0.6, -0.8], rtol=ROUNDING)
+    np.testing.assert_allclose(floats(c.entries()), [7, 1], rtol=ROUNDING)
+    assert floats(f.entries()) == [2.0, 10.0]
+
+
+def test_multipliers_of_what_slides_are_against_the_slip():
+    """Of s = x - b = (6, 3, 4) the slip is along (0.6, 0.8)."""
+    problem, x = floor_problem(), column([7.0, 1.0, 2.0])
+    problem = Blocks(problem.H, problem.g, problem.A, [column([1.0, -2.0, -2.0])])
+    old = [balls([9.0, 9.0, 9.0])]
+    found = _with_multipliers(problem, x, old, [SLIDES], balls([10.0]))
+    np.testing.assert_allclose(floats(found[0]), [10, -6, -8], rtol=ROUNDING)
+    assert floats(_with_multipliers(problem, x, old, [OPEN], [])[0]) == [0.0] * 3
+    assert floats(_with_multipliers(problem, x, old, [STICKS], balls([1, 2, 3]))[0]) == [1, 2, 3]
+
+
+def test_a_pair_is_moved_inwards_by_its_share():
+    """Of the largest multiplier 8, and along what opens the contact."""
+    problem, states = floor_problem(), [STICKS]
+    with ctx.workprec(640):
+        pair = _inwards(problem, column([0.0, 0.0, 0.0]), [balls([8.0, 0.0, 0.0])], states)
+        (way,) = _opening(problem.A, 3)[:1]
+        assert float((pair.y[0][0] - 8) / INWARDS) == 8.0
+        assert float(pair.s[0][0] / INWARDS) == way > 0.5
+    assert isinstance(pair, Pair)
+
+
+@pytest.mark.parametrize(
+    ("z", "nearest"),
+    [
+        ([2.0, 1.0, 0.0], [2.0, 1.0, 0.0]),
+        ([-2.0, 1.0, 0.0], [0.0, 0.0, 0.0]),
+        ([1.0, 3.0, 4.0], [3.0, 1.8, 2.4]),  # (1 + 5) / 2 of (1, 0.6, 0.8)
+        ([-1.0, 3.0, 4.0], [2.0, 1.2, 1.6]),
+        ([-5.0, 3.0, 4.0], [0.0, 0.0, 0.0]),
+        ([5.0, 3.0, 4.0], [5.0, 3.0, 4.0]),
+        ([3.0], [3.0]),
+        ([-3.0], [0.0]),
+        ([], []),
+    ],
+)
+def test_the_nearest_point_of_a_cone(z, nearest):
+    np.testing.assert_allclose(_projected(np.array(z)), nearest, rtol=ROUNDING)
+
+
+def test_no_direction_opens_walls_that_face_each_other():
+    east, west = arb_mat([[arb(1)]]), arb_mat([[arb(-1)]])
+    assert _opening([east], 1) is not None
+    assert _opening([east, west], 1) is None
+    assert _opening([], 2).tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("rows", [[1, 3], [1, 1, 3]])
+def test_walls_on_one_side_are_all_opened(rows):
+    """One coordinate d and rows a d: that each is inside by 1/2 at least wants d >= 1/2."""
+    (d,) = _opening([arb_mat([[arb(a)]]) for a in rows], 1)
+    assert d >= 0.5
+
+
+def test_the_largest_size_is_one_of_nothing():
+    assert float(largest(balls([-3, 2]))) == 3.0
+    assert float(largest(balls([0]))) == float(largest([])) == 1.0

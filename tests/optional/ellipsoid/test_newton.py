@@ -1,0 +1,103 @@
+"""Newton's method in the ellipsoid: the interior point's answer, from any start, and sharper."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.balls import ball_form
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.scenes.pushed_block import pushed_block
+from quasistatic_ref.lab.scenes.slider import push, push_step
+from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
+from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, STICKS, contact_states
+from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.solution import Certificate
+from tests.helpers import changed, pinch, point_on_floor
+from tests.tolerances import ROUNDING
+
+W = 0.3 * 9.81
+"""Weight of the point on the floor [N]."""
+
+
+def planar_push():
+    arm, way = np.array([-0.03, 0.02]), np.array([1.0, 0.0])
+    return push_step(push(arm, way, mu_v=0.4, c=0.03, Pi=0.05, lifted=1.0, sticks=True))
+
+
+def started(step):
+    """The enclosure that starts from Clarabel's answer, and that answer."""
+    answer = solve_step(step, "clarabel", certify="off")
+    start = answer.delta_q, answer.lam
+    return enclosure(step, start), start
+
+
+@pytest.mark.parametrize(
+    ("step", "expected"),
+    [
+        (point_on_floor(0.3, 0.5, force=(4.0, 0.0, -W)), SLIDES),  # 4 N > 0.5 W
+        (point_on_floor(0.3, 0.5, force=(1.0, 0.5, -W)), STICKS),  # 1.1 N < 0.5 W
+        (point_on_floor(0.3, 0.5, phi=1.0, force=(1.0, 0.5, -W)), OPEN),
+    ],
+)
+def test_an_answer_shows_what_slides_and_sticks(step, expected):
+    step = step.replace(cone="ellipsoid")
+    answer, form = solve_step(step, "clarabel", certify="off"), exact_form(step)
+    frame = scaled_blocks(step, form, ball_form(form))
+    start = frame.start(form, answer.delta_q, answer.lam)
+    assert contact_states(frame.problem, *start) == [expected]
+
+
+@pytest.mark.parametrize("step", [planar_push(), pinch(grip=5.0, offset=0.2), pinch(grip=5.0)])
+def test_any_start_ends_in_the_same_bits(step):
+    # A start that is wrong, or of another step, costs time only.
+    step = step.replace(cone="ellipsoid")
+    found, (delta_q, lam) = started(step)
+    for start in (None, (0 * delta_q, 0 * lam), (-3 * delta_q, lam[::-1].copy())):
+        other = enclosure(step, start)
+        np.testing.assert_array_equal(other.delta_q, found.delta_q)
+        size = np.abs(found.net).max()  # entries that are zero are what the pair leaves
+        np.testing.assert_allclose(other.net, found.net, rtol=ROUNDING, atol=ROUNDING * size)
+
+
+def test_what_a_push_claims_is_proved_by_the_interior_point():
+    # The two pairs may be on opposite sides of the optimum: sqrt(2 RESERVE) is as long as the
+    # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
+    for result in pushed_block().run(8):
+        step, answer = result.step, result.solution
+        pair = checked_pair(step)
+        assert pair.gap < RESERVE / 4 * pair.free * pair.free
+        assert verify(step, answer.delta_q, answer.certificate.active, answer.lam,
+                      answer.certificate)  # fmt: skip
+    assert answer.certificate.kind == "enclosure"
+    assert RESERVE > 4 * GAP
+
+
+def test_contacts_stick_by_dependent_rows_while_another_slides():
+    # Four soft contacts at one point stick: sixteen rows of rank four. The push is shared by them.
+    step = planar_push()
+    c = step.contacts
+    index = np.array([0, 1, 1, 1])
+    many = replace(
+        c, name=("support", "a", "b", "c"), phi=c.phi[index], n=c.n[index], d1=c.d1[index],
+        d2=c.d2[index], J=c.J[index], mu_v=c.mu_v[index], mu_omega=c.mu_omega[index],
+        rows=c.rows[index],
+    )  # fmt: skip
+    one, _ = started(step)
+    found, _ = started(step.replace(contacts=many))
+    np.testing.assert_array_equal(found.delta_q, one.delta_q)
+    lam = found.lam.reshape(4, 4)
+    assert (lam[1:, 0] > 0).all()
+    claims = Certificate("enclosure", error_bound=found.error, gap=found.gap)
+    assert verify(step.replace(contacts=many), found.delta_q, (), found.lam, claims)
+
+
+def test_a_contact_without_friction_and_rows_of_zero_do_not_stop_it():
+    step = planar_push()
+    smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.4, 0.0]))
+    found, _ = started(smooth)
+    cold = enclosure(smooth)
+    assert found.working_set is None
+    np.testing.assert_array_equal(found.delta_q, cold.delta_q)

@@ -1,0 +1,108 @@
+"""Answers of which nothing is claimed, in few calls: those of the long way, to the last bit."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.compiled import compiled
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.adapters.daqp import Daqp
+from tests.optional.fast.compiled.test_fast import needs_compiler
+
+pytestmark = needs_compiler
+UNCERTIFIED = ["solver.certify=off", "record=light"]
+
+
+def results(scenario, fast, steps=12):
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    if not fast:
+        simulator.fast = None
+    for k in range(steps):
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        q = result.q
+        yield result
+
+
+def counted(monkeypatch):
+    """How many answers are taken in few calls, and how many are not."""
+    step, found = compiled("step"), []
+    plain = step.as_said
+
+    def watched(*arguments):
+        said = plain(*arguments)
+        found.append(said is not None)
+        return said
+
+    monkeypatch.setattr(step, "as_said", watched)
+    return found
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "block_push", "stack"])
+def test_runs_of_which_nothing_is_claimed_have_the_bits_of_numpy(monkeypatch, name):
+    scenario, found = load_scenario(name, UNCERTIFIED), counted(monkeypatch)
+    for one, other in zip(results(scenario, True), results(scenario, False), strict=True):
+        assert one == other
+        assert one.solution.statistics._replace(solve_time=0.0) == (
+            other.solution.statistics._replace(solve_time=0.0)
+        )
+    assert sum(found) >= 10  # the first steps make what is kept
+
+
+def fails(reply):
+    reply.solved, reply.status = False, "on purpose"
+
+
+def is_not_finite(reply):
+    reply.x[0] = np.nan
+
+
+def has_no_multipliers(reply):
+    reply.lam = None
+
+
+def raises(reply):
+    raise RuntimeError("on purpose")
+
+
+@pytest.mark.parametrize("wrong", [fails, is_not_finite, has_no_multipliers, raises])
+def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
+    """The next reply of the backend is right again, and so is what the step comes to."""
+    scenario = load_scenario("bunny_grasp", UNCERTIFIED)
+    expected = [result.q for result in results(scenario, True, 8)]
+    plain, calls, found = Daqp.reply, [], counted(monkeypatch)
+
+    def once(self, same_H, warm):
+        reply = plain(self, same_H, warm)
+        calls.append(reply)
+        if len(calls) in (6, 7):  # and its second, cold attempt
+            wrong(reply)
+        return reply
+
+    monkeypatch.setattr(Daqp, "reply", once)
+    run = list(results(scenario, True, 8))
+    assert False in found[3:]
+    for result, q in zip(run, expected, strict=True):
+        np.testing.assert_allclose(result.q, q, rtol=0, atol=1e-9)  # cold, and so not the same bits
+
+
+def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(monkeypatch):
+    scenario, found = load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"]), []
+    found = counted(monkeypatch)
+    list(results(scenario, True, 4))
+    assert found
+    assert not any(found)
+
+
+def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_numpy():
+    """Nine free bodies have 54 coordinates, and a part at most 48."""
+    ways = [pile((9, 1, 1), backend="daqp") for _ in range(2)]
+    assert len(ways[0].simulator.system.workspace().parts) == 2
+    ways[1].simulator.fast = None
+    q = [way.q for way in ways]
+    for _ in range(3):
+        one, other = (
+            way.simulator.step(at, np.zeros(0), way.force) for way, at in zip(ways, q, strict=True)
+        )
+        assert one == other
+        q = [one.q, other.q]
+    assert ways[0].simulator.fast is not None

@@ -1,0 +1,251 @@
+"""Compiled steps against those of NumPy: equal to the last bit, the signs of zeros included."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.compiled import compiled, why_not
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.standard_form import standard_form
+from tests.model.urdf.urdf_texts import inertial, joint, link, robot, written
+from tests.properties.test_tracker import CLOUDS, SHAPES, cloud
+
+ROOT = Path(__file__).parents[4]
+KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-space")
+CONES = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "frictionless")
+
+# The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows; CI has one.
+needs_compiler = pytest.mark.skipif(  # a compiler is optional: NumPy takes the same steps
+    why_not() is not None, reason=f"no compiled code here: {why_not()}"
+)
+STONE = robot(link("stone", "", inertial("0.3", ("3e-4",) * 3)))
+CART = robot(link("cart", "", inertial("2", ("0.1",) * 3)))
+WHEELS = robot(
+    link("axle", "", inertial("1", ("0.1",) * 3)),
+    link("wheel", "", inertial("1", ("0.1",) * 3)),
+    joint("turn", "axle", "wheel", "continuous", "0 0 1"),
+    link("near", "", inertial("1", ("0.1",) * 3)),
+    joint("open", "axle", "near", "prismatic", "1 0 0"),
+    link("far", "", inertial("1", ("0.1",) * 3)),
+    joint("shut", "axle", "far", "prismatic", "-1 0 0", '<mimic joint="open"/>'),
+)
+
+
+def bodies(folder):
+    """A body that is held, a free one, one in the plane, and joints that turn, slide and mimic."""
+    stone, cart = written(folder, STONE, "stone.urdf"), written(folder, CART, "cart.urdf")
+    wheels = written(folder, WHEELS, "wheels.urdf")
+    return System(
+        [
+            Body("cart", cart, "planar", ()),
+            Body("free", stone, "floating", ()),
+            Body("held", stone, "floating", ("base",)),
+            Body("wheels", wheels, "planar", ("base", "turn", "open"), xyz=(0.1, 0.2, 0.0)),
+        ]
+    )
+
+
+def shapes_and_clouds(system, names, rng):
+    """Each solid on some link, a cloud of every kind on another; some clouds are alpha."""
+    pairs, links = [], list(range(1, len(system.links)))
+    for i, name in enumerate(names):
+        at, other = rng.permutation(links)[:2]
+        R, t = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.05, 0.05, size=3)
+        solid = PlacedShape(name, int(at) * (i % 3 != 2), R, t, SHAPES[name])
+        points = PointCloud(cloud(CLOUDS[i % len(CLOUDS)], 200, rng))
+        some = PlacedShape("cloud", int(other), np.eye(3), np.zeros(3), points)
+        sides = (solid, some) if i % 2 else (some, solid)
+        mu_omega, rows = (0.01, 6) if i % 2 else (0.0, 4)
+        pairs.append(ContactPair(f"p{i}", *sides, 0.5 * (i % 4), mu_omega, rows, 3))
+    return pairs
+
+
+def places(system, rng):
+    """Configurations: a start, small moves, jumps, and turns by exact halves."""
+    q = system.q_start
+    for k in range(24):
+        size = 0.3 if k % 4 == 0 else 1e-4
+        q = system.integrate(q, size * rng.normal(size=system.n_v) * (k != 0))
+        yield q, 1e-3 * rng.normal(size=system.n_v)
+
+
+def of_numpy(simulator, q, q_bar_a, force):
+    kinematics = simulator.system.kinematics(q)
+    points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
+    return points, step, standard_form(step)
+
+
+def arrays(points, step, form):
+    contacts = {name: getattr(step.contacts, name) for name in ("phi", "n", "d1", "d2", "J")}
+    own = {name: getattr(step, name) for name in ("tau_a", "tau_u", "delta_q_bar_a", "H")}
+    return {**points._asdict(), **contacts, **own, **form._asdict()}
+
+
+def differing(one, other):
+    return [name for name in one if one[name].tobytes() != other[name].tobytes()]
+
+
+def compared(system, pairs, cone, rng):
+    """Names of the arrays in which compiled steps differ from NumPy's."""
+    K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
+    made = {"h": 0.01, "K_q": K_q, "certify": "off", "cone": cone}
+    one, other = (Simulator(system, pairs, **made) for _ in range(2))
+    assert one.fast is not None
+    wrong = set()
+    for q, move in places(system, rng):
+        force = rng.normal(size=system.n_v)
+        goal = system.integrate(q, move)[: system.n_q_a]
+        expected = arrays(*of_numpy(other, q, goal, force))
+        one.fast.poses.move(q)
+        one.fast.find_points(one, q)
+        *data, gap = one.fast.step_data(one, q, goal, force)
+        found = arrays(*data)
+        assert gap == expected["phi"].min()
+        wrong.update(differing(found, expected))
+        after = one.fast.screws.integrate(move)
+        wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
+    return sorted(wrong)
+
+
+@needs_compiler
+@pytest.mark.parametrize("cone", CONES)
+def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_numpy(tmp_path, cone):
+    rng, system = np.random.default_rng(CONES.index(cone)), bodies(tmp_path)
+    assert compared(system, shapes_and_clouds(system, KNOWN, rng), cone, rng) == []
+
+
+@needs_compiler
+def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path):
+    rng, system = np.random.default_rng(11), bodies(tmp_path)
+    pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
+    assert compared(system, pairs, "pyramid", rng) == []
+    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a))
+    said = compiled("step").taken_by(simulator)
+    assert said == "compiled code; closest points by NumPy, which p6, p7, p8 need"
+
+
+def run_of(name, fast):
+    """The results of a few steps of a scenario, with and without compiled code."""
+    scenario = load_scenario(name, ["record=light"])
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    if not fast:
+        simulator.fast = None
+    for k in range(min(scenario.steps, 25)):
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        q = result.q
+        yield result
+    assert (simulator.fast is not None) == fast
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", scenario_names())
+def test_scenarios_have_the_bits_of_numpy(name):
+    for one, other in zip(run_of(name, True), run_of(name, False), strict=True):
+        assert one == other
+        forms = (standard_form(one.step), standard_form(other.step))
+        found = (
+            arrays(r.points, r.step, form) for r, form in zip((one, other), forms, strict=True)
+        )
+        assert differing(*found) == []
+
+
+def python(source, **settings):
+    command = [sys.executable, "-W", "error", "-c", source]
+    done = subprocess.run(
+        command, capture_output=True, text=True, cwd=ROOT, timeout=300, check=False,
+        env={**os.environ, **settings},
+    )  # fmt: skip
+    return done.stdout.strip(), done.stderr
+
+
+SAME_UNDER_ANOTHER_BLAS = """
+from tests.optional.fast.compiled.test_fast import *
+from quasistatic_ref.optional.fast.compiled.products import products
+import tempfile
+rng, system = np.random.default_rng(5), bodies(Path(tempfile.mkdtemp()))
+print(products(), compared(system, shapes_and_clouds(system, KNOWN, rng), "pyramid", rng))
+for one, other in zip(run_of("bunny_grasp", True), run_of("bunny_grasp", False)):
+    assert one == other
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize(("kernel", "order"), [("Nehalem", "apart"), ("", None)])
+def test_the_bits_are_those_of_numpy_under_another_blas_kernel(kernel, order):
+    said, error = python(SAME_UNDER_ANOTHER_BLAS, OPENBLAS_CORETYPE=kernel)
+    assert said in ([f"{order} []"] if order else ["fused []", "apart []"]), error
+
+
+NO_COMPILERS = {
+    "none": "QUASISTATIC_REF_CC says none",
+    "/nowhere/cc": "it could not be compiled: [Errno 2] No such file or directory: '/nowhere/cc'",
+    "false": "false could not compile it: without a word",
+}
+NOT_COMPILED = f"""
+import os
+from quasistatic_ref.compiled import compiled, why_not
+from quasistatic_ref.optional.fast.compiled import library
+from quasistatic_ref.scenario.scenario import load_scenario
+scenario = load_scenario("sphere_spin", ["record=light"])
+for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
+    for cached in (compiled, why_not, library._found):
+        cached.cache_clear()
+    simulator = scenario.simulator()
+    simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
+    print(simulator.fast, compiled("step"), why_not())
+"""
+
+
+def test_without_a_compiler_numpy_takes_the_steps():
+    said, error = python(NOT_COMPILED)
+    expected = [f"None None {reason}" for reason in NO_COMPILERS.values()]
+    assert said.splitlines() == expected, error
+
+
+@needs_compiler
+def test_a_step_that_numpy_forms_otherwise_is_left_to_numpy():
+    scenario = load_scenario("sphere_spin", ["record=light"])
+    one, other = scenario.simulator(), scenario.simulator()
+    one.fast.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
+    other.fast = None
+    q, goal = scenario.system.q_start, scenario.targets(scenario.h)
+    assert one.step(q, goal) == other.step(q, goal)
+    assert one.fast is None
+
+
+@needs_compiler
+def test_simulators_that_compiled_code_does_not_take_say_why():
+    step = compiled("step")
+    scenario = load_scenario("sphere_spin", ["record=light"])
+    simulator = scenario.simulator()
+    assert step.unknown(simulator) is None
+    assert step.taken_by(simulator).startswith("compiled code")
+    for settings, reason in (
+        (["solver.engine=cvxpy"], "the engine is 'cvxpy'"),
+        (["cone=ellipsoid"], "the ellipsoid has no rows"),
+    ):
+        other = load_scenario("sphere_spin", ["record=light", *settings]).simulator()
+        assert other.fast is None
+        assert step.taken_by(other) == f"NumPy: {reason}"
+    simulator.extension = lambda q: None
+    assert step.taken_by(simulator) == "NumPy: the scene has an extension"
+
+
+@needs_compiler
+def test_an_order_of_products_that_is_not_known_is_left_to_numpy(monkeypatch):
+    step = compiled("step")
+    monkeypatch.setattr(step, "products", lambda: None)
+    simulator = load_scenario("sphere_spin", ["record=light"]).simulator()
+    assert simulator.fast is None
+    assert "order that is not known" in step.taken_by(simulator)

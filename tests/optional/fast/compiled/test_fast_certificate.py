@@ -1,0 +1,194 @@
+"""Proofs in fixed point: their bounds hold, each constant is needed, their bits are exact."""
+
+import ctypes
+import subprocess
+from fractions import Fraction
+from functools import cache
+from operator import mul
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.compiled import compiled
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.units import natural_units
+from tests.helpers import changed, random_step
+from tests.optional.fast.compiled.changed_c import changed_sources
+from tests.optional.fast.compiled.test_fast import needs_compiler
+from validation.confirmed_bits import CONES, checked, differing, random_case
+
+pytestmark = needs_compiler
+MATRICES = 40
+
+
+def pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+@cache
+def matrices():
+    """Regular matrices, sizes 1 to 9, rows of all sizes; inverses, vectors, defects of these."""
+    rng, found = np.random.default_rng(3), []
+    for k in range(MATRICES):
+        n = 1 + k % 9
+        K = rng.normal(size=(n, n)) * (2.0 ** rng.integers(-20, 21, (n, 1)) if k % 2 else 1.0)
+        R = np.ascontiguousarray(np.linalg.inv(K))
+        found.append((K, R, rng.normal(size=n), exact_defect(R, K)))
+    return found
+
+
+def exact_product(A, B):
+    A, B = ([[Fraction(x) for x in row] for row in M.tolist()] for M in (A, B))
+    columns = list(zip(*B, strict=True))
+    return [[sum(map(mul, row, column)) for column in columns] for row in A]
+
+
+def exact_defect(R, K):
+    """|I - R K| without rounding."""
+    product = exact_product(R, K)
+    return [[abs(Fraction(int(i == j)) - x) for j, x in enumerate(row)]
+            for i, row in enumerate(product)]  # fmt: skip
+
+
+def holds(library):
+    """Whether the bounds of a library are bounds, on all matrices."""
+    for K, R, r, exact in matrices():
+        n = len(K)
+        G, e = np.zeros((n, n)), np.zeros(n)
+        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G))
+        if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
+            return False
+        for bound in (G, np.full((n, n), 0.55 / n)):  # the second shows no contraction by a half
+            # With G as the largest that I - R K may be, e = z* - z is at most (I - G)^-1 |R| |r|.
+            r_bound = np.abs(R) @ np.abs(r)
+            largest = np.linalg.solve(np.eye(n) - bound, r_bound)
+            given = pointer(R), pointer(bound), pointer(r)
+            shown = library.error_bounds(*given, ctypes.c_int64(n), pointer(e))
+            if shown and not (e >= largest * (1 - 1e-9)).all():
+                return False
+            if shown != (bound is G):
+                return False
+    return True
+
+
+def test_the_bounds_of_a_proof_are_bounds(tmp_path):
+    assert holds(made(tmp_path, "", ""))
+
+
+MUTANTS = {
+    "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (size + one)", "0.0"),
+    "no rounding of K and of the difference": ("+ 0x1p-47) * (size + one)", ") * 0.0"),
+    "a contraction by twice": ("e[i] / 2", "e[i] * 2"),
+    "the bound itself": ("e[i] = 2 * e[i]", "e[i] = 0.5 * e[i]"),
+    "one residual less": (
+        "for (int64_t j = 0; j < n; j++)\n            w +=",
+        "for (int64_t j = 1; j < n; j++)\n            w +=",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MUTANTS)
+def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
+    assert not holds(made(tmp_path, *MUTANTS[name]))
+
+
+def made(folder, text, other):
+    """The functions of contraction.c, which call no other file, with one text replaced."""
+    library = compiled("library")
+    changed_sources(folder, "contraction.c", text, other)
+    out, file = folder / "mutant.so", str(folder / "contraction.c")
+    command = [*library.compiler(), *library.FLAGS, "-o", str(out), file, "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    return ctypes.CDLL(str(out))
+
+
+def test_random_steps_are_proved_with_the_bits_of_the_exact_method():
+    """A sample of validation/confirmed_bits.py."""
+    outcomes = [checked(seed) for seed in range(3 * 2 * len(CONES))]
+    assert [fault for _, _, faults in outcomes for fault in faults] == []
+    optima, proved = (sum(found[key] for _, found, _ in outcomes) for key in ("optima", "compiled"))
+    assert proved > 0.9 * optima
+
+
+def proof(step, working):
+    units = natural_units(step)
+    prover = compiled("certificate").prover(step, units.coordinate, None)
+    return prover.optimum(step, np.array(working, dtype=np.int64), units)
+
+
+def test_a_wrong_working_set_is_refused():
+    rng = np.random.default_rng(9)
+    tried = 0
+    for seed in range(12):
+        _, step = random_case(seed)
+        truth = exact_optimum(exact_form(step))
+        if isinstance(truth, Farkas):
+            continue
+        m = int(step.offsets[-1])
+        for _ in range(20):
+            guess = np.sort(rng.choice(m, size=rng.integers(min(m, step.n_v) + 1), replace=False))
+            found = proof(step, guess)
+            tried += 1
+            assert not isinstance(found, ExactOptimum) or not differing(
+                found, exact_optimum(exact_form(step), guess.tolist())
+            )
+    assert tried > 100
+
+
+@pytest.mark.parametrize(("factor", "shown"), [(1.0, True), (2.0**-400, False)])
+def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
+    step = random_step(np.random.default_rng(2))
+    J = step.contacts.J.copy()
+    J[0, 0, 0] *= factor  # its last bit is then below the grid
+    step = step.replace(contacts=changed(step.contacts, J=J))
+    truth = exact_optimum(exact_form(step))
+    assert not isinstance(truth, Farkas)
+    found = proof(step, truth.working_set)
+    assert (found is not None) == shown
+    if shown:
+        assert not differing(found, exact_optimum(exact_form(step), list(truth.working_set)))
+
+
+@pytest.mark.parametrize("name", ["peg_in_hole", "stack", "block_push"])
+def test_a_run_is_proved_by_compiled_code(monkeypatch, name):
+    certificate, proved = compiled("certificate"), []
+    plain = certificate.Prover.optimum
+
+    def counted(self, *arguments, **named):
+        found = plain(self, *arguments, **named)
+        proved.append(isinstance(found, ExactOptimum))
+        return found
+
+    monkeypatch.setattr(certificate.Prover, "optimum", counted)
+    run = load_scenario(name, ["steps=40", "record=light"]).run(progress=False)
+    assert (run["certificate"] == "exact").all()
+    assert 40 <= len(proved) <= 44  # a wrong guess is followed by another
+    assert np.mean(proved) > 0.9
+
+
+def test_a_number_just_beyond_a_power_of_two_is_rounded_to_it():
+    """Beyond 1 the next float64 is 2^-52 away, below it 2^-53: x = h^2 f / m is in between."""
+    rng, far = np.random.default_rng(4), Fraction(0)
+    while not 2.0**-54 < far < 2.0**-53:
+        h, f = rng.uniform(1.0, 1.4, 2).tolist()
+        m = h * h * f
+        far = Fraction(h) * Fraction(h) * Fraction(f) / Fraction(m) - 1
+    contacts = contacts_of(9.0, np.eye(3)[None], np.zeros((1, 4, 1)), 0.0, rows=4)
+    step = free_step(np.array([[m]]), np.array([f]), contacts, h)
+    assert proof(step, []).delta_q.tolist() == [1.0]
+
+
+def test_impulses_that_are_zero_where_nothing_moves_are_proved():
+    """Boxes at rest on each other: A'lam holds their weight, and is zero along all else."""
+    scenario = load_scenario("stack")
+    found = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
+    step, solution = found.step, found.solution
+    working = np.flatnonzero(solution.lam > 0)
+    optimum = proof(step, working)
+    assert not differing(optimum, exact_optimum(exact_form(step), working.tolist()))
+    assert (optimum.net == 0).any()

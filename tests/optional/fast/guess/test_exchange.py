@@ -1,0 +1,127 @@
+"""A wrong guess of a working set is mended by walks in floating point, and proved."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify import exact_step as method
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.exchange import Violated, proved_nearby, walked
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.standard_form import StandardForm
+from tests.helpers import pinch
+from tests.optional.fast.compiled.test_fast import needs_compiler
+from validation.confirmed_bits import (
+    NEARBY,
+    OTHERS,
+    differing,
+    nearby_answer,
+    random_case,
+    wrong_sets,
+)
+
+
+def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
+    """Of lam and the working set that is said where the multipliers are unique."""
+    mended = 0
+    for seed in range(40):
+        step = random_case(seed)[1]
+        truth = exact_optimum(exact_form(step))
+        if isinstance(truth, Farkas):
+            continue
+        rng, right = np.random.default_rng(seed), list(truth.working_set)
+        hessian = BallHessian(step)
+        for guess in wrong_sets(rng, right, len(truth.lam)):
+            found = nearby_answer(step, guess, hessian, by_code=False)
+            if found is None:
+                continue
+            assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
+            mended += isinstance(BallStep(step, hessian).confirmed(guess), Violated)
+    assert mended > 30
+
+
+def refused(*_):
+    raise AssertionError("the method that decides everything was called, or prepared")
+
+
+@pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
+def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, by):
+    """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
+    monkeypatch.setattr(method, "exact_optimum", refused)
+    if by == "balls":
+        monkeypatch.setattr("quasistatic_ref.solve.solve.compiled", lambda name: None)
+    monkeypatch.setattr("quasistatic_ref.solve.solve.warm_rows", refused)
+    scenario = load_scenario("allegro_turn")
+    simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
+    for k in range(12):
+        found = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        q = found.q
+        wrong += found.solution.statistics.digits < 16
+        assert found.solution.certificate.kind == "exact"
+    assert wrong > 0
+
+
+def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
+    """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
+    monkeypatch.setattr(method, "exact_optimum", refused)
+    assert solve_step(pinch(grip=5.0), "clarabel").certificate.kind == "exact"
+
+
+def line(*bounds):
+    """X >= b for each bound, of one coordinate, H = 1 and g = 0."""
+    b = np.array(bounds, dtype=np.float64)
+    return StandardForm(np.eye(1), np.zeros(1), np.ones((len(b), 1)), b)
+
+
+def test_a_walk_adds_the_row_and_drops_what_stops_pressing():
+    none, x = np.zeros(0, np.int64), np.zeros(1)
+    form = line(1.0, 2.0)
+    assert walked(form, np.eye(1), Violated(0, none, np.zeros(0), x)).tolist() == [0]
+    # x >= 1 holds with lam = 1; x >= 2 depends on it, takes its place, and is left alone.
+    held = Violated(1, np.array([0]), np.ones(1), np.ones(1))
+    assert walked(form, np.eye(1), held).tolist() == [1]
+    # x <= -1 against x >= 1: nothing gives way.
+    form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [-1.0]]), np.ones(2))
+    assert walked(form, np.eye(1), Violated(1, np.array([0]), np.ones(1), np.ones(1))) is None
+
+
+@pytest.mark.parametrize(
+    ("short", "left"),
+    [(0.5, [0, 1, 2]), (2.5, [1, 2]), (3.5, [2])],
+)
+def test_a_walk_drops_one_row_after_the_other(short, left):
+    """X >= 1 and y >= 2 hold with lam = (1, 2); x + y + z >= 3 + s takes one of each as it grows.
+
+    At the rate 1 it closes s up to 1, where x >= 1 bears nothing; then at the rate 2 up to 3, where
+    the next unit of y >= 2 is used up.
+    """
+    form = StandardForm(
+        np.eye(3), np.zeros(3), np.array([[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]),
+        np.array([1.0, 2.0, 3.0 + short]),
+    )  # fmt: skip
+    held = Violated(2, np.array([0, 1]), np.array([1.0, 2.0]), np.array([1.0, 2.0, 0.0]))
+    assert walked(form, np.eye(3), held).tolist() == left
+
+
+def test_a_row_without_coefficients_that_is_violated_has_no_end():
+    form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [0.0]]), np.ones(2))
+    none = np.zeros(0, np.int64)
+    assert walked(form, np.eye(1), Violated(1, none, np.zeros(0), np.zeros(1))) is None
+
+
+def test_a_guess_is_given_up_after_some_walks():
+    guesses = []
+
+    def never(rows):
+        guesses.append(rows.tolist())
+        return Violated(len(guesses), rows, np.ones(len(rows)), np.zeros(1))
+
+    assert (
+        proved_nearby(never, np.zeros(0, np.int64), line(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.eye(1))
+        is None
+    )
+    assert 2 <= len(guesses) <= 5
+    assert proved_nearby(lambda rows: None, np.zeros(0, np.int64), line(1.0), np.eye(1)) is None

@@ -1,0 +1,70 @@
+"""Zeros that no ball shows: those that a working set implies, and those that its loads leave."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.zeros import _Claim, _implied, _numbers, zeros_hold
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.units import natural_units
+from tests.certify.test_exact import resting_point
+from tests.helpers import changed, random_step
+from validation.confirmed_bits import differing
+
+SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
+"""Rows of a contact. Both of its spins hold its gap and its spin."""
+
+
+@pytest.mark.parametrize("name", ["sphere_spin", "two_finger_pinch", "block_incline"])
+def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
+    run = load_scenario(name, ["steps=12", "solver.backend=none"]).run(progress=False)
+    for k in range(2, run.steps, 3):
+        step = run.step_data(k)
+        form = exact_form(step)
+        guess = exact_optimum(form).working_set
+        truth = exact_optimum(form, guess)
+        answers = [BallStep(step, BallHessian(step)).confirmed(guess)]
+        if (fast := compiled("certificate")) is not None:
+            units, rows = natural_units(step), np.array(guess, dtype=np.int64)
+            answers.append(fast.prover(step, units.coordinate, None).optimum(step, rows, units))
+        for answer in answers:
+            assert isinstance(answer, ExactOptimum)
+            assert differing(answer, truth) == []
+
+
+def test_what_is_not_pushed_stays_and_a_pair_of_slips_is_strictly_active():
+    unloaded, pushed = resting_point(), resting_point(tau_x=0.1)
+    assert zeros_hold(unloaded, SPINS, SLIPS, [0, 1, 2, 3])
+    assert zeros_hold(unloaded, SPINS, [0, 2], [0])  # their sum is twice the gap
+    assert not zeros_hold(pushed, SPINS, SLIPS, [])  # it slides along x
+    assert not zeros_hold(pushed, SPINS, [], [0])
+    assert zeros_hold(pushed, SPINS, [1, 3], [1, 2, 3])
+
+
+def test_of_a_row_without_slack_that_nothing_presses_on_nothing_is_known():
+    step = resting_point()
+    assert not zeros_hold(step, SPINS, [0], [])  # the optimum does not move, and has a kink there
+    weightless = resting_point(weight=0.0)
+    assert not zeros_hold(weightless, [], [0, 1, 2, 3, 4, 5], [])
+    assert zeros_hold(weightless, [], [], [0, 1, 2, 3])
+    assert not exact_optimum(exact_form(weightless)).differentiable
+
+
+def test_zeros_that_the_working_set_implies_need_no_loads():
+    pushed = resting_point(tau_x=0.1)
+    assert zeros_hold(pushed, [0, 1, 2], [3], [0, 1, 2])
+    claim = _Claim(_numbers(pushed, (0, 1, 2, 3)), 3, (0, 1, 2, 3), (0, 1, 2), pushed)
+    assert _implied(claim)
+    assert not _implied(_Claim(claim.numbers, 3, claim.rows, (3,), pushed))
+
+
+def test_a_claim_has_the_numbers_of_the_contacts_that_its_rows_are_of(rng):
+    """Rows 6 and 7 are the first two of the second contact."""
+    step = random_step(rng, rows=(6, 4))
+    before = _numbers(step, [6, 7])
+    for phi, same in (([9.0, 0.0], True), ([0.0, 9.0], False)):
+        other = step.replace(contacts=changed(step.contacts, phi=step.contacts.phi + phi))
+        assert (_numbers(other, [6, 7]) == before) == same

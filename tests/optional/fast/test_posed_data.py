@@ -1,0 +1,131 @@
+"""Steps that a simulator posed: equal to checked ones, checked when changed; what they refuse."""
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import (
+    StepDataError,
+)
+from quasistatic_ref.optional.fast.posed import PosedStep
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.data import StepData
+from tests.helpers import changed, pinch
+from tests.scenes import chain_scene
+from tests.step.public_data import public_data
+
+NAN, INF = np.nan, np.inf
+
+
+@pytest.fixture(scope="module")
+def things(tmp_path_factory):
+    """Every kind of public data, by name."""
+    return public_data(tmp_path_factory.mktemp("scene"))
+
+
+def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(things):
+    posed = things["PosedStep"]
+    checked = posed.replace()
+    assert type(posed) is PosedStep
+    assert (type(checked), type(checked.contacts)) == (StepData, Contacts)
+    assert checked == posed
+    assert things["Trajectory"].step_data(0) == posed
+    for name in ("H", "counts", "mask", "offsets"):
+        np.testing.assert_array_equal(getattr(checked, name), getattr(posed, name))
+
+
+@pytest.mark.parametrize("name", ["PosedStep", "sparse PosedStep"])
+def test_whatever_is_made_of_a_posed_step_is_checked(things, name):
+    step = things[name]
+    with pytest.raises(StepDataError, match=r"^tau_u: must hold finite"):
+        step.replace(tau_u=np.full(step.n_u, NAN))
+    with pytest.raises(StepDataError, match=r"^M_u: must be positive definite"):
+        step.replace(M_u=-step.M_u)
+    with pytest.raises(StepDataError, match="d1, d2, n must be"):
+        step.replace(contacts=replace(step.contacts, n=2 * step.contacts.n))
+
+
+def test_steps_of_one_simulator_share_what_does_not_change():
+    scenario = load_scenario("bunny_grasp", ["solver.certify=off"])  # its bunny is rigid
+    simulator, q, results = scenario.simulator(), scenario.system.q_start, []
+    for k in range(2):
+        results.append(simulator.step(q, scenario.targets(0.01 * (k + 1))))
+        q = results[-1].q
+    one, two = (result.step for result in results)
+    assert one.H is two.H
+    assert one.counts is two.counts
+
+
+def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
+    system, h = chain_scene(tmp_path), 0.01
+    n_a, K_q = system.n_a, 500.0 * np.eye(system.n_a)
+    simulator, q = Simulator(system, [], h=h, K_q=K_q), system.q_start
+    matrices = []
+    for _ in range(2):
+        q = system.integrate(q, 0.1 * np.cos(np.arange(system.n_v)))
+        step = simulator.step(q, system.q_start[: system.n_q_a]).step
+        np.testing.assert_array_equal(step.M_u, system.M_u(q))
+        expected = np.zeros((system.n_v, system.n_v))
+        expected[:n_a, :n_a], expected[n_a:, n_a:] = h * K_q, system.M_u(q) / h
+        np.testing.assert_array_equal(step.H, expected)
+        matrices.append(step.M_u)
+    assert (matrices[0] != matrices[1]).any()  # its un-actuated joints bend the arm
+
+
+def test_sparse_contacts_are_read_like_contacts_and_keep_no_dense_jacobian(things):
+    sparse = things["SparseContacts"]
+    public = {name for name in dir(Contacts) if not name.startswith("_")}
+    assert {*public, "J", "phi", "n", "d1", "d2", "name", "rows"} <= set(dir(sparse)) | set(
+        vars(sparse)
+    )
+    assert sparse.J.shape == (sparse.n_c, 4, sparse.n_v)
+    assert "J" not in vars(sparse)
+    delta_q = np.sin(np.arange(sparse.n_v))
+    np.testing.assert_allclose(sparse.dense().motion(delta_q), sparse.motion(delta_q), atol=1e-15)
+    assert sparse.dense().dense() == sparse.dense()
+
+
+REFUSED = {
+    "blocks of other contacts": {"blocks": lambda b: replace(b, column=b.column[1:], J=b.J[1:])},
+    "NaN in a block": {"blocks": lambda b: replace(b, J=np.full_like(b.J, NAN))},
+    "columns that are no numbers": {"blocks": lambda b: replace(b, column=b.column + 0.5)},
+    "n of length two": {"n": lambda n: 2 * n},
+}
+
+
+@pytest.mark.parametrize("changes", REFUSED.values(), ids=REFUSED)
+def test_sparse_contacts_refuse(things, changes):
+    sparse = things["SparseContacts"]
+    assert isinstance(sparse, SparseContacts)
+    with pytest.raises(StepDataError):
+        replace(sparse, **{key: change(getattr(sparse, key)) for key, change in changes.items()})
+
+
+@pytest.mark.parametrize("shape", [(8, 8), (3,), (1,)], ids=str)
+def test_a_force_of_another_shape_is_refused(things, shape):
+    scenario = things["Scenario"]
+    simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
+    with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
+        simulator.step(q, goal, np.ones(shape))
+
+
+@pytest.mark.parametrize(
+    ("settings", "field"),
+    [({"h": 0.0}, "h"), ({"K_q": -np.eye(2)}, "K_q"), ({"K_q": np.eye(3)}, "K_q")],
+    ids=str,
+)
+def test_a_simulator_refuses_what_no_step_may_have(things, settings, field):
+    with pytest.raises(StepDataError) as caught:
+        replace(things["Scenario"], **settings).simulator()
+    assert caught.value.field == field
+
+
+def test_pinching_twice_from_one_pickle_is_equal():
+    step = pinch()
+    assert pickle.loads(pickle.dumps(step)) == step
+    moved = step.replace(contacts=changed(step.contacts, phi=step.contacts.phi + 1e-9))
+    assert moved != step

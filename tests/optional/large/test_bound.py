@@ -1,0 +1,198 @@
+"""The error bound holds for every answer, good or bad, and says so when it knows nothing."""
+
+import numpy as np
+import pytest
+from flint import fmpq
+
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
+from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.large.bound import enclosed_answer, error_bound, opening_direction
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.standard_form import standard_form
+from tests.certify.test_farkas import EAST, point_between_walls
+from tests.helpers import error, point_on_floor
+from tests.tolerances import ROUNDING
+from validation.random_steps import any_step
+
+FUZZED = 200
+"""Random steps with answers made to look good: two seconds."""
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-14, 1e-9, 1e-4, 1.0, 10.0])
+def test_bound_is_never_below_the_error(size):
+    rng = np.random.default_rng(7)
+    for _ in range(10):
+        step = grasp_step(rng)
+        exact, H = exact_step(step), standard_form(step).H
+        free = np.linalg.solve(H, standard_form(step).g)
+        delta_q = exact.delta_q + size * np.sqrt(free @ H @ free / np.diag(H)) * rng.normal(size=13)
+        lam = exact.lam + size * exact.lam.max() * rng.normal(size=80)
+        off = delta_q - exact.delta_q
+        bound = error_bound(step, delta_q, lam)
+        assert bound.gap >= 0.5 * off @ H @ off
+        assert bound.error >= np.sqrt(off @ H @ off / (free @ H @ free))
+
+
+def test_bound_shows_about_eight_digits_of_an_exact_answer():
+    rng = np.random.default_rng(8)
+    for _ in range(10):
+        step = grasp_step(rng)
+        exact = exact_step(step)
+        assert 1e-10 < error_bound(step, exact.delta_q, exact.lam).error < 1e-6
+
+
+def test_step_without_contacts_is_bounded_to_rounding():
+    step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
+    exact = exact_step(step)
+    assert error_bound(step, exact.delta_q, exact.lam).error < 1e-15
+
+
+@pytest.mark.parametrize(("mass", "h"), [(1.0, 1.0), (0.3, 0.01), (7e3, 2.0)])
+def test_bound_of_a_body_that_falls_freely_is_its_error(mass, h):
+    """x* = h^2 f / m; of x = 1.5 x* the error is 1/2 and the gap 1/2 m / h |x* / 2|^2."""
+    force = np.array([1.0, 2.0, 3.0])
+    step = free_step(mass * np.eye(3), force, no_contacts(3), h)
+    x = h**2 * force / mass
+    bound = error_bound(step, 1.5 * x, np.zeros(0))
+    assert bound.error == pytest.approx(0.5, rel=ROUNDING)
+    assert bound.gap == pytest.approx(mass / h * (x / 2) @ (x / 2) / 2, rel=ROUNDING)
+
+
+def test_right_active_set_encloses_the_optimum_and_its_net_impulse():
+    for seed in range(3):
+        step = grasp_step(np.random.default_rng(seed))
+        exact = exact_step(step)
+        found = enclosed_answer(step, exact.working_set)
+        assert found.error < 1e-15  # a few roundings of delta_q
+        for value, truth in ((found.delta_q, exact.delta_q), (found.net, exact.net)):
+            np.testing.assert_allclose(value, truth, rtol=0, atol=ROUNDING * np.abs(truth).max())
+
+
+def test_wedged_or_broken_answers_are_not_bounded():
+    pair = Extra(("left", "right"), np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.zeros(2))
+    step = point_between_walls([EAST], [1.0], force=(1.0, 0.0, 0.0)).replace(extra=pair)
+    assert opening_direction(step) is None
+    lam = np.zeros(6)
+    assert error_bound(step, np.array([1e-9, 0, 0]), lam).error == np.inf
+    assert error_bound(step, np.array([np.nan, 0, 0]), lam).gap == np.inf
+    assert error_bound(step, np.zeros(3), lam).gap < np.inf  # feasible as it stands
+    rest = point_between_walls([EAST], [1.0])
+    assert error_bound(rest, np.zeros(3), np.zeros(4)).error == np.inf  # g = 0: no scale
+    assert error_bound(rest, np.zeros(3), np.zeros(4)).gap == 0.0
+
+
+def test_opening_direction_opens_every_row():
+    rng = np.random.default_rng(9)
+    for _ in range(20):
+        step = grasp_step(rng)
+        direction = opening_direction(step)
+        assert direction is not None
+        assert (standard_form(step).A @ direction > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("mass", "scale"), [((1.0, 1.0, 1.0), (1.0, 1.0)), ((4.0, 9.0, 1.0), (0.5, 8.0))]
+)
+def test_opening_direction_is_of_least_squares_whatever_the_units(mass, scale):
+    """c_1 x >= 0 and c_2 y >= 0: each row opens by one in the norm of H = diag(mass) / h.
+
+    That is d = (1 / sqrt H_1, 1 / sqrt H_2, 0), for rows of any length.
+    """
+    rows = Extra(("x", "y"), np.diag(scale) @ np.eye(2, 3), np.zeros(2))
+    step = free_step(np.diag(mass), np.zeros(3), no_contacts(3), 0.25).replace(extra=rows)
+    d = 1 / np.sqrt(np.array(mass) / 0.25) * [1, 1, 0]
+    np.testing.assert_allclose(opening_direction(step), d, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_the_way_to_a_feasible_point_is_part_of_the_bound():
+    """An answer that is off along the opening direction, with optimal multipliers.
+
+    The point that it is moved to is the optimum itself: without the way there is no error to see.
+    """
+    for seed in range(5):
+        step = grasp_step(np.random.default_rng(seed))
+        exact, d = exact_step(step), opening_direction(step)
+        off = 1e-3 * np.abs(exact.delta_q).max() / np.abs(d).max()
+        delta_q = exact.delta_q - off * d
+        size = error(step, delta_q, exact.delta_q)
+        bound = error_bound(step, delta_q, exact.lam)
+        assert size <= bound.error <= 10 * size
+
+
+def test_multipliers_below_zero_bound_nothing():
+    """A body falls freely, 1 m above a floor, by x = -h^2 g; it is said to have moved by x / 2.
+
+    The floor, pulling by the missing half of its weight, would balance that; as a multiplier of
+    -H x / 2 with a slack of 1 m it would even make the gap negative. The error is one half.
+    """
+    step = point_on_floor(m=0.3, mu_v=0.0, phi=1.0, force=(0.0, 0.0, -3.0))
+    x = exact_step(step).delta_q
+    form = standard_form(step)
+    lam = np.array([-np.linalg.norm(form.H @ x / 2 - form.g), 0.0, 0.0, 0.0])
+    assert error_bound(step, x / 2, lam).error >= 0.5 * (1 - ROUNDING)
+    # Of the guess that it stands on the floor, which would have to pull it down.
+    guessed = enclosed_answer(step, [0])
+    assert guessed.error >= error(step, guessed.delta_q, x) * (1 - ROUNDING) > 1.0
+
+
+def made_up(rng, step, exact, least=-9, balanced=0.5, factors=(1.0, 0.5, 2.0, -1.0)):
+    """An answer that is wrong in a way that a careless bound does not see, and its multipliers.
+
+    It is wrong by 10^least and more; `balanced` is how often multipliers of any sign balance it.
+    """
+    form, d = standard_form(step), opening_direction(step)
+    size = 10.0 ** rng.uniform(least, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
+    delta_q, lam = exact.delta_q.copy(), exact.lam.copy()
+    if d is not None and rng.random() < 0.5:
+        delta_q += rng.choice([-1.0, 1.0]) * size * d / np.abs(d).max()
+    else:
+        delta_q += size * rng.standard_normal(len(delta_q))
+    if rng.random() < balanced and len(lam):
+        lam = np.linalg.lstsq(form.A.T, form.H @ delta_q - form.g, rcond=None)[0]
+    return delta_q, lam * rng.choice(factors)
+
+
+def within(step, exact, delta_q, bound, lam=None):
+    """Whether an answer is as near to the optimum as a bound says, without rounding of either.
+
+    With multipliers, whether the bound is true of these too: of their gap at the optimum.
+    """
+    if bound == np.inf:
+        return True
+    form = exact_form(step)
+    solution = rational_solution(form, exact.working_set)
+    best = [fmpq(v) / solution.denominator for v in solution.x]
+    off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
+    gap = fmpq(0)
+    if lam is not None:
+        gap = duality_gap(form, best, fractions(np.maximum(lam, 0.0), form.lam_unit))
+    (most,) = fractions(np.array([bound]), fmpq(1))
+    return energy(form, off) + gap <= most * most * free_energy(form)
+
+
+def test_no_answer_of_random_steps_has_a_false_bound():
+    rng = np.random.default_rng(3)
+    compared = 0
+    for _ in range(FUZZED):
+        step = any_step(rng, *(int(v) for v in rng.integers((0, 1, 1), (3, 4, 4))))
+        try:
+            exact = exact_step(step)
+        except StepNotSolved:
+            continue
+        if not standard_form(step).g.any():
+            continue  # there is no scale of the error
+        answers = [made_up(rng, step, exact) for _ in range(2)]
+        bounds = [(delta_q, error_bound(step, delta_q, lam).error) for delta_q, lam in answers]
+        guess = rng.permutation(len(exact.lam))[: rng.integers(3)]
+        if (found := enclosed_answer(step, sorted(guess.tolist()))) is not None:
+            bounds.append((found.delta_q, found.error))
+        for delta_q, bound in bounds:
+            compared += np.isfinite(bound)
+            assert within(step, exact, delta_q, bound)
+    assert compared > FUZZED

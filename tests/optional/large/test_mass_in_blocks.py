@@ -1,0 +1,219 @@
+"""M_u and H of many bodies, kept in diagonal blocks: the same bits as whole, and never whole."""
+
+import pickle
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_matrix
+
+from quasistatic_ref.errors import ModelError, StepDataError
+from quasistatic_ref.lab.scenes.piles import BOX, pile
+from quasistatic_ref.lab.scenes.systems import body_text, system_of
+from quasistatic_ref.model import system as of_system
+from quasistatic_ref.optional.fast import posed
+from quasistatic_ref.optional.fast.posed import BlockStep, PosedStep, constants
+from quasistatic_ref.optional.large.blocks import whole
+from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_text
+from quasistatic_ref.step.solution_files import solution_text
+from tests.helpers import always_in_blocks
+from tests.scenes import chain_scene
+from tests.tolerances import EXACT, ROUNDING
+
+BOXES = (2, 1, 2)
+GRASP = ["solver.backend=piqp", "solver.certify=residual", "steps=4"]
+
+
+@pytest.fixture(autouse=True)
+def always_sparse(monkeypatch):
+    always_in_blocks(monkeypatch)
+
+
+def scene(name):
+    """A simulator, its target and its force: four boxes, or a gripper with a bunny."""
+    if name == "pile":
+        some = pile(BOXES, backend="piqp", certify="residual")
+        return some.simulator, np.zeros(0), some.force
+    scenario = load_scenario("bunny_grasp", GRASP)
+    return scenario.simulator(), scenario.targets(0.01), 0.0
+
+
+def run(name, record="full"):
+    """Some steps of a scene."""
+    simulator, target, force = scene(name)
+    start, own = simulator.system.q_start, force + np.zeros(simulator.system.n_v)
+    return rollout(
+        simulator, start, target, 4, force=lambda t, q: own, record=record, progress=False
+    )
+
+
+def step_of(name):
+    simulator, target, force = scene(name)
+    return simulator, simulator.step(simulator.system.q_start, target, force).step
+
+
+@pytest.mark.parametrize("name", ["pile", "grasp"])
+def test_M_u_H_and_P_have_the_bits_of_the_whole_mass_matrix(name):
+    """H is blockdiag(h K_q, M_u / h), M_u pinocchio's matrix in the paper's order."""
+    simulator, step = step_of(name)
+    system, n_a = simulator.system, step.n_a
+    M = system._workspace.mass(system._order.model_q(system.q_start))
+    v = system._order.v[n_a:]
+    expected = M[np.ix_(v, v)] + 0.0
+    H = np.zeros((step.n_v, step.n_v))
+    H[:n_a, :n_a], H[n_a:, n_a:] = step.h * step.K_q, expected / step.h
+    P = csc_matrix(np.triu(H))
+    found = Pattern(step).P
+    assert type(step) is BlockStep
+    assert step.kept_M_u.shape == (step.n_u // 6, 6, 6)
+    for one, two in (
+        (step.M_u, expected), (system.M_u(system.q_start), expected), (step.H, H),
+        (found.data, P.data), (found.indices, P.indices), (found.indptr, P.indptr),
+    ):  # fmt: skip
+        assert one.dtype == two.dtype
+        assert one.shape == two.shape
+        assert one.tobytes() == two.tobytes()
+    assert not step.M_u.flags.writeable
+
+
+@pytest.mark.parametrize("name", ["pile", "grasp"])
+@pytest.mark.parametrize("record", ["full", "light"])
+def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, record, monkeypatch):
+    blocks = run(name, record)
+    monkeypatch.setattr(BlockGeometry, "in_blocks", False)
+    assert type(step_of(name)[1]) is PosedStep
+    dense = run(name, record)
+    for key, values in dense.arrays.items():
+        assert blocks.arrays[key].tobytes() == values.tobytes(), key
+    largest = "largest_drag_share"  # of sums of products, in another order
+    assert {**blocks.header, largest: 0} == {**dense.header, largest: 0}
+    np.testing.assert_allclose(blocks.header[largest], dense.header[largest], rtol=ROUNDING)
+
+
+def test_a_certificate_and_its_file_are_those_of_whole_matrices(monkeypatch):
+    def solved():
+        simulator, target, force = scene("pile")
+        return simulator.step(simulator.system.q_start, target, force)
+
+    one = solved()
+    monkeypatch.setattr(BlockGeometry, "in_blocks", False)
+    two = solved()
+    assert one.solution.certificate == two.solution.certificate
+    assert one.solution.certificate.error_bound > 0
+    assert one == two
+    assert step_text(one.step) == step_text(two.step)
+    said = [solution_text(some.step, some.solution) for some in (one, two)]
+    assert said[0] == said[1]
+
+
+def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
+    formed = []
+    for module in (posed, of_system):
+        monkeypatch.setattr(module, "whole", lambda M: formed.append(M) or whole(M))
+    simulator, target, force = scene("pile")
+    q = simulator.system.q_start
+    rollout(simulator, q, target, 3, force=lambda t, q: force, record="light", progress=False)
+    step = simulator.step(q, target, force).step
+    assert not formed
+    held = {**vars(simulator.system), **simulator.constant._asdict(), **vars(step)}
+    shapes = {np.shape(value) for value in held.values() if isinstance(value, np.ndarray)}
+    assert (24, 24) not in shapes
+    assert step.M_u.shape == step.H.shape == (24, 24)
+    assert len(formed) == 2  # read, they are
+    assert step.M_u is not step.M_u
+
+
+def test_the_momentum_of_blocks_is_that_of_all_of_M_u():
+    for name in ("pile", "grasp"):
+        step = step_of(name)[1]
+        delta_q = np.cos(np.arange(step.n_v))
+        expected = step.M_u @ delta_q[step.n_a :]
+        np.testing.assert_allclose(step.momentum(delta_q), expected, rtol=EXACT, atol=ROUNDING)
+        np.testing.assert_array_equal(step.replace().momentum(delta_q), expected)
+
+
+def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
+    step = step_of("pile")[1]
+    solver, checked = solver_for(step, "piqp", "native"), step.replace()
+    assert type(checked) is StepData
+    assert checked == step
+    assert solver.fits(checked)
+    assert not solver.fits(step.replace(M_u=2 * step.M_u))
+    one, two = (solve_step(some, "clarabel", certify="full") for some in (step, checked))
+    assert one == two
+
+
+def test_a_copy_keeps_the_blocks_alone():
+    step = step_of("pile")[1]
+    again = pickle.loads(pickle.dumps(step))
+    assert again.kept_M_u.shape == (4, 6, 6)
+    assert not again.kept_M_u.flags.writeable
+    assert "H" not in vars(again)
+    assert again.H.tobytes() == step.H.tobytes()
+
+
+def spoiled(change):
+    blocks = np.tile(np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]), (3, 1, 1))
+    change(blocks[-1])
+    return blocks
+
+
+BAD = {
+    "symmetric": lambda M: M.__setitem__((0, 1), 0.1),
+    "positive definite": lambda M: M.__setitem__((5, 5), 0.0),
+    "positive definite ": lambda M: M.__setitem__(slice(4, 6), M[4] + M[5]),
+    "finite numbers": lambda M: M.__setitem__((2, 2), np.nan),
+    "finite numbers ": lambda M: M.__setitem__((2, 2), np.inf),
+    "out of the range": lambda M: M.__setitem__((0, 0), 1e308),
+}
+
+
+@pytest.mark.parametrize(("words", "change"), BAD.items(), ids=BAD)
+def test_a_mass_in_the_last_block_is_refused_as_all_of_M_u_is(words, change):
+    rows, said = np.array([4]), []
+    blocks = spoiled(change)
+    for M_u in (blocks, whole(blocks)):
+        with pytest.raises(StepDataError, match=words.strip()) as caught:
+            constants(0.01, np.zeros((0, 0)), 0, M_u, rows)
+        said.append(caught.value)
+    assert str(said[0]) == str(said[1])
+    assert said[0] == said[1]
+
+
+def test_the_last_of_several_bodies_is_refused_if_its_mass_is_singular():
+    # Its moment about the base, 1e18 + 1, has no room for the 1.
+    mote = body_text(1.0, (1.0, 1.0, 1.0), com=(1e9, 0.0, 0.0))
+    with pytest.raises(ModelError, match=r"^mote: its mass matrix M_u is singular") as caught:
+        system_of({"a": BOX, "b": BOX, "mote": mote})
+    assert len(caught.value.value) == 6
+    assert all(name.startswith("mote/") for name in caught.value.value)
+
+
+def test_a_mechanism_has_no_blocks(tmp_path):
+    system = chain_scene(tmp_path)
+    assert not system.constant_mass_matrix
+    assert system.mass_blocks.shape == (0, 6, 6)
+    assert whole(np.zeros((0, 6, 6))).shape == (0, 0)
+
+
+def test_a_mass_matrix_that_changes_has_no_negative_zeros(tmp_path, monkeypatch):
+    system = chain_scene(tmp_path)
+    zeros = np.full((system.n_v, system.n_v), -0.0)
+    monkeypatch.setattr(system._workspace, "mass", lambda q: zeros)
+    assert not np.signbit(system.M_u(system.q_start)).any()
+
+
+def test_the_load_of_a_step_in_blocks_is_that_of_its_springs_and_forces():
+    """G = h [K_q delta_q_bar_a + tau_a; tau_u]."""
+    _, step = step_of("grasp")
+    step = step.replace(tau_a=np.arange(1.0, step.n_a + 1))
+    springs = step.K_q @ step.delta_q_bar_a
+    g = step.h * np.concatenate([springs + step.tau_a, step.tau_u])
+    found = sparse_form(step, Pattern(step)).g
+    np.testing.assert_allclose(found, g, rtol=ROUNDING, atol=ROUNDING * abs(g).max())

@@ -1,0 +1,270 @@
+"""The bound in float64 is never below the error, and each of its constants is needed."""
+
+import numpy as np
+import pytest
+from flint import fmpq_mat
+
+from quasistatic_ref.certify.gap import fractions, free_energy
+from quasistatic_ref.certify.rational import exact_form, fraction
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian
+from quasistatic_ref.optional.large import rounded_bound
+from quasistatic_ref.optional.large.bound import error_bound
+from quasistatic_ref.optional.large.judged import bound_verdict
+from quasistatic_ref.optional.large.rounded_bound import FloatBound
+from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.units import Units, from_natural, to_natural
+from quasistatic_ref.step.friction import cone_matrix
+from tests.helpers import point_on_floor
+from tests.tolerances import ROUNDING
+from validation.confirmed_bits import CONES
+from validation.random_steps import any_step
+
+MASS = np.eye(1)
+FUZZED = 150
+"""Random steps of a fuzz, with an answer each: two seconds."""
+
+
+def small_step(rng):
+    """A step of few coordinates in any polyhedral cone, half of them in units far apart."""
+    step = any_step(rng, *(int(v) for v in rng.integers((0, 1, 1), (3, 4, 4))), mass_ratio=1e4)
+    step = step.replace(cone=str(rng.choice(CONES)))
+    if rng.random() < 0.5:
+        return step
+    units = 2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0
+    return to_natural(step, Units(*units))
+
+
+class Judged:
+    """A step and an answer, with what the bound makes of it; x and lam in natural units."""
+
+    def __init__(self, step, x, lam):
+        self.step, scaled = step, DenseStep(step)
+        self.form, self.units = scaled.natural_form, scaled.units
+        S, ell, rho = self.units
+        self.x, self.y = x, np.maximum(lam, 0.0)
+        self.bound = FloatBound(BallHessian(step), self.form.H, S)
+        self.given = step, self.form, (ell, rho), x
+        self.at = self.bound.rounded(*self.given, self.y)
+        self.error = self.bound.error(*self.given, lam)
+
+    def exact(self):
+        """A x - b, H x - g - A'y and ||H^-1 g||_H^2 in natural units, without rounding."""
+        S, ell, rho = self.units
+        form = exact_form(self.step)
+        delta_q, lam = from_natural(self.x, self.y, self.units)
+        x = fmpq_mat(form.n, 1, fractions(delta_q, form.x_unit))
+        y = fmpq_mat(form.m, 1, fractions(lam, form.lam_unit))
+        A = fmpq_mat(form.A)
+        slack = A * x - fmpq_mat(form.b)
+        balance = fmpq_mat(form.H) * x - fmpq_mat(form.g) - A.transpose() * y
+        length, size = fraction(rho) * fraction(ell), fraction(rho)
+        energy = 2 * free_energy(form) * form.net_unit * form.x_unit / size**2
+        return (
+            [s * form.slack_unit / length for s in slack.entries()],
+            [
+                r * form.net_unit * fraction(s) / size
+                for r, s in zip(balance.entries(), S, strict=True)
+            ],
+            energy,
+        )
+
+    def within(self):
+        """Whether slacks, balance and energy are as near to their exact values as is claimed."""
+        slack, balance, energy = self.exact()
+        at, u = self.at, fraction(rounded_bound.U)
+        off_slack = fraction(at.off_slack)
+        return (
+            all(abs(fraction(v) - e) <= off_slack + u * abs(fraction(v))
+                for v, e in zip(at.slack, slack, strict=True)),
+            all(abs(fraction(v) - e) <= fraction(off)
+                for v, e, off in zip(at.balance, balance, at.off_balance, strict=True)),
+            fraction(self.bound.energy(self.form.g, at.load)) <= energy,
+        )  # fmt: skip
+
+
+def some_answer(rng, step):
+    """An answer that is nearly right, or anything."""
+    scaled = DenseStep(step)
+    n, m = step.n_v, int(step.offsets[-1])
+    x, lam = rng.standard_normal(n), rng.standard_normal(m) * (rng.random(m) < 0.3)
+    try:
+        answer = solve_step(step, "none")
+    except StepNotSolved:
+        return x, lam
+    S, ell, rho = scaled.units
+    size = rng.choice([0.0, 1e-14, 1e-9, 1e-3])
+    return answer.delta_q / (rho * S) + size * x, answer.lam * (ell / rho) + size * lam
+
+
+def test_slacks_balance_and_energy_are_as_near_as_is_claimed():
+    rng = np.random.default_rng(1)
+    for _ in range(FUZZED):
+        step = small_step(rng)
+        assert all(Judged(step, *some_answer(rng, step)).within())
+
+
+def test_no_answer_of_random_steps_has_a_false_bound():
+    """What a file would say, of displacement and multipliers, is compared in fractions."""
+    rng, bounded = np.random.default_rng(2), 0
+    for _ in range(FUZZED):
+        step = small_step(rng)
+        judged = Judged(step, *some_answer(rng, step))
+        if judged.error is not None and judged.error <= 1:
+            delta_q, lam = from_natural(judged.x, judged.y, judged.units)
+            assert bound_verdict(step, delta_q, lam, judged.error)
+            bounded += 1
+    assert bounded > FUZZED / 3
+
+
+def one_contact(rng, **others):
+    """A point of one coordinate on a tilted plane: products just above one, where roundings weigh.
+
+    All but nothing of the row is the motion along the first axis.
+    """
+    n = np.array([1.0, *rng.uniform(0.01, 0.02, 2)])
+    n /= np.linalg.norm(n)
+    d1 = np.cross(n, [0.0, 0.0, 1.0])
+    d1 /= np.linalg.norm(d1)
+    J = np.zeros((1, 4, 1))
+    J[0, :3, 0] = rng.uniform(1, 1.05), *rng.uniform(0.01, 0.02, 2)
+    contacts = contacts_of(0.0, np.array([[d1, np.cross(n, d1), n]]), J, 1e-6, rows=4)
+    mass, force, h = rng.uniform(1, 1.05, (1, 1)), rng.uniform(1, 1.05, 1), rng.uniform(1, 1.05)
+    return free_step(mass, others.get("force", force), contacts, float(h))
+
+
+def slack_of_one(rng):
+    return Judged(one_contact(rng), rng.uniform(1, 1.05, 1), np.zeros(4))
+
+
+def balance_of_one(rng):
+    """What is pushed moves nearly as it is pushed: the rounding of both is left."""
+    return Judged(one_contact(rng), rng.uniform(1, 1.05, 1), np.zeros(4))
+
+
+def work_of_one(rng):
+    step = one_contact(rng, force=np.zeros(1))
+    return Judged(step, np.zeros(1), np.array([rng.uniform(1, 1.05), 0.0, 0.0, 0.0]))
+
+
+def energy_of_one(rng):
+    return Judged(one_contact(rng), np.zeros(1), np.zeros(4))
+
+
+def underflow_of_one(rng):
+    return Judged(one_contact(rng), np.full(1, 5e-324), np.zeros(4))
+
+
+SLACK, BALANCE, ENERGY = 0, 1, 2
+"""The places in ``Judged.within``."""
+
+
+@pytest.mark.parametrize(
+    ("constant", "smaller", "which", "make"),
+    [
+        ("EXTRA_SLACK", 2, SLACK, slack_of_one),
+        ("EXTRA_BALANCE", 0, BALANCE, balance_of_one),
+        ("EXTRA_TRANSPOSE", 2, BALANCE, work_of_one),
+        ("EXTRA_ENERGY", -1, ENERGY, energy_of_one),
+        ("U", 2.0**-55, SLACK, slack_of_one),
+        ("UNDERFLOW", 0.0, SLACK, underflow_of_one),
+    ],
+)
+def test_each_count_of_roundings_is_needed(monkeypatch, constant, smaller, which, make):
+    def claims(seeds):
+        return (make(np.random.default_rng(seed)).within()[which] for seed in range(seeds))
+
+    assert all(claims(100))
+    monkeypatch.setattr(rounded_bound, constant, smaller)
+    assert not all(claims(8000))
+
+
+def test_sums_lose_less_than_is_given_back(monkeypatch):
+    """A body that falls freely high over 2,000 floors: its displacement is right.
+
+    The multipliers are not: they work over the gap. One is 2^-20 and all others less than half a
+    unit in its last place, of which a sum in float64 loses what is added one by one.
+    """
+    axes, J = np.eye(3)[None].repeat(2000, axis=0), np.zeros((2000, 4, 1))
+    J[:, 2] = 1.0
+    floors = contacts_of(2.0**18, axes, J, 0.0, rows=4)
+    step = free_step(np.eye(1), np.array([-1.0]), floors, 1.0)
+    lam = np.full(8000, 0.4 * 2.0**-73)
+    lam[0] = 2.0**-20
+    S, ell, rho = DenseStep(step).units
+    for factor, holds in ((rounded_bound.MORE, True), (1.0, False)):
+        monkeypatch.setattr(rounded_bound, "MORE", factor)
+        judged = Judged(step, np.array([-1.0]) / (rho * S), lam * (ell / rho))
+        delta_q, exact_lam = from_natural(judged.x, judged.y, judged.units)
+        assert bool(bound_verdict(step, delta_q, exact_lam, judged.error)) == holds
+
+
+@pytest.mark.parametrize("cone", CONES)
+def test_reach_is_above_what_rows_are_summed_of(cone):
+    """|n|'|J| + mu_v (|c_1| |d1| + |c_2| |d2|)'|J| + mu_omega |c_3| |J_w|, row by row."""
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        step = grasp_step(rng).replace(cone=cone)
+        judged = Judged(step, np.zeros(step.n_v), np.zeros(int(step.offsets[-1])))
+        contacts, (S, ell, _) = step.contacts, judged.units
+        J, (mu_v, _, mu_omega) = np.abs(contacts.J) * (S / ell), contacts.mu.T[:, :, None]
+        along = [np.einsum("ci,civ->cv", np.abs(d), J[:, :3])
+                 for d in (contacts.n, contacts.d1, contacts.d2)]  # fmt: skip
+        for row in np.abs(cone_matrix(cone)):
+            parts = along[0], mu_v * along[1], mu_v * along[2], mu_omega * J[:, 3]
+            sums = sum(c * part for c, part in zip(row, parts, strict=True))
+            assert (sums <= judged.at.reach * (1 + ROUNDING)).all()
+
+
+def test_units_out_of_range_are_left_to_balls():
+    step = point_on_floor(force=(4.0, 1.0, -2.943))
+    answer = np.zeros(3), np.zeros(4)
+    assert Judged(step, *answer).error is not None
+    for units in ((2.0**110, 1.0, 1.0), (1.0, 2.0**220, 1.0), (1.0, 1.0, 2.0**110)):
+        coordinate, *others = units
+        far = to_natural(step, Units(np.full(3, coordinate), *others))
+        assert Judged(far, *answer).error is None
+
+
+def test_an_opening_direction_is_kept_and_found_again():
+    """Two walls: what opens the one closes the other; both at once leave nothing to decide."""
+    hessian, kept = None, None
+    for direction in (1.0, 1.0, -1.0):
+        step = wall(direction)
+        judged = Judged(step, np.zeros(1), np.array([1.0]))
+        hessian = judged.bound.hessian if hessian is None else hessian
+        kept = judged.bound if kept is None else kept
+        before = kept._opening
+        assert kept.error(*judged.given, judged.y) == judged.error
+        assert (kept._opening is before) == (direction > 0 and before is not None)
+    shut = wall(1.0, -1.0)
+    assert Judged(shut, np.zeros(1), np.zeros(2)).error is None
+
+
+def wall(*directions):
+    """A body on a line, driven by 1 N, whose walls are a metre away."""
+    axes = np.array([[[0, 1.0, 0], [0, 0, d], [d, 0, 0]] for d in directions])
+    J = np.zeros((len(directions), 4, 1))
+    J[:, 0] = 1.0
+    return free_step(MASS, np.ones(1), contacts_of(1.0, axes, J, 0.0), 1.0).replace(
+        cone="frictionless"
+    )
+
+
+def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
+    step = grasp_step(np.random.default_rng(4))
+    quick = solve_step(step, "daqp", certify="residual")
+    monkeypatch.setattr("quasistatic_ref.optional.large.uncertified.BOUNDED", 0.0)
+    slow = solve_step(step, "daqp", certify="residual")
+    balls = error_bound(DenseStep(step).natural, *natural(slow)).error
+    assert slow.certificate.error_bound == balls < quick.certificate.error_bound < 1e-6
+
+
+def natural(solution):
+    """delta_q and lam of a solution in the natural units of its step."""
+    S, ell, rho = DenseStep(solution.step).units
+    return solution.delta_q / (rho * S), solution.lam * (ell / rho)

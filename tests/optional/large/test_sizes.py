@@ -1,0 +1,149 @@
+"""The roundings of the a-priori bounds, counted by numbers that carry how many they went through.
+
+A number of a step has none. A sum has one more than the worse of its terms, a product one more
+than both of its factors together; multiplying by zero, one or a unit costs nothing.
+"""
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import reduce
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.large import sizes as of
+from quasistatic_ref.optional.large.sizes import LARGEST, ROUNDINGS, TINY, UNIT, rounding, sizes_of
+from quasistatic_ref.step.friction import cone_function
+from tests.helpers import in_blocks, random_step
+
+CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]
+
+
+@dataclass(frozen=True)
+class Counted:
+    """So many roundings; None is an exact zero."""
+
+    count: int | None = 0
+
+    def __abs__(self):
+        return self
+
+    __neg__ = __abs__
+
+    def __add__(self, other):
+        other = other if isinstance(other, Counted) else Counted(None if other == 0 else 0)
+        if None in (self.count, other.count):
+            return other if self.count is None else self
+        return Counted(1 + max(self.count, other.count))
+
+    __sub__ = __radd__ = __rsub__ = __add__
+
+    def __mul__(self, other):
+        if not isinstance(other, Counted):  # a unit, a power of two
+            return self
+        if None in (self.count, other.count):
+            return Counted(None)
+        return Counted(1 + self.count + other.count)
+
+    __rmul__ = __mul__
+
+
+def counted(array):
+    """The same array as numbers of a step, its zeros exact."""
+    numbers = [Counted(None if v == 0 else 0) for v in np.asarray(array).ravel()]
+    found = np.empty(len(numbers), dtype=object)
+    found[:] = numbers
+    return found.reshape(np.shape(array))
+
+
+def most(values):
+    return max(v.count or 0 for v in np.ravel(values))
+
+
+def counting(cone, n_c=2):
+    """Sizes of a step whose numbers are counted, and x and lam that are."""
+    step = in_blocks(random_step(np.random.default_rng(0), rows=(6,) * n_c).replace(cone=cone))
+    sizes = sizes_of(step, np.ones(step.n_v), 1.0, 1.0)
+    blocks = object.__new__(type(sizes.blocks))
+    vars(blocks).update(vars(sizes.blocks), J=counted(sizes.blocks.J))
+    sizes = replace(
+        sizes, blocks=blocks, axes=counted(sizes.axes), mu=counted(sizes.mu),
+        cone=counted(sizes.cone), coordinate=np.ones(step.n_v),
+    )  # fmt: skip
+    return sizes, counted(np.ones(step.n_v)), counted(np.ones(sizes.mask.sum()))
+
+
+def entry(cone):
+    """Roundings of an entry of A: products with three axes, mu, and the cone's own sum."""
+    part, mu = reduce(lambda a, b: a + b, [Counted() * Counted()] * 3), Counted()
+    corners = type("Corner", (Counted,), {})
+    slip = [mu * part, mu * part, mu * Counted()]
+    rows = cone_function(cone)
+    if cone.startswith("facets"):  # whose cosines and sines are numbers of the step, too
+        K = int(cone.partition("-")[2])
+        sides = part + corners() * slip[0] + corners() * slip[1]
+        assert len(rows(part, *slip)) == K + 2
+        return max(sides.count, (part + slip[2]).count)
+    return max(row.count for row in rows(part, *slip))
+
+
+@pytest.mark.parametrize("cone", CONES)
+def test_no_result_has_more_roundings_than_its_bound_allows(cone):
+    for n_c in (1, 2, 5):
+        sizes, x, lam = counting(cone, n_c)
+        rows, columns = sizes.row_terms + ROUNDINGS, sizes.column_terms + ROUNDINGS
+        assert most(sizes.rows(x)) + 1 <= rows  # and |b| is added
+        assert most(sizes.columns(lam)) + 2 <= columns  # and the sizes of H x and g are
+        a = entry(cone)
+        assert a + 1 + (sizes.row_terms - 1) + 1 <= rows  # A x - b
+        assert a + 1 + (sizes.column_terms - 1) + 2 <= columns  # H x - g - A'lam
+
+
+def test_fewer_roundings_would_not_be_enough():
+    sizes, _, lam = counting("facets-8", 1)
+    assert most(sizes.columns(lam)) + 2 == sizes.column_terms + ROUNDINGS
+
+
+def test_the_unit_is_the_largest_relative_error_of_one_operation():
+    exact = Fraction(1) + Fraction(1, 2**53)
+    lost = exact - Fraction(1.0 + 2.0**-53)
+    assert lost / exact <= Fraction(UNIT) < 2 * lost
+
+
+@pytest.mark.parametrize("terms", [0, 1, 30, 10_000, 1_000_000])
+def test_a_bound_is_not_below_gamma_over_one_minus_gamma(terms):
+    u = Fraction(1, 2**53)
+    D = terms + 10
+    gamma = D * u / (1 - D * u)
+    for size in (1.0, 0.1, 3e-300, 1e300, 0.0):
+        (found,) = rounding(terms, np.array([size]))
+        exact = gamma / (1 - gamma) * Fraction(size)
+        assert exact <= Fraction(found) <= exact * (1 + Fraction(1, 2**40)) + 2 * Fraction(TINY)
+
+
+def test_tiny_covers_what_underflows_in_any_sum_that_fits_in_memory():
+    assert Fraction(TINY) == 2**70 * Fraction(2.0**-1074) * Fraction(LARGEST) ** 4
+
+
+def test_sizes_are_the_sums_of_the_sizes_of_all_terms():
+    for cone in CONES:
+        step = random_step(np.random.default_rng(2)).replace(cone=cone)
+        sparse = in_blocks(step)
+        sizes = sizes_of(sparse, np.full(step.n_v, 0.5), 0.25, 2.0)
+        c, rng = step.contacts, np.random.default_rng(3)
+        x, lam = rng.standard_normal(step.n_v), rng.random(step.mask.sum())
+        parts = [np.abs(axis)[:, None] @ np.abs(c.J[:, :3]) for axis in (c.n, c.d1, c.d2)]
+        own = [p[:, 0] for p in parts] + [np.abs(c.J[:, 3])]
+        scaled = [own[0], *(c.mu[:, i, None] * own[i + 1] for i in range(3))]
+        cones = np.abs(np.stack(cone_function(cone)(*np.eye(4))))
+        bar = np.einsum("ri,icv->crv", cones, scaled)[step.mask] * 2.0  # S / ell
+        np.testing.assert_allclose(sizes.rows(x), bar @ np.abs(x), rtol=1e-14)
+        np.testing.assert_allclose(sizes.columns(lam), bar.T @ lam, rtol=1e-14)
+        spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a) + np.abs(step.tau_a)
+        load = step.h * np.concatenate([spring, np.abs(step.tau_u)]) * 0.25  # S / rho
+        np.testing.assert_allclose(sizes.load, load, rtol=1e-14)
+        assert sizes.column_terms == step.mask.sum()
+        assert sizes.row_terms == step.n_v
+        assert sizes.usable
+        far = sizes_of(sparse, np.full(step.n_v, 2.0 * of.LARGEST), 1.0, 1.0)
+        assert not far.usable

@@ -1,0 +1,254 @@
+"""Steps of many bodies: blocks, sparse form and sparse backends against the dense ones."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
+from quasistatic_ref.lab.scenes import piles
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.lab.study.large import large_step, table
+from quasistatic_ref.model import world
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
+from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, Sphere
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import FAR
+from tests.helpers import always_in_blocks
+from tests.model.urdf.urdf_texts import written
+from tests.scenes import CLUB
+from tests.tolerances import EXACT, OPTIMUM, ROUNDING
+
+BOXES = (2, 1, 2)
+NO_TARGET = np.zeros(0)
+
+
+@pytest.fixture
+def always_sparse(monkeypatch):
+    always_in_blocks(monkeypatch)
+
+
+def step_after(some, count):
+    """The last of a few steps of a pile, and its solution."""
+    q = some.q
+    for _ in range(count):
+        result = some.simulator.step(q, NO_TARGET, some.force)
+        q = result.q
+    return result
+
+
+@pytest.mark.parametrize("scene", ["pile", "grasp"])
+def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
+    if scene == "pile":
+        made = pile(BOXES).simulator
+        system, pairs, layout = made.system, made.pairs, made.layout
+    else:  # a gripper with a base and a finger that mimics the other
+        loaded = load_scenario("bunny_grasp")
+        system, pairs, layout = loaded.system, loaded.pairs, loaded.simulator().layout
+    q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
+    kinematics = system.kinematics(q)
+    points = closest_points(pairs, kinematics)
+    dense = ContactGeometry(layout, system.motion).contacts(points, kinematics)
+    sparse = BlockGeometry(layout, system.motion).contacts(points, kinematics)
+    assert sparse.n_v == system.n_v
+    np.testing.assert_allclose(sparse.J, dense.J, rtol=EXACT, atol=ROUNDING)
+    delta_q = np.sin(np.arange(system.n_v))
+    np.testing.assert_allclose(
+        sparse.motion(delta_q), dense.motion(delta_q), rtol=EXACT, atol=ROUNDING
+    )
+    assert sparse.name == dense.name
+
+
+def test_the_block_of_a_club_that_swings_over_a_floor_is_one_column(tmp_path):
+    # It turns about y, 0.1 m above the floor, with a ball of 0.01 m at x = 0.2: the ball's lowest
+    # point moves by y x (0.2, 0, -0.01) = (-0.01, 0, -0.2), and there is no spin about z.
+    system = System([Body("a", written(tmp_path, CLUB, "club.urdf"), "fixed", ("swing",))])
+    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.eye(3)[2], 0.0))
+    on_club = system.link("a/club"), np.eye(3), np.array([0.2, 0.0, 0.0])
+    pairs = [ContactPair("p", floor, PlacedShape("ball", *on_club, Sphere(0.01)), 0.5, 0.0, 4, 1)]
+    kinematics = system.kinematics(system.q_start)
+    geometry = BlockGeometry(contact_layout(pairs), system.motion)
+    found = geometry.contacts(closest_points(pairs, kinematics), kinematics).blocks
+    assert found.column.tolist() == [[0]]
+    np.testing.assert_allclose(found.J, [[[-0.01], [0], [-0.2], [0]]], rtol=EXACT, atol=ROUNDING)
+
+
+def test_the_sparse_form_is_the_standard_form(always_sparse):
+    step = step_after(pile(BOXES), 2).step
+    form, dense = sparse_form(step, Pattern(step)), standard_form(step)
+    np.testing.assert_allclose(form.P.toarray(), np.triu(dense.H), rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(form.g, dense.g, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(form.A.toarray(), dense.A, rtol=EXACT, atol=ROUNDING)
+    np.testing.assert_allclose(form.b, dense.b, rtol=EXACT, atol=EXACT)
+    # Of 24 columns each row has those of its two bodies: 6 to the floor, 12 between boxes.
+    assert form.A.nnz == sum(
+        int(rows) * (6 if name.startswith("floor") else 12)
+        for name, rows in zip(step.contacts.name, step.counts, strict=True)
+    )
+
+
+@pytest.mark.parametrize("backend", [b.name for b in BACKENDS.values() if b.sparse])
+def test_a_sparse_answer_is_the_certified_one_to_its_accuracy(always_sparse, backend):
+    result = step_after(pile(BOXES, backend=backend, certify="residual"), 3)
+    assert result.solution.certificate.kind == "residual"
+    exact = solve_step(result.step, certify="full")
+    wrong = np.linalg.norm(result.solution.delta_q - exact.delta_q)
+    assert 0 < wrong <= OPTIMUM * np.linalg.norm(exact.delta_q)
+    A = standard_form(result.step).A
+    np.testing.assert_allclose(
+        A.T @ result.solution.lam,
+        A.T @ exact.lam,
+        rtol=EXACT,
+        atol=OPTIMUM * np.abs(A.T @ exact.lam).max(),
+    )
+
+
+def test_size_and_certificate_decide_whether_a_step_is_sparse(monkeypatch):
+    # 2 x 1 x 2 boxes: 2 pairs with the floor, 2 side by side, 2 above each other, 4 contacts each
+    entries = 4 * 24 * 24
+    for limit, certify, sparse in (
+        (entries, "off", True),
+        (entries + 1, "off", False),
+        (entries, "residual", True),
+        (entries, "full", False),
+    ):
+        entry = replace(BACKENDS["clarabel"], sparse=limit)
+        monkeypatch.setitem(BACKENDS, "clarabel", entry)
+        some = pile(BOXES, certify=certify)
+        assert some.contacts == 24
+        step = step_after(some, 1).step
+        assert (step.contacts.blocks is not None) == sparse
+
+
+def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse, monkeypatch):
+    some, formed, dense = pile(BOXES), [], Blocks.dense
+    monkeypatch.setattr(Blocks, "dense", lambda blocks: formed.append(blocks) or dense(blocks))
+    run = rollout(
+        some.simulator,
+        some.q,
+        NO_TARGET,
+        3,
+        force=lambda t, q: some.force,
+        record="light",
+        progress=False,
+    )
+    assert run.steps == 3
+    assert not formed
+    assert step_after(some, 1).step.contacts.J.shape[1:] == (4, 24)
+    assert len(formed) == 1  # read, it is
+
+
+def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
+    step = step_after(pile(BOXES), 1).step
+    with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
+        SparseSolver(step, "daqp")
+
+
+def test_a_step_that_is_not_in_blocks_has_no_pattern():
+    step = step_after(pile(BOXES, certify="full"), 1).step
+    assert step.contacts.blocks is None
+    with pytest.raises(StepDataError, match="must be in blocks"):
+        Pattern(step)
+
+
+def test_a_large_step_without_solution_is_no_answer(always_sparse):
+    step = step_after(pile(BOXES), 1).step
+    solver = SparseSolver(step, "clarabel")
+    # Every second contact is the one before with its normal turned round, both 1 mm deep.
+    at, J = step.contacts, step.contacts.blocks.J.copy()
+    J[1::2] = J[::2]
+    n, d1, d2 = (np.repeat(vectors[::2], 2, axis=0) for vectors in (at.n, at.d1, at.d2))
+    n[1::2], d2[1::2] = -n[1::2], -d2[1::2]
+    phi, blocks = np.full(at.n_c, -1e-3), replace(at.blocks, J=J)
+    torn = replace(at, phi=phi, n=n, d1=d1, d2=d2, blocks=blocks)
+    stuck = step.replace(contacts=torn)
+    with pytest.raises(StepNotSolved, match="clarabel did not solve"):
+        solve_step(stuck, solver, certify="off")
+
+
+@pytest.mark.parametrize(("within", "solvable"), [(1.0, False), (0.9, True)])
+def test_edges_of_aligned_boxes_contradict_and_inner_points_do_not(monkeypatch, within, solvable):
+    monkeypatch.setattr(piles, "WITHIN", within)
+    some = pile((2, 1, 1), 16, certify="full")
+    q = some.q.copy()
+    q[7] -= piles.GAP + 1e-12  # x of the second box: it touches the first
+    if solvable:
+        result = some.simulator.step(q, NO_TARGET, some.force)
+        assert result.solution.certificate.kind == "exact"
+    else:
+        with pytest.raises(StepInfeasible, match="contradict each other"):
+            some.simulator.step(q, NO_TARGET, some.force)
+
+
+def test_piqp_solves_a_step_whose_duality_gap_is_lost_in_rounding():
+    # 512 contacts: a gap of 1e-14 is never reached, the answer is right all the same.
+    some = pile((16, 1, 1), 32, backend="piqp", certify="residual")
+    residuals = step_after(some, 1).solution.certificate.residuals
+    assert max(residuals.values()) <= OPTIMUM
+
+
+def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
+    tight = BACKENDS["clarabel"].attempts(1e-12)[0]
+    assert tight["tol_gap_abs"] == 1e-14
+    large = reachable(tight, 1000)
+    assert large["tol_gap_abs"] == large["tol_gap_rel"] == 1000 * 2.0**-52
+    changed = {"tol_gap_abs", "tol_gap_rel", "max_iter"}
+    assert {name for name in tight if tight[name] != large[name]} == changed
+    assert reachable(tight, 10) == tight | {"max_iter": MOST_ITERATIONS}
+    split = BACKENDS["osqp"].attempts(1e-12)[0]
+    assert reachable(split, 1000) == split  # it has no gap, and needs its many iterations
+
+
+def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
+    def found(part):
+        monkeypatch.setattr(world, "PART", part)
+        system = load_scenario("bunny_grasp").system
+        q = system.integrate(system.q_start, 0.1 * np.cos(np.arange(system.n_v)))
+        kinematics = system.kinematics(q)
+        M_u, force = system.M_u(q), system.gravity_force(q, (1.0, 2.0, -9.81))
+        return len(system._workspace.parts), (kinematics.R, kinematics.t, kinematics.J, M_u, force)
+
+    (one, at_once), (two, in_parts) = found(100), found(1)
+    assert (one, two) == (1, 2)
+    for a, b in zip(at_once, in_parts, strict=True):
+        np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
+
+
+def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
+    cost = large_step((3, 1, 1), steps=2)
+    # 3 on the floor and 2 between neighbours, 4 contacts of 6 rows each
+    assert (cost.bodies, cost.contacts, cost.coordinates, cost.rows) == (3, 20, 18, 120)
+    assert cost.sparse
+    assert 0 < cost.seconds <= cost.tail
+    assert sum(cost.parts.values()) <= cost.tail * (1 + ROUNDING)
+    # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
+    assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
+    assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])
+
+
+@pytest.mark.usefixtures("always_sparse")
+def test_rows_beyond_their_reach_are_handed_over_at_it():
+    """FAR times a row's length, or FAR where that is more."""
+    step = step_after(pile(BOXES), 1).step
+    solver = SparseSolver(step, "piqp")
+    scaled = solver.scaled(step)
+    scaled.A.data *= np.where(scaled.A.indices % 2, 8.0, 0.125)
+    lengths = np.linalg.norm(scaled.A.toarray(), axis=1)
+    reach = FAR * np.maximum(1.0, lengths)
+    assert lengths.min() < 1 < lengths.max()
+    for share, beyond in ((0.99, False), (1.01, True)):
+        scaled.b = -share * reach
+        assert (solver.write(scaled) == beyond).all()
+        expected = -min(share, 1.0) * reach
+        np.testing.assert_allclose(solver.program.b, expected, rtol=ROUNDING, atol=0.0)

@@ -1,0 +1,177 @@
+"""The error bound of large steps, on steps so small that the exact optimum is known."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from flint import fmpz_mat
+from scipy.sparse import csc_matrix
+
+from quasistatic_ref.certify.balls import positive_definite
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.large import sparse_bound
+from quasistatic_ref.optional.large.bound import error_bound, opening_direction
+from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
+from quasistatic_ref.optional.large.opening import opening
+from quasistatic_ref.optional.large.sparse import SparseSolver
+from quasistatic_ref.optional.large.sparse_bound import least_way
+from quasistatic_ref.solve.solve import solve_step
+from tests.helpers import always_in_blocks, error, in_blocks, point_on_floor, random_step
+from tests.optional.large.test_bound import made_up, within
+from tests.tolerances import ROUNDING
+from validation.random_steps import any_step
+
+FUZZED = 150
+"""Random steps with answers made to look good: two seconds."""
+
+NO_TARGET = np.zeros(0)
+RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0, -1.0)}
+
+
+def bound_of(step, delta_q, lam):
+    """The bound of an answer in SI units by the sparse path; infinite where none is known."""
+    sparse = in_blocks(step)
+    scaled = SparseSolver(sparse, "clarabel").scaled(sparse)
+    units = scaled.units
+    found = scaled.bound(
+        delta_q / (units.size * units.coordinate), lam * (units.length / units.size)
+    )
+    return np.inf if found is None else found
+
+
+def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
+    rng = np.random.default_rng(5)
+    bounded = 0
+    for _ in range(FUZZED):
+        sizes = (int(v) for v in rng.integers((0, 1, 1), (3, 5, 4)))
+        step = any_step(rng, *sizes, mass_ratio=rng.choice([1.0, 1e4, 1e9]))
+        cone = rng.choice(["pyramid", "product", "facets-6", "frictionless"])
+        step = step.replace(cone=str(cone))
+        try:
+            exact = exact_step(step)
+        except StepNotSolved:
+            continue
+        for _ in range(3):
+            delta_q, lam = made_up(rng, step, exact, **RIGHT_OR_WRONG)
+            bound = bound_of(step, delta_q, lam)
+            assert within(step, exact, delta_q, bound, lam)
+            bounded += bound < 1
+    assert bounded > FUZZED
+
+
+def test_free_motion_is_bounded_by_its_own_rounding():
+    """H delta_q - g is often exactly zero as computed, though the exact delta_q is no float64."""
+    rng = np.random.default_rng(6)
+    wrong = 0
+    for _ in range(50):
+        step = point_on_floor(m=rng.random(), phi=1.0, force=tuple(rng.standard_normal(3)))
+        exact = exact_step(step)
+        bound = bound_of(step, exact.delta_q, exact.lam)
+        assert within(step, exact, exact.delta_q, bound, exact.lam)
+        assert bound < ROUNDING
+        wrong += not within(step, exact, exact.delta_q, 0.0, exact.lam)
+    assert wrong > 25
+
+
+@pytest.mark.parametrize("backend", ["clarabel", "piqp", "osqp"])
+def test_sparse_answers_have_a_bound_as_good_as_that_of_dense_ones(monkeypatch, backend):
+    always_in_blocks(monkeypatch)
+    some = pile((2, 1, 2), backend=backend, certify="residual")
+    q = some.q
+    for _ in range(3):
+        result = some.simulator.step(q, NO_TARGET, some.force)
+        q = result.q
+    step, answer = result.step, result.solution
+    assert step.contacts.blocks is not None
+    bound, exact = answer.certificate.error_bound, exact_step(step)
+    assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
+    assert within(step, exact, answer.delta_q, bound, answer.lam)
+    dense = error_bound(step, answer.delta_q, answer.lam).error
+    assert dense / 10 < bound < 10 * dense
+    again = solve_step(step.replace(contacts=step.contacts.dense()), "clarabel", certify="off")
+    assert error(step, again.delta_q, answer.delta_q) <= 2 * bound
+
+
+def test_a_planted_wrong_multiplier_raises_the_bound():
+    step = random_step(np.random.default_rng(1))
+    exact = exact_step(step)
+    right = bound_of(step, exact.delta_q, exact.lam)
+    for i in np.flatnonzero(exact.lam):
+        for factor in (0.9, 1.1, -1.0):
+            lam = exact.lam.copy()
+            lam[i] *= factor
+            wrong = bound_of(step, exact.delta_q, lam)
+            assert wrong > 1e3 * right
+            assert within(step, exact, exact.delta_q, wrong, lam)
+
+
+def test_an_answer_off_along_the_opening_direction_is_bounded_by_the_way():
+    step = random_step(np.random.default_rng(2))
+    exact, d = exact_step(step), opening_direction(step)
+    delta_q = exact.delta_q - 1e-3 * np.abs(exact.delta_q).max() / np.abs(d).max() * d
+    assert error(step, delta_q, exact.delta_q) <= bound_of(step, delta_q, exact.lam)
+
+
+def test_what_is_wedged_broken_or_too_large_has_no_bound():
+    A = csc_matrix(np.array([[1.0, 0.0], [-1.0, 0.0]]))
+    assert opening(A, np.zeros(2)) is None
+    assert opening(A, np.array([0.0, 1e3])) is not None  # the other wall is far away
+    assert opening(csc_matrix(np.zeros((1, 2))), np.zeros(1)) is None
+    step = random_step(np.random.default_rng(1))
+    exact = exact_step(step)
+    for bad in (np.nan, np.inf, 2.0**120):
+        assert bound_of(step, exact.delta_q + bad, exact.lam) == np.inf
+        assert bound_of(step, exact.delta_q, exact.lam + bad) == np.inf
+
+
+def test_the_way_is_long_enough_for_its_own_rounding():
+    rng = np.random.default_rng(3)
+    for _ in range(300):
+        low, opens = -(10.0 ** rng.uniform(-16, -8, 5)), rng.random(5) + 0.5
+        t = least_way(low, opens)
+        assert t < np.inf
+        exactly = [Fraction(a) + Fraction(t) * Fraction(b) for a, b in zip(low, opens, strict=True)]
+        assert min(exactly) >= 0
+    assert least_way(np.array([-1.0, 1.0]), np.array([1.0, -2.0])) == np.inf
+    assert least_way(np.array([-1.0]), np.array([0.0])) == np.inf
+
+
+def test_without_room_for_rounding_no_way_is_long_enough(monkeypatch):
+    monkeypatch.setattr(sparse_bound, "ENOUGH", 1.0)
+    rng = np.random.default_rng(3)
+    low, opens = -(10.0 ** rng.uniform(-16, -8, (50, 5))), rng.random((50, 5)) + 0.5
+    assert sum(least_way(a, b) == np.inf for a, b in zip(low, opens, strict=True)) > 10
+
+
+def test_eigenvalues_are_bounded_from_below_and_never_above_the_true_ones():
+    rng = np.random.default_rng(4)
+    blocks = [np.array([[1e-3]]), np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([[5.0]])]
+    for thin in (1e-3, 1e-9, 2.0**-50):
+        blocks.append(np.array([[1.0, 1.0 - thin], [1.0 - thin, 1.0]]))
+    X = rng.standard_normal((6, 6))
+    blocks.append(X @ X.T)
+    n = sum(map(len, blocks))
+    H, at = np.zeros((n, n)), 0
+    order = rng.permutation(n)
+    for block in blocks:
+        own = order[at : at + len(block)]
+        H[np.ix_(own, own)] = block
+        at += len(block)
+    least = least_eigenvalues(csc_matrix(H))
+    at = 0
+    for block in blocks:
+        own = least[order[at : at + len(block)]]
+        assert (own == own[0]).all()
+        at += len(block)
+        # H - least I has no negative eigenvalue, decided in integers.
+        scale = 2**120
+        shifted = [
+            [int(Fraction(v) * scale) - (i == j) * int(Fraction(own[0]) * scale)
+             for j, v in enumerate(row)] for i, row in enumerate(block)
+        ]  # fmt: skip
+        assert positive_definite(fmpz_mat(shifted))
+        true = np.linalg.eigvalsh(block)[0]
+        assert own[0] >= 0.4 * true or true < 1e-13
+    assert (least_eigenvalues(csc_matrix(np.array([[1.0, 2.0], [2.0, 1.0]]))) <= 0).all()

@@ -1,0 +1,251 @@
+"""Scenes are drawn to scale: bodies, contact frames, cones and forces where the numbers say."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+from matplotlib.patches import Polygon
+from PIL import Image
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.show.figures import animate, draw_scene, faults, moment, panels
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
+from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment, extent
+from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points, triangles
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    HalfSpace,
+    PlacedShape,
+    Sphere,
+)
+from tests.tolerances import EXACT, FILE_FLOAT32, ROUNDING
+
+SLOPE = np.radians(25)
+
+
+@pytest.fixture(scope="module")
+def incline():
+    scenario = load_scenario("block_incline", ["steps=30"])
+    return scenario, scenario.run(progress=False)
+
+
+@pytest.fixture(scope="module")
+def spun():
+    scenario = load_scenario("sphere_spin", ["steps=20"])
+    return scenario, scenario.run(progress=False)
+
+
+@pytest.fixture
+def page():
+    figure, (axes,) = panels(4.6, 4.0)
+    yield axes
+    plt.close(figure)
+
+
+def test_a_moment_holds_the_numbers_of_its_step(incline):
+    scenario, run = incline
+    of = moment(scenario, run, 12)
+    np.testing.assert_allclose(of.t, 12 * scenario.h, rtol=ROUNDING)
+    assert len(of.contacts) == 8
+    for j, contact in enumerate(of.contacts):
+        f_1, f_2, f_n, _ = run["wrench"][12, j]
+        d1, d2, n = (run[name][12, j] for name in ("d1", "d2", "n"))
+        np.testing.assert_allclose(contact.force, f_1 * d1 + f_2 * d2 + f_n * n, atol=ROUNDING)
+        np.testing.assert_allclose(contact.beta, run["beta"][12, j], rtol=EXACT)
+        # The rim of the pyramid: n f_n + mu_v f_n d for the four directions d.
+        corners = [f_n * (n + contact.mu_v * d) for d in (d1, d2, -d1, -d2)]
+        order = np.lexsort(np.round(contact.rim, 9).T), np.lexsort(np.round(corners, 9).T)
+        np.testing.assert_allclose(
+            contact.rim[order[0]], np.array(corners)[order[1]], atol=ROUNDING
+        )
+    kinematics = scenario.system.kinematics(run["q"][12])
+    np.testing.assert_allclose(of.R, kinematics.R, rtol=EXACT)
+
+
+def test_the_last_moment_is_counted_from_the_end_and_others_are_refused(incline):
+    scenario, run = incline
+    assert moment(scenario, run, -1).t == moment(scenario, run, run.steps - 1).t
+    for k in (run.steps, -run.steps - 1):
+        with pytest.raises(InputError, match="must be -30 to 29"):
+            moment(scenario, run, k)
+
+
+def test_the_ellipsoid_s_rim_is_a_circle(spun):
+    scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"])
+    (contact,) = moment(scenario, scenario.run(progress=False), -1).contacts
+    across = contact.rim - contact.f_n * contact.frame[2]
+    lengths = np.linalg.norm(across, axis=1)
+    np.testing.assert_allclose(lengths, contact.mu_v * contact.f_n, rtol=ROUNDING)
+
+
+def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
+    of = moment(*incline, -1)
+    draw_scene(page, of, metres_per_newton=0.02)
+    arrows = [text for text in page.texts if text.arrow_patch is not None]
+    loaded = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears]
+    assert len(arrows) == len(loaded) > 0
+    for arrow, contact in zip(arrows, loaded, strict=True):
+        x, _, z = 1e3 * contact.beta
+        u, _, w = 1e3 * 0.02 * contact.force
+        np.testing.assert_allclose(arrow.xyann, (x, z), rtol=ROUNDING)
+        np.testing.assert_allclose(arrow.xy, (x + u, z + w), rtol=ROUNDING)
+    at = 1e3 * loaded[0].beta[[0, 2]]
+    normals = [
+        np.diff(line.get_xydata(), axis=0)[0]
+        for line in page.lines
+        if line.get_linestyle() == "-" and np.allclose(line.get_xydata()[0], at)
+    ]
+    unit = normals[0] / np.linalg.norm(normals[0])
+    np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
+
+
+def test_a_body_s_outline_is_where_the_body_is(incline, page):
+    scenario, run = incline
+    of = moment(scenario, run, -1)
+    draw_scene(page, of, parts=())
+    drawn = [p.get_xy()[:-1] for p in page.patches if isinstance(p, Polygon)]
+    (rough, smooth) = [s for s in of.shapes if isinstance(s.shape, Box)]
+    drawn.sort(key=lambda outline: outline[:, 0].max())
+    for outline, placed in zip(drawn, (rough, smooth), strict=True):
+        corners = 1e3 * of.world(placed, surface_points(placed))[:, [0, 2]]
+        np.testing.assert_allclose(outline.max(axis=0), corners.max(axis=0), rtol=ROUNDING)
+        np.testing.assert_allclose(outline.min(axis=0), corners.min(axis=0), rtol=ROUNDING)
+
+
+def test_the_circle_of_torsion_has_radius_mu_omega():
+    scenario = load_scenario("sphere_spin", ["h=0.05", "steps=9"])
+    run = scenario.run(progress=False)
+    figure, (axes,) = panels(4, 4)
+    for k, share in ((3, 0.5), (8, 1.0)):  # the torque grows to five times the limit in 40 steps
+        axes.clear()
+        of = moment(scenario, run, k)
+        draw_scene(axes, of, view="xy", legend=False, parts=("cones",))
+        (circle,) = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        x, y = circle.get_data()
+        np.testing.assert_allclose(np.hypot(x, y), 10.0, atol=1e-3)  # mm; it is lifted by microns
+        turned = np.ptp(np.unwrap(np.arctan2(y, x)))
+        np.testing.assert_allclose(turned, 2 * np.pi * share, rtol=1e-6)
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("view", ["xz", "xy", "3d", Camera(-62, 12)])
+def test_a_scene_is_legible_in_every_view(incline, view):
+    projection = {"subplot_kw": {"projection": "3d"}} if view == "3d" else {}
+    figure, (axes,) = panels(4.6, 4.0, **projection)
+    draw_scene(axes, moment(*incline, -1), view="xz" if view == "3d" else view)
+    assert faults(figure) == []
+    labels = axes.get_xlabel(), axes.get_ylabel()
+    assert labels == {"xz": ("x [mm]", "z [mm]"), "xy": ("x [mm]", "y [mm]")}.get(
+        view, ("x [mm]", "y [mm]") if view == "3d" else ("", "")
+    )
+    plt.close(figure)
+
+
+def test_the_scene_in_three_dimensions_has_as_many_forces_and_faces(incline):
+    figure, (axes,) = panels(4.6, 4.0, subplot_kw={"projection": "3d"})
+    of = moment(*incline, -1)
+    draw_scene(axes, of, parts=("forces",))
+    bodies = 3  # two blocks and the slope
+    assert len(axes.collections) == bodies + int(of.bearing.sum())
+    plt.close(figure)
+
+
+def test_faces_and_triangles_of_a_cube_and_their_direction():
+    cube = surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), Box(np.ones(3))))
+    assert sorted(len(face) for face in faces(cube)) == [4] * 6
+    corners = cube[triangles(cube)]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert len(corners) == 12
+    assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
+
+
+def test_the_patch_of_a_floor_lies_in_it_below_the_scene():
+    floor = HalfSpace(np.array([1.0, 2.0, 2.0]), 0.6)
+    corners = patch(floor, np.array([0.3, 0.1, 0.5]), 0.2)
+    np.testing.assert_allclose(corners @ floor.normal, floor.offset, rtol=ROUNDING)
+    foot = corners.mean(axis=0) - [0.3, 0.1, 0.5]
+    np.testing.assert_allclose(np.cross(foot, floor.normal), 0, atol=ROUNDING)
+    np.testing.assert_allclose(np.linalg.norm(corners[1] - corners[0]), 0.4, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("scale", "rounded"), [(0.0123, 0.01), (0.9, 0.5), (1.0, 1.0), (4.9, 2.0), (50.0, 50.0)]
+)
+def test_scales_are_rounded_down_to_one_two_or_five(scale, rounded):
+    np.testing.assert_allclose(round_scale(scale), rounded, rtol=ROUNDING)
+
+
+def test_the_extent_of_a_scene_leaves_out_what_has_none(spun):
+    box = extent(moment(*spun, 0))
+    np.testing.assert_allclose(box[:, 2], [0.0, 0.1], atol=FILE_FLOAT32)
+    np.testing.assert_allclose(np.ptp(box[:, :2], axis=0), 0.1, rtol=3e-3)
+
+
+def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
+    path = animate(*incline, tmp_path / "blocks.gif", fps=10)
+    assert [p.name for p in tmp_path.iterdir()] == ["blocks.gif"]
+    with Image.open(path) as film:
+        assert film.n_frames == 3  # 30 steps of 10 ms
+        assert film.info["duration"] == 100
+
+
+def test_slow_motion_shows_every_step_four_times_as_long(incline, tmp_path):
+    path = animate(*incline, tmp_path / "slow.gif", fps=20, speed=0.25)
+    with Image.open(path) as film:
+        assert film.n_frames == 30  # 20 / 0.25 frames in a second of the run: of 10 ms, each one
+        assert film.info["duration"] == 40
+    with pytest.raises(InputError, match="must be positive and finite"):
+        animate(*incline, tmp_path / "never.gif", speed=0)
+
+
+def test_a_wrong_option_of_a_film_is_named(incline, tmp_path):
+    with pytest.raises(TypeError, match="colour"):
+        animate(*incline, tmp_path / "blocks.gif", colour="red")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_forces_are_scaled_by_what_of_them_is_in_view():
+    # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
+    frame, rim = np.eye(3), np.zeros((0, 3))
+    contacts = [
+        DrawnContact(np.zeros(3), np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
+        for force in ([0, 12.0, 0], [0, 0, 1.5])
+    ]
+    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts))
+    half = 0.1
+    expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
+    for view, scale in expected.items():
+        found = force_scale([of], view, half)
+        np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
+    # What is only along the view is scaled as in space.
+    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]))
+    assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
+
+
+def test_cones_and_forces_are_whole_in_the_picture(incline, page):
+    of = moment(*incline, -1)
+    draw_scene(page, of, metres_per_newton=0.2)
+    (left, right), (low, high) = page.get_xlim(), page.get_ylim()
+    for contact in of.contacts:
+        tips = 1e3 * (contact.beta + 0.2 * np.vstack([contact.rim, contact.force]))
+        assert (left < tips[:, 0]).all()
+        assert (tips[:, 0] < right).all()
+        assert (low < tips[:, 2]).all()
+        assert (tips[:, 2] < high).all()
+
+
+def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(InputError, match="cannot be written without ffmpeg"):
+        animate(*incline, tmp_path / "blocks.mp4")
+    with pytest.raises(InputError, match=r"must end in \.gif or \.mp4"):
+        animate(*incline, tmp_path / "blocks.png")
+    assert animate(*incline, tmp_path / "blocks", fps=4).name == "blocks.gif"
+
+
+def test_sphere_is_a_solid_like_others():
+    ball = PlacedShape("s", 0, np.eye(3), np.zeros(3), Sphere(0.2))
+    few = surface_points(ball, around=24, up=9)
+    assert len(few) == 24 * 9
+    np.testing.assert_allclose(np.linalg.norm(few, axis=1), 0.2, rtol=ROUNDING)

@@ -1,0 +1,207 @@
+"""Figures: labelled axes with units, legible text, files written whole."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+from matplotlib.text import Text
+
+from quasistatic_ref.lab.examples import boundary_layer
+from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
+from quasistatic_ref.model.rotation import rotation_angle
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.style import figure_written
+from quasistatic_ref.optional.show.figures.surfaces import surface_points
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.tolerances import EXACT, ROUNDING
+
+LEGIBLE = 7.0  # points
+UNIT = re.compile(r"\[[^\]]+\]$")
+INSTANTS = (0.3, 1.4, 2.9)
+
+
+@pytest.fixture(scope="module")
+def runs(demo):
+    names = ("with_torsion", "without_torsion")
+    return {n: trajectory_read(demo.folder / f"bunny_grasp_{n}.npz") for n in names}
+
+
+@pytest.fixture(scope="module")
+def grasp():
+    return load_scenario("bunny_grasp")
+
+
+@pytest.fixture(scope="module")
+def figures(grasp, runs):
+    made = {
+        "strip": grasp_strip(grasp, runs, INSTANTS),
+        "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
+        "boundary layer": boundary_layer.figure(),
+    }
+    yield made
+    for figure in made.values():
+        plt.close(figure)
+
+
+def texts(figure):
+    figure.canvas.draw()
+    return [t for t in figure.findobj(Text) if t.get_text().strip() and t.get_visible()]
+
+
+@pytest.mark.parametrize("name", ["rotation", "boundary layer"])
+def test_every_axis_has_a_label_with_its_unit(figures, name):
+    axes = figures[name].axes
+    assert all(UNIT.search(a.get_ylabel()) for a in axes)
+    assert UNIT.search(axes[-1].get_xlabel())
+    for above in axes[:-1]:  # they share the axis of the last
+        assert above.get_shared_x_axes().joined(above, axes[-1])
+
+
+@pytest.mark.parametrize("name", ["strip", "rotation", "boundary layer"])
+def test_all_text_is_legible(figures, name):
+    sizes = {t.get_text(): t.get_fontsize() for t in texts(figures[name])}
+    assert sizes
+    assert min(sizes.values()) >= LEGIBLE, sizes
+
+
+@pytest.mark.parametrize("name", ["strip", "rotation", "boundary layer"])
+def test_every_figure_says_its_time_step_and_cone(figures, name):
+    words = " ".join(t.get_text() for t in texts(figures[name]))
+    assert "h = 10 ms" in words
+    assert "friction pyramid" in words
+
+
+def test_the_strip_has_a_run_in_each_row_and_an_instant_in_each_column(figures):
+    axes = figures["strip"].axes
+    assert len(axes) == 2 * len(INSTANTS)
+    assert [a.get_title() for a in axes[:3]] == [f"{t:g} s" for t in INSTANTS]
+    assert [axes[0].get_ylabel(), axes[3].get_ylabel()] == ["with_torsion", "without_torsion"]
+
+
+def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, runs):
+    for axes in figures["strip"].axes:
+        (cloud,) = axes.collections
+        assert len(cloud.get_offsets()) == 992
+        assert sum(line.get_marker() == "o" for line in axes.lines) == 15
+
+
+def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, runs):
+    for row, run in enumerate(runs.values()):
+        for column, t in enumerate(INSTANTS):
+            axes, k = figures["strip"].axes[row * len(INSTANTS) + column], round(t / 0.01) - 1
+            force = run["wrench"][k][:, 2]
+            expected = 1e3 * CAMERA.seen(run["beta"][k][force > 1e-3 * force.max()])[:, :2]
+            dots = [line for line in axes.lines if line.get_marker() == "o"]
+            filled = [dot for dot in dots if dot.get_markerfacecolor() != "white"]
+            found = np.reshape([dot.get_xydata()[0] for dot in filled], (-1, 2))
+            np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_the_rotation_plot_shows_the_trajectories(figures, grasp, runs):
+    (axes,) = figures["rotation"].axes
+    bunny = grasp.system.link("bunny")
+    for line, run in zip(axes.lines, runs.values(), strict=True):
+        t, angle = line.get_data()
+        R = np.array([grasp.system.kinematics(q).R[bunny] for q in run["q"][70:]])
+        np.testing.assert_allclose(t, np.arange(70, 301) * 0.01, rtol=ROUNDING)
+        expected = np.degrees(rotation_angle(R @ R[0].T))
+        np.testing.assert_allclose(angle, expected, rtol=ROUNDING, atol=ROUNDING)
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == list(runs)
+
+
+def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
+    top, bottom = figures["boundary layer"].axes
+    limit = 1e3 * 0.01 * 0.3 * 9.81
+    torque, spin = top.lines[0].get_data()
+    np.testing.assert_allclose(torque, np.linspace(147.15 / 200, 147.15, 200), rtol=ROUNDING)
+    assert (np.abs(spin[torque < 0.999 * limit]) < 1e-6).all()
+    assert (spin[torque > 1.001 * limit] > 1e-3).all()
+    for axes in (top, bottom):
+        np.testing.assert_allclose(axes.lines[1].get_xdata(), [limit, limit], rtol=ROUNDING)
+    # phi = mu_omega delta_theta = mu_omega h omega, here in mm.
+    np.testing.assert_allclose(
+        bottom.lines[0].get_ydata(), 1e3 * 0.01 * 0.01 * spin, rtol=0, atol=1e-6
+    )
+
+
+@pytest.mark.parametrize("h", [0.002, 0.005])
+def test_a_smaller_step_spins_the_sphere_to_the_same_torque(h):
+    figure = boundary_layer.figure(h=h)
+    torque, spin = figure.axes[0].lines[0].get_data()
+    np.testing.assert_allclose(torque[-1], 147.15, rtol=ROUNDING)  # at t = 2 s, whatever h
+    assert len(torque) == round(2 / h)
+    assert spin[-1] > 1
+    plt.close(figure)
+
+
+def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path):
+    before = plt.get_fignums()
+    figure = boundary_layer.figure()
+    paths = figure_written(figure, tmp_path / "new", "layer")
+    assert [p.name for p in paths] == ["layer.png", "layer.pdf"]
+    assert paths[0].read_bytes().startswith(b"\x89PNG")
+    assert paths[1].read_bytes().startswith(b"%PDF")
+    assert sorted(p.name for p in (tmp_path / "new").iterdir()) == ["layer.pdf", "layer.png"]
+    assert plt.get_fignums() == before
+
+
+def test_equal_runs_draw_equal_files(tmp_path):
+    for folder in ("a", "b"):
+        figure_written(boundary_layer.figure(), tmp_path / folder, "layer")
+    for name in ("layer.png", "layer.pdf"):
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+
+
+def test_drawing_leaves_the_settings_of_matplotlib_alone():
+    before = dict(plt.rcParams)
+    plt.close(boundary_layer.figure())
+    assert dict(plt.rcParams) == before
+
+
+def test_the_camera_has_an_orthonormal_dextral_frame():
+    axes = Camera(azimuth=-62, elevation=12).axes()
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), rtol=EXACT, atol=ROUNDING)
+    np.testing.assert_allclose(np.cross(axes[0], axes[1]), axes[2], rtol=EXACT, atol=ROUNDING)
+    assert axes[1, 2] > 0.9  # up is up
+
+
+def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
+    seen = Camera(azimuth=0, elevation=0).seen(np.array([[1.0, 2.0, 3.0]]))
+    np.testing.assert_allclose(seen, [[2, 3, 1]], rtol=ROUNDING)
+
+
+OUTLINES = {
+    "sphere": (Sphere(0.2), (0.2, 0.2, 0.2)),
+    "box": (Box(np.array([0.1, 0.2, 0.3])), (0.1, 0.2, 0.3)),
+    "cylinder": (Cylinder(0.2, 0.3), (0.2, 0.2, 0.3)),
+    "capsule": (Capsule(0.2, 0.3), (0.2, 0.2, 0.5)),
+    "cone": (Cone(0.2, 0.3), (0.2, 0.2, 0.3)),
+    "ellipsoid": (Ellipsoid(np.array([0.1, 0.2, 0.3])), (0.1, 0.2, 0.3)),
+    "cloud": (PointCloud(np.array([[0.1, 0.2, 0.3], [-0.1, -0.2, -0.3]])), (0.1, 0.2, 0.3)),
+}
+
+
+@pytest.mark.parametrize(("shape", "half"), OUTLINES.values(), ids=OUTLINES)
+def test_a_shape_is_drawn_to_its_size(shape, half):
+    points = surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), shape))
+    # Round shapes are drawn with 48 corners: 0.3 % short at most.
+    np.testing.assert_allclose(points.max(axis=0), half, rtol=3e-3)
+    np.testing.assert_allclose(points.min(axis=0), np.negative(half), rtol=3e-3)
+
+
+def test_a_half_space_has_no_outline():
+    floor = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+    assert len(surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), floor))) == 0

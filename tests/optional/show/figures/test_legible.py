@@ -1,0 +1,212 @@
+"""What is not legible is found: each fault is planted in a figure that has no other."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.examples import pinch_threshold
+from quasistatic_ref.optional.show.figures import faults, figure_style, panels, style_file
+from quasistatic_ref.optional.show.figures.style import PAGE, STYLES, scaled, sized
+
+
+@pytest.fixture
+def page():
+    with figure_style("paper"):
+        figure, (axes,) = panels(4.6, 2.8)
+        axes.plot([0, 1], [0, 1], label="one")
+        axes.plot([0, 1], [1, 0], label="two")
+        axes.set(xlabel="time t [s]", ylabel="force [N]")
+    yield figure, axes
+    plt.close(figure)
+
+
+def test_a_legible_figure_has_no_faults(page):
+    assert faults(page[0]) == []
+
+
+def same_lines(axes):
+    axes.lines[1].set_linestyle(axes.lines[0].get_linestyle())
+
+
+def same_patches(axes):
+    axes.bar([0, 1], [1, 1], color="#5588aa", label="blue")
+    axes.bar([0, 1], [1, 1], color="#aa7755", label="brown")
+
+
+def same_dots(axes):
+    axes.scatter([0], [0], color="#5588aa", label="blue")
+    axes.scatter([1], [0], color="#aa7755", label="brown")
+
+
+PLANTED = {
+    "no unit": (lambda a: a.set_xlabel("time"), "of x does not end with a"),
+    "no label": (lambda a: a.set_ylabel(""), "of y does not end with a"),
+    "no unit on a logarithmic axis": (
+        lambda a: a.set(yscale="log", ylabel="force"),
+        "of y does not end with a",
+    ),
+    "small text": (lambda a: a.text(0, 0, "tiny", fontsize=6), "'tiny' is printed at 6.0 pt"),
+    "a figure wider than a page": (
+        lambda a: a.figure.set_size_inches(PAGE * 9 / 7, 3),
+        "is printed at 6.",
+    ),
+    "text beyond the figure": (
+        lambda a: a.set_xlabel("a label that is longer than the figure is wide, " * 2 + "[s]"),
+        "of 460 pixels across",
+    ),
+    "text on text": (
+        lambda a: (a.text(0.5, 0.5, "under [m]"), a.text(0.52, 0.51, "over [m]")),
+        "'under [m]' and 'over [m]' lie on each other",
+    ),
+    "lines": (same_lines, "the lines 'one' and 'two' differ in colour only"),
+    "patches": (same_patches, "the patches 'blue' and 'brown' differ in colour only"),
+    "dots": (same_dots, "the dots 'blue' and 'brown' differ in colour only"),
+}
+
+
+@pytest.mark.parametrize(("plant", "says"), PLANTED.values(), ids=PLANTED)
+def test_a_planted_fault_is_found(page, plant, says):
+    figure, axes = page
+    plant(axes)
+    found = faults(figure)
+    assert found
+    assert all(says in fault for fault in found), found
+
+
+HARMLESS = {
+    "categories need no unit": lambda a: (
+        a.set_xticks([0, 1], ["+d1", "solve"]),
+        a.set_xlabel(""),
+    ),
+    "nothing at the ticks": lambda a: (a.set_xticks([]), a.set_xlabel("")),
+    "a marker tells lines apart": lambda a: (same_lines(a), a.lines[1].set_marker("o")),
+    "black and white": lambda a: (
+        a.bar([0], [1], color="black", label="a"),
+        a.bar([0], [1], color="white", label="b"),
+    ),
+    "a hatch": lambda a: (
+        a.bar([0], [1], color="#5588aa", label="a"),
+        a.bar([0], [1], color="#aa7755", hatch="//", label="b"),
+    ),
+    "a family of equal lines": lambda a: a.plot([[0, 0], [1, 1]], [[0, 1], [1, 2]], "k-."),
+}
+
+
+@pytest.mark.parametrize("plant", HARMLESS.values(), ids=HARMLESS)
+def test_what_can_be_read_is_no_fault(page, plant):
+    figure, axes = page
+    plant(axes)
+    assert faults(figure) == []
+
+
+@pytest.mark.parametrize("size", [(3.4, 2.4), (4.6, 2.8), (6.3, 3.4)])
+def test_text_that_is_cut_is_read_at_three_sizes(size):
+    label = "distance d of the centre of mass from the fingers' axis, as it was measured [mm]"
+    with figure_style("paper"):
+        figure, axes = plt.subplots(figsize=size, layout="constrained")
+        axes.set(xlabel=label, ylabel="squeeze N [N]", xlim=(0, 60))
+        extent = axes.xaxis.label.get_window_extent()
+        out = extent.width > 100 * size[0]
+        assert any("reaches from" in fault for fault in faults(figure)) == out
+    plt.close(figure)
+    with figure_style("paper"):
+        figure, axes = plt.subplots(figsize=size, layout="constrained")
+        pinch_threshold.figure(axes, levers=2)
+    assert faults(figure) == []
+    plt.close(figure)
+
+
+def test_ticks_beyond_the_ends_of_an_axis_are_not_drawn_and_no_fault(page):
+    figure, axes = page
+    axes.set_xticks(np.linspace(-50, 50, 11))
+    axes.set_xlim(0, 1)
+    assert faults(figure) == []
+
+
+def test_shared_axes_are_labelled_once():
+    with figure_style():
+        figure, (above, below) = panels(4.6, 3, rows=2, sharex=True)
+        for axes in (above, below):
+            axes.plot([0, 1], [0, 1])
+            axes.set_ylabel("force [N]")
+        below.set_xlabel("time t [s]")
+    assert faults(figure) == []
+    below.set_xlabel("")
+    assert len(faults(figure)) == 1
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("style", ["slides", "poster"])
+def test_slides_and_posters_have_larger_figures_and_larger_text(style):
+    with figure_style(style):
+        size, most = plt.rcParams["font.size"], plt.rcParams["figure.figsize"][0]
+        figure, (axes,) = panels(4.6, 2.8)
+        text = axes.set_xlabel("time t [s]")
+        axes.set_ylabel("force [N]")
+        assert sized(6.3, 1.0)[0] == most > PAGE
+    np.testing.assert_allclose(figure.get_size_inches(), size / 9 * np.array([4.6, 2.8]))
+    assert text.get_fontsize() == size > 9
+    assert faults(figure, style) == []
+    plt.close(figure)
+
+
+def test_a_style_is_that_of_the_enclosing_block_and_is_left_again():
+    before = dict(plt.rcParams)
+    with figure_style(), figure_style("slides"), figure_style():
+        assert plt.rcParams["font.size"] == 16
+        np.testing.assert_allclose(scaled(1.8), 1.8 * 16 / 9)
+    with figure_style():
+        assert plt.rcParams["font.size"] == 9
+        assert sized(1, 2) == (1, 2)
+    assert dict(plt.rcParams) == before
+
+
+@pytest.mark.parametrize("name", STYLES)
+def test_a_style_is_a_file_that_pyplot_reads(name):
+    with plt.style.context(style_file(name)):
+        cycle = plt.rcParams["axes.prop_cycle"].by_key()
+        assert plt.rcParams["pdf.fonttype"] == 42  # outlines that journals accept
+        assert plt.rcParams["svg.fonttype"] == "none"  # text as text
+    assert len(cycle["color"]) == len(set(map(str, cycle["linestyle"]))) == 6
+
+
+def test_a_file_of_one_s_own_and_matplotlib_s_styles_are_styles(tmp_path):
+    own = tmp_path / "my.mplstyle"
+    own.write_text("font.size: 8\nfigure.figsize: 3.4, 2.4\n", encoding="utf-8")
+    with figure_style(str(own)):
+        assert sized(6.3, 3.0) == (3.4, pytest.approx(3.0 * 8 / 9))
+    with figure_style("grayscale"):
+        assert plt.rcParams["figure.facecolor"] == "0.75"
+
+
+def test_an_unknown_style_is_refused_with_the_nearest():
+    nearest = pytest.raises(InputError, match="is no style; did you mean 'slides'")
+    with nearest, figure_style("slide"):
+        pass
+
+
+def test_panels_stand_below_each_other_where_a_row_has_no_room():
+    with figure_style("paper"):
+        wide, row = panels(6.3, 3.0, columns=2)
+    with figure_style("paper"), plt.rc_context({"figure.figsize": (3.4, 2.4)}):
+        narrow, stack = panels(6.3, 3.0, columns=2)
+    assert [axes.get_subplotspec().colspan.start for axes in row] == [0, 1]
+    assert [axes.get_subplotspec().rowspan.start for axes in stack] == [0, 1]
+    np.testing.assert_allclose(narrow.get_size_inches(), [3.4, 6.0])
+    plt.close(wide)
+    plt.close(narrow)
+
+
+def test_panels_are_given_axes_or_take_the_place_of_one():
+    figure, grid = plt.subplots(2, 2, layout="constrained")
+    assert panels(within=grid[0, 0]) == (figure, [grid[0, 0]])
+    whole, two = panels(columns=2, within=grid[0, 1])
+    assert whole is figure
+    assert grid[0, 1] not in figure.axes
+    assert {axes.get_figure(root=False) for axes in two} == set(figure.subfigs)
+    assert len(figure.axes) == 3 + 2
+    alone = figure.add_axes((0, 0, 0.1, 0.1))
+    with pytest.raises(InputError, match="are in no grid"):
+        panels(columns=2, within=alone)
+    plt.close(figure)

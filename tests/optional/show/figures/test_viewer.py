@@ -1,0 +1,125 @@
+"""The viewer's commands are the trajectory; validation/check_viewer.py tries the page itself."""
+
+import json
+import re
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.show.figures import viewer
+from quasistatic_ref.optional.show.figures.moments import frames
+from quasistatic_ref.optional.show.figures.three import z_along
+from quasistatic_ref.optional.show.figures.viewer import (
+    FRAMES_PER_SECOND,
+    metres_per_newton,
+    scene_commands,
+    view_written,
+)
+from quasistatic_ref.scenario.scenario import load_scenario
+from tests.tolerances import ROUNDING
+
+NANOMETRE = 1e-9  # what is written
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    scenario = load_scenario("block_push", ["steps=40", "h=0.02"])
+    return scenario, scenario.run(progress=False)
+
+
+@pytest.fixture(scope="module")
+def commands(pushed):
+    moments, fps = frames(*pushed, FRAMES_PER_SECOND)
+    return moments, scene_commands(moments, fps, 0.1, 0.01)
+
+
+def tracks(commands, path):
+    (clip,) = [c["clip"] for c in commands[-1]["animations"] if c["path"] == path]
+    return {t["name"]: np.array([key["value"] for key in t["keys"]]) for t in clip["tracks"]}
+
+
+def test_frames_come_thirty_a_second_or_one_a_step(pushed):
+    scenario, run = pushed
+    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
+    assert (len(moments), fps) == (20, 25.0)  # every second step of 20 ms
+    assert [round(m.t / scenario.h) for m in moments] == list(range(0, 40, 2))
+
+
+def test_every_shape_and_every_contact_has_an_object(commands, pushed):
+    moments, sent = commands
+    made = [c["path"] for c in sent if c["type"] == "set_object"]
+    assert len([p for p in made if p.startswith("/links/")]) == len(moments[0].shapes) == 3
+    assert [p for p in made if p.startswith("/forces/")] == [f"/forces/{j}" for j in range(8)]
+
+
+def test_links_move_as_in_the_trajectory(commands, pushed):
+    scenario, run = pushed
+    _, sent = commands
+    link = scenario.system.link("block")
+    found = tracks(sent, f"/links/{link}")
+    poses = [scenario.system.kinematics(q) for q in run["q"][:-1:2]]
+    np.testing.assert_allclose(found[".position"], [p.t[link] for p in poses], atol=NANOMETRE)
+    # A turn by R about w: quaternions [x y z w], here of hardly any turn.
+    np.testing.assert_allclose(np.abs(found[".quaternion"][:, 3]), 1.0, atol=1e-6)
+
+
+def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushed):
+    _, run = pushed
+    moments, sent = commands
+    for j in range(8):
+        found = tracks(sent, f"/forces/{j}")
+        np.testing.assert_allclose(found[".position"], run["beta"][::2, j], atol=NANOMETRE)
+        force = np.linalg.norm(run["wrench"][::2, j, :3], axis=1)
+        length = np.maximum(0.01 * force, NANOMETRE)
+        np.testing.assert_allclose(found[".scale"][:, 2], length, atol=NANOMETRE)
+    assert metres_per_newton(moments, 0.1) * max(
+        np.linalg.norm(c.force) for m in moments for c in m.contacts
+    ) <= 0.05 * (1 + ROUNDING)
+
+
+def test_the_third_axis_goes_along_the_force(rng):
+    directions = np.vstack([rng.normal(size=(20, 3)), np.eye(3), -np.eye(3), np.zeros((1, 3))])
+    R = z_along(directions)
+    np.testing.assert_allclose(R @ R.transpose(0, 2, 1), np.tile(np.eye(3), (27, 1, 1)), atol=1e-12)
+    np.testing.assert_allclose(np.linalg.det(R), 1.0, rtol=ROUNDING)
+    lengths = np.linalg.norm(directions, axis=1, keepdims=True)
+    np.testing.assert_allclose(lengths * R[:, :, 2], directions, atol=ROUNDING)
+
+
+def test_the_page_holds_the_viewer_and_the_commands_and_no_address(pushed, tmp_path, monkeypatch):
+    monkeypatch.setattr(viewer, "viewer_script", lambda: "/* the viewer */")
+    page = view_written(*pushed, tmp_path / "run.html").read_text()
+    assert "/* the viewer */" in page
+    (sent,) = re.findall(r"const commands = (.*);", page)
+    assert json.loads(sent)[-1]["type"] == "set_animation"
+    assert "://" not in page
+    assert "1 N is 10 mm" in page
+    again = view_written(*pushed, tmp_path / "again.html").read_text()
+    assert again == page
+
+
+def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(viewer, "find_spec", lambda name: None)
+    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", str(tmp_path)]
+    assert main(arguments) == 2
+    assert "pip install 'quasistatic-ref[view]'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []  # refused before the run
+
+
+def test_a_run_with_view_says_where_the_page_is(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(viewer, "viewer_script", lambda: "")
+    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", str(tmp_path)]
+    assert main([*arguments, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["view"] == str(tmp_path / "block_push.html")
+    assert (tmp_path / "block_push.html").is_file()
+    assert "meshcat" not in sys.modules
+
+
+def test_a_run_without_steps_has_nothing_to_show(pushed):
+    scenario, run = pushed
+    empty = type(run)(run.header, {**run.arrays, "t": run["t"][:0]})
+    with pytest.raises(InputError, match="has no steps"):
+        frames(scenario, empty, FRAMES_PER_SECOND)

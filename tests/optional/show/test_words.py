@@ -1,0 +1,281 @@
+"""What objects say of themselves: short, true, and safe whatever a name holds."""
+
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.show.model_words import system_page
+from quasistatic_ref.optional.show.show import (
+    clipped,
+    counted,
+    html_page,
+    number,
+    shortened,
+    text_page,
+)
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Sphere
+from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from tests.helpers import (
+    changed,
+    contacts_of,
+    point_on_floor,
+    random_frame,
+    random_step,
+    sphere_on_floor,
+)
+from tests.scenes import SWING, written_scenario
+
+LINES, WIDTH = 20, 100
+HOSTILE = '<script>alert("&")</script>\n\x1b[31m\u202e' + "long" * 50
+
+
+class Page(HTMLParser):
+    """The elements, attributes, text and cells of a page; what is not closed stays open."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.seen, self.text, self.rows = [], set(), "", []
+        self.attributes = set()
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        """Remember it."""
+        self.seen.add(tag)
+        self.attributes |= {name for name, _ in attributes}
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+        if tag != "br":
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        """Elements are closed in the order of their nesting."""
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        """Text, and that of the cell it is in."""
+        self.text += data
+        if self.open and self.open[-1] in ("td", "th"):
+            self.rows[-1][-1] += data
+
+
+def check(*objects):
+    """Every object is short in a terminal and a sound element in a notebook."""
+    for one in objects:
+        lines = repr(one).splitlines()
+        assert 1 <= len(lines) <= LINES
+        assert max(map(len, lines)) <= WIDTH
+        assert all(line.isprintable() and line == line.rstrip() for line in lines)
+        assert lines[0].startswith(tuple(kind.__name__ for kind in type(one).__mro__[:-1]))
+        if hasattr(one, "_repr_html_"):
+            page = Page(one._repr_html_())
+            assert page.open == []
+            assert page.seen <= {
+                "div",
+                "p",
+                "strong",
+                "br",
+                "table",
+                "thead",
+                "tbody",
+                "tr",
+                "th",
+                "td",
+            }
+            assert page.attributes <= {"scope", "style"}
+            assert page.text.startswith(lines[0].removesuffix("...")[:60])
+            assert len({len(row) for row in page.rows}) <= 1
+
+
+@pytest.fixture(scope="module", params=scenario_names())
+def scenario(request):
+    return load_scenario(request.param, steps=2)
+
+
+def test_every_object_of_every_scenario_is_short(scenario):
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    result = simulator.step(q, scenario.targets(scenario.h))
+    run = scenario.run(progress=False)
+    light = replace(scenario, record="light").run(progress=False)
+    check(scenario, scenario.system, simulator, run, light)
+    check(result, result.step, result.step.contacts, result.step.extra, result.solution)
+    check(result.solution.certificate)
+    assert scenario.path.stem in repr(scenario)
+    assert f"{scenario.system.n_v} coordinates ({scenario.system.n_a} actuated)" in repr(simulator)
+
+
+@pytest.mark.parametrize("cone", ["ellipsoid", "product", "facets-16", "frictionless"])
+def test_steps_in_other_cones_are_short_too(cone):
+    step = sphere_on_floor(wrench=(0.2, 0, -3, 0, 0, 0.01)).replace(cone=cone)
+    solution = solve_step(step)
+    check(step, solution, solution.certificate)
+    assert cone in repr(step)
+
+
+@pytest.mark.parametrize("certify", ["residual", "off"])
+def test_active_rows_are_known_only_where_they_are_certified(certify):
+    step = sphere_on_floor(wrench=(0.2, 0, -3, 0, 0, 0.01))
+    solution = solve_step(step, certify=certify)
+    check(solution, solution.certificate)
+    assert "not known" in repr(solution)
+    assert "not known" not in repr(solve_step(step))
+
+
+def test_empty_things_are_short_too(tmp_path):
+    nothing = random_step(np.random.default_rng(3), rows=()).replace(contacts=no_contacts(7))
+    empty = load_scenario("sphere_spin", steps=0).run(progress=False)
+    alone = System([Body.of_shape("ball", Sphere(0.1), 1.0)])
+    check(nothing, nothing.contacts, nothing.extra, solve_step(nothing), empty, alone, System([]))
+    assert "0 contacts" in repr(nothing)
+    assert "0 steps" in repr(empty)
+    with pytest.raises(RunFailed) as caught:
+        load_scenario(written_scenario(tmp_path, SWING)).run(progress=False)
+    failed = caught.value.trajectory
+    check(failed)
+    assert "ended early" in repr(failed)
+    assert "why it ended: step 3:" in repr(failed)
+
+
+def test_large_things_are_short_too(rng):
+    rows = (6,) * 400
+    step = random_step(rng, n_a=30, n_u=30, rows=rows)
+    extra = Extra(tuple(f"row {i}" for i in range(90)), np.ones((90, 60)), np.full(90, -1e6))
+    large = step.replace(extra=extra)
+    fewer = random_step(rng, n_a=30, n_u=30, rows=(6,) * 60).replace(extra=extra)
+    check(large, large.contacts, extra, solve_step(fewer, certify="off"))
+    assert "400 contacts, 2400 rows" in repr(large)
+    assert "... and 388 more" in repr(large)
+    assert len(Page(large._repr_html_()).rows) == 51  # a header and fifty contacts
+    assert "and 350 more" in Page(large._repr_html_()).text
+    many = System([Body.of_shape(f"ball{i}", Sphere(0.1), 1.0, xyz=(i, 0, 0)) for i in range(40)])
+    check(many)
+    assert repr(many).endswith("... and 28 more")
+
+
+def test_a_system_counts_the_actuated_coordinates_of_each_body():
+    """A free body has 6 coordinates and 7 entries of q, one in the plane 3 and 4."""
+    free, moved = (Body.of_shape(name, Sphere(0.1), 2.0) for name in ("free", "moved"))
+    puck = Body.of_shape("puck", Sphere(0.1), 3.0, base="planar")
+    title, _, columns, rows = system_page(System([free, replace(moved, actuated="all"), puck]))
+    assert title == "System: 3 bodies, 15 coordinates (6 actuated), 18 entries of q"
+    assert columns[2:4] == ("actuated", "not actuated")
+    assert rows == [
+        ("free", "floating", "0", "6", "1", "1", "2"),
+        ("moved", "floating", "6", "0", "1", "1", "2"),
+        ("puck", "planar", "0", "3", "1", "1", "3"),
+    ]
+
+
+def test_names_are_escaped_and_cut():
+    step = point_on_floor(force=(0, 0, -1.0))
+    step = step.replace(
+        contacts=changed(step.contacts, name=(HOSTILE,)),
+        extra=Extra((HOSTILE,), np.zeros((1, 3)), [-1.0]),
+    )
+    check(step, step.contacts, step.extra)
+    page = step._repr_html_()
+    assert "<script" not in page
+    assert "&lt;script&gt;alert(&quot;&amp;&quot;)" in page
+    assert Page(page).rows[1][0].startswith('<script>alert("&")</script>\\n\\x1b[31m\\u202e')
+    assert "<script>alert" in repr(step.contacts)
+
+
+def test_a_step_says_what_it_holds():
+    assert repr(point_on_floor(m=0.3, mu_v=0.25, phi=0.00125)) == (
+        "StepData: h = 0.01 s, 3 coordinates (0 actuated), 1 contact, 4 rows, cone pyramid\n"
+        "  contact  gap [m]                 normal  mu_v  mu_omega [m]  rows\n"
+        "  c0       0.00125  (0.000, 0.000, 1.000)  0.25             0     4"
+    )
+
+
+def test_a_table_for_a_notebook_holds_gap_normal_friction_and_rows(rng):
+    frames = [random_frame(rng) for _ in range(2)]
+    contacts = contacts_of((0.5, -0.25), frames, np.zeros((2, 4, 3)), (0.1, 0.2), 0.3, (6, 4))
+    header, *rows = Page(contacts._repr_html_()).rows
+    assert header == ["contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows"]
+    for row, phi, frame, mu_v, count in zip(
+        rows, ("0.5", "-0.25"), frames, ("0.1", "0.2"), ("6", "4"), strict=True
+    ):
+        x, y, z = frame[2]
+        normal = f"({x:.3f}, {y:.3f}, {z:.3f})"
+        assert row[1:] == [phi, normal, mu_v, "0.3", count]
+
+
+def test_a_step_that_was_taken_shows_forces_and_active_rows():
+    scenario = load_scenario("block_push", steps=1)
+    result = scenario.simulator().step(scenario.system.q_start, scenario.targets(0.01))
+    header, *rows = Page(result._repr_html_()).rows
+    assert header == [
+        "contact", "gap [m]", "normal", "f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]",
+        "active rows",
+    ]  # fmt: skip
+    names = ("+d1", "+d2", "-d1", "-d2")
+    for j, row in enumerate(rows):
+        assert row[0] == result.step.contacts.name[j]
+        assert [float(cell) for cell in row[3:7]] == pytest.approx(
+            result.solution.wrench[j], rel=1e-3, abs=0
+        )
+        active = [names[i] for contact, i in result.solution.certificate.active if contact == j]
+        assert row[7] == (" ".join(active) or "none")
+    assert {row[7] for row in rows} != {"none"}
+
+
+def test_a_trajectory_shows_its_last_step():
+    run = load_scenario("block_push", steps=3).run(progress=False)
+    header, *rows = Page(run._repr_html_()).rows
+    assert header[0] == "contact, last step"
+    assert [row[0] for row in rows] == list(run.header["contacts"][-1])
+    f_n = [float(row[5]) for row in rows]
+    assert f_n == pytest.approx(run["wrench"][-1, :, 2], rel=1e-3, abs=0)
+    assert "3 steps of 0.01 s, complete; 8 entries of q, 8 contacts" in repr(run)
+    assert "3 of 3 steps exact" in repr(run)
+
+
+STRANGE = {
+    "a header of words": ({"quasi_dynamic_number": "fast", "backend": HOSTILE}, {}),
+    "names that are numbers": ({"contacts": [list(range(8))] * 3}, {}),
+    "too few names": ({"contacts": [["one"]] * 3}, {}),
+    "scalar gaps": ({}, {"phi": np.zeros(3), "wrench": np.zeros(3)}),
+    "no contacts": ({}, {"mu_v": np.zeros(())}),
+    "other numbers of contacts": ({}, {"phi": np.zeros((3, 2))}),
+    "whole numbers": ({}, {"phi": np.zeros((3, 8), dtype=np.int64)}),
+    "a flat q": ({}, {"q": np.zeros(4)}),
+}
+
+
+@pytest.mark.parametrize(("header", "arrays"), STRANGE.values(), ids=STRANGE)
+def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, arrays, tmp_path):
+    run = load_scenario("block_push", steps=3).run(progress=False)
+    strange = Trajectory({**run.header, **header}, {**run.arrays, **arrays})
+    check(strange, trajectory_read(strange.save(tmp_path / "run.npz")))
+
+
+def test_words_and_numbers_are_cut_where_they_must():
+    assert clipped("a" * 101) == "a" * 97 + "..."
+    assert clipped("a" * 100) == "a" * 100
+    assert shortened("floor(floor, bunny)/17") == "floor(floor, bunny)/17"
+    long = "grip(gripper/left_finger#0, bunny)/17"
+    assert len(shortened(long)) == 32
+    assert shortened(long) == "grip(gripper/l...er#0, bunny)/17"
+    assert [number(x) for x in (None, -0.0, 1 / 3, 1e-9)] == ["-", "0", "0.3333", "1e-09"]
+    assert [counted(1, "row"), counted(0, "body"), counted(2, "pair")] == [
+        "1 row",
+        "0 bodies",
+        "2 pairs",
+    ]
+    page = text_page(("t", [str(i) for i in range(99)], ("a", "b"), [("1", "2")] * 99))
+    assert len(page.splitlines()) == LINES
+    assert html_page(("t", (), (), ())) == "<div><p><strong>t</strong></p></div>"

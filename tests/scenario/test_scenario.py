@@ -1,0 +1,230 @@
+"""Scenario files: what each table comes to, and refusals that name file, field and value."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+)
+from tests.model.urdf.urdf_texts import joint, link, robot, written
+from tests.scenes import PUSH
+from tests.tolerances import EXACT, ROUNDING
+
+K_Q = "K_q = { slide = 500, turn = 2.5 }"
+
+
+def test_the_settings_are_those_of_the_file(load):
+    scenario = load()
+    assert (scenario.h, scenario.steps, scenario.backend) == (0.01, 5, "daqp")
+    assert (scenario.certify, scenario.record) == ("full", "full")
+    np.testing.assert_allclose(scenario.gravity, [0, 0, -9.81], rtol=EXACT)
+    assert [c.name for c in scenario.system.coordinates[:3]] == [
+        "rail/slide", "rail/turn", "ball/base.x",
+    ]  # fmt: skip
+
+
+def test_the_pairs_are_those_of_the_contact_tables_in_order(load):
+    floor, push = load().pairs
+    assert isinstance(floor, ContactPair)
+    assert (floor.name, push.name) == (
+        "floor(floor, ball/ball#0)",
+        "push(rail/plate#0, ball/ball#0)",
+    )
+    assert (floor.mu_v, floor.mu_omega, floor.rows, floor.k) == (0.5, 0.01, 6, 1)
+    assert (push.mu_v, push.mu_omega, push.rows, push.k) == (0.3, 0.0, 4, 1)
+    assert isinstance(floor.alpha.shape, HalfSpace)
+    assert isinstance(push.alpha.shape, Box)
+
+
+def test_every_alpha_meets_every_beta(load):
+    both = load(('alpha = "rail/plate"', 'alpha = ["rail/plate", "floor"]')).pairs
+    assert [p.name for p in both] == [
+        "floor(floor, ball/ball#0)",
+        "push(rail/plate#0, ball/ball#0)",
+        "push(floor, ball/ball#0)",
+    ]
+
+
+def test_a_wildcard_names_all_links_with_shapes(load):
+    pairs = load(('alpha = "rail/plate"', 'alpha = "rail/*"')).pairs
+    assert [p.name for p in pairs][1:] == ["push(rail/plate#0, ball/ball#0)"]
+
+
+STIFFNESS = {
+    "numbers": ("K_q = { slide = 500, turn = 2.5 }", [[500, 0], [0, 2.5]]),
+    "lists": ("K_q = { slide = [500], turn = [2.5] }", [[500, 0], [0, 2.5]]),
+    "matrices": ("K_q = { slide = [[500]], turn = [[2.5]] }", [[500, 0], [0, 2.5]]),
+    "another order": ("K_q = { turn = 2.5, slide = 500 }", [[500, 0], [0, 2.5]]),
+    "a matrix of the whole body": ("K_q = [[500, 3], [3, 2.5]]", [[500, 3], [3, 2.5]]),
+}
+
+
+@pytest.mark.parametrize(("line", "expected"), STIFFNESS.values(), ids=STIFFNESS)
+def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
+    np.testing.assert_allclose(load((K_Q, line)).K_q, expected, rtol=EXACT)
+
+
+BASE = 'base = "floating"\nactuated = "all"\nK_q = { base = %s }'
+BASES = {
+    "a number": ("7", 7 * np.eye(6)),
+    "a list": ("[1, 2, 3, 4, 5, 6]", np.diag([1, 2, 3, 4, 5, 6])),
+    "a matrix": (
+        str((np.eye(6) + np.diag([0.5] * 5, 1) + np.diag([0.5] * 5, -1)).tolist()),
+        np.eye(6) + np.diag([0.5] * 5, 1) + np.diag([0.5] * 5, -1),
+    ),
+}
+
+
+@pytest.mark.parametrize(("value", "expected"), BASES.values(), ids=BASES)
+def test_an_actuated_base_has_a_stiffness_too(load, value, expected):
+    K_q = load(('base = "floating"', BASE % value)).K_q
+    np.testing.assert_allclose(K_q[2:, 2:], expected, rtol=EXACT)
+    np.testing.assert_allclose(K_q[:2, :2], [[500, 0], [0, 2.5]], rtol=EXACT)
+    np.testing.assert_allclose(K_q[:2, 2:], np.zeros((2, 6)), rtol=EXACT)
+
+
+def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
+    # In pinocchio's order "b" comes first; each body's matrix belongs to its own joints.
+    text = robot(link("a"), link("b"), joint("j", "a", "b"), link("c"), joint("i", "b", "c"))
+    written(tmp_path, text, "two.urdf")
+    body = '[bodies.%s]\nurdf = "two.urdf"\nactuated = ["j", "i"]\nK_q = [[%d, 1], [1, %d]]\n'
+    path = tmp_path / "s.toml"
+    head = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+    path.write_text(head + body % ("b", 10, 20) + body % ("a", 30, 40))
+    scenario = load_scenario(path)
+    stiffness = {"b/j": 10, "b/i": 20, "a/j": 30, "a/i": 40}
+    names = [c.name for c in scenario.system.coordinates]
+    assert sorted(names) == sorted(stiffness)
+    np.testing.assert_allclose(
+        np.diag(scenario.K_q), [stiffness[name] for name in names], rtol=EXACT
+    )
+
+
+def test_targets_are_the_waypoints(load):
+    q_bar_a = load().targets(0.05)
+    expected = [0.01, np.cos(3.5), np.sin(3.5)]
+    np.testing.assert_allclose(q_bar_a, expected, rtol=ROUNDING)
+
+
+def test_a_waypoint_may_leave_joints_out(load):
+    scenario = load(("t = 0.1\nslide = 0.02\nturn = 7.0", "t = 0.1\nturn = 7.0"))
+    np.testing.assert_allclose(scenario.targets(0.05)[0], 0.0, rtol=EXACT)
+
+
+def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
+    scenario = load()
+    system, q = scenario.system, scenario.system.q_start
+    force = scenario.force(0.04, q)
+    # The ball's frame is the world's and its origin the centre of mass: 0.4 of the last waypoint.
+    expected = [0, 0, 0, 0.04, 0, 0, 0, 0.0004]
+    np.testing.assert_allclose(force, expected, rtol=ROUNDING, atol=ROUNDING)
+    assert force.shape == (system.n_v,)
+
+
+def test_without_wrenches_there_is_no_force(load):
+    text = PUSH[PUSH.index("[[bodies.ball.wrenches]]") : PUSH.index("[shapes.floor]")]
+    assert load((text, "")).force is None
+
+
+@pytest.mark.parametrize(("compensated", "expected"), [("true", 0.0), ("false", 2.0)])
+def test_gravity_is_in_tau_a_only_where_it_is_not_compensated(load, compensated, expected):
+    scenario = load(
+        (K_Q, f"{K_Q}\ngravity_compensated = {compensated}"),
+        ("gravity = [0, 0, -9.81]", "gravity = [1, 0, -9.81]"),
+    )
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    step = simulator.step(q, scenario.targets(0.0)).step
+    # The plate of 2 kg slides along x, where gravity pulls at 1 m/s^2; the wheel is off its axis
+    # by 0.1 and -0.2 m, but turns about z: the torque is r x f = 0.2 * 2 * 1.
+    np.testing.assert_allclose(step.tau_a, [expected, 0.2 * expected], rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(
+        step.tau_u, [0.3, 0, -0.3 * 9.81, 0, 0, 0], rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+WORLD = {
+    "box": ("box = { size = [0.2, 0.4, 0.6] }", Box(np.array([0.1, 0.2, 0.3]))),
+    "sphere": ("sphere = { radius = 0.2 }", Sphere(0.2)),
+    "cylinder": ("cylinder = { radius = 0.2, length = 0.6 }", Cylinder(0.2, 0.3)),
+    "capsule": ("capsule = { radius = 0.2, length = 0.6 }", Capsule(0.2, 0.3)),
+    "halfspace": (
+        "halfspace = { normal = [0, 3, 4], offset = 10 }",
+        HalfSpace(np.array([0.0, 0.6, 0.8]), 2.0),
+    ),
+}
+
+
+@pytest.mark.parametrize(("line", "expected"), WORLD.values(), ids=WORLD)
+def test_shapes_of_the_world_have_the_sizes_that_are_written(load, line, expected):
+    pose = "\npose = { xyz = [1, 2, 3], rpy = [0, 0, 1.5707963267948966] }"
+    scenario = load(("halfspace = { normal = [0, 0, 1], offset = 0 }", line + pose))
+    placed = scenario.pairs[0].alpha
+    assert (placed.name, placed.link) == ("floor", 0)
+    assert type(placed.shape) is type(expected)
+    for key, value in vars(expected).items():
+        np.testing.assert_allclose(getattr(placed.shape, key), value, rtol=ROUNDING)
+    np.testing.assert_allclose(placed.t, [1, 2, 3], rtol=EXACT)
+    np.testing.assert_allclose(
+        placed.R, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], rtol=EXACT, atol=ROUNDING
+    )
+
+
+def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
+    (tmp_path / "c.csv").write_text("x,y,z\n0,0,0.1\n0,0.1,0\n0.1,0,0\n")
+    scenario = load(
+        ('base = "floating"', 'base = "floating"\ncloud = "c.csv"'),
+        ("rows = 6", "rows = 6\nk = 2"),
+    )
+    floor, push = scenario.pairs
+    assert isinstance(floor.beta.shape, PointCloud)
+    assert isinstance(push.beta.shape, PointCloud)
+    assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
+
+
+SETTINGS = {
+    "a number": ("h=0.02", lambda s: s.h == 0.02),
+    "a whole number": ("steps = 7", lambda s: s.steps == 7),
+    "an array": ("gravity=[0, 0, -1.62]", lambda s: s.gravity[2] == -1.62),
+    "a field of a table": ("contacts.floor.mu_omega=0", lambda s: s.pairs[0].mu_omega == 0),
+    "a word without quotes": ("record=light", lambda s: s.record == "light"),
+    "a word in quotes": ('record="light"', lambda s: s.record == "light"),
+    "a table that was not there": ("solver.backend=osqp", lambda s: s.backend == "osqp"),
+    "an inline table's field": ("bodies.rail.K_q.slide=600", lambda s: s.K_q[0, 0] == 600),
+    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.gravity_acts.all()),
+}
+
+
+@pytest.mark.parametrize(("setting", "holds"), SETTINGS.values(), ids=SETTINGS)
+def test_a_setting_changes_one_field(load, setting, holds):
+    assert not holds(load())
+    assert holds(load(settings=[setting]))
+
+
+def test_the_last_of_two_settings_counts(load):
+    assert load(settings=["h=0.02", "h=0.03"]).h == 0.03
+
+
+PLATE = 'alpha = "rail/plate"'
+
+
+def test_scenarios_that_come_along_are_found_by_name():
+    assert set(scenario_names()) >= {"bunny_grasp", "sphere_spin"}
+    assert scenario_path("sphere_spin") == models_folder() / "sphere_spin" / "sphere_spin.toml"
+    with pytest.raises(
+        ScenarioError, match=r"sphere_spn: is neither .*; did you mean 'sphere_spin'"
+    ):
+        load_scenario("sphere_spn")
+
+
+def test_every_scenario_that_comes_along_loads():
+    for name in scenario_names():
+        assert load_scenario(name).steps > 0

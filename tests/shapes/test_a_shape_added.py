@@ -1,0 +1,121 @@
+"""A shape is a class of its own, and a row in the table of scenarios: nothing else needs to know.
+
+Added here is a box with a ball about each of its points. On a face its distance is that of the box
+less the radius; beyond a corner it is the distance to the corner less the radius.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.solids.faces import kinks
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.formats.declared import Field
+from quasistatic_ref.optional.derivatives.contact.features import feature
+from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.shapes.shape import lengths
+from tests.errors.scene import SCENE, changed, scene_written
+from tests.tolerances import ROUNDING, SCENARIO
+
+HALF, RADIUS = np.array([0.2, 0.3, 0.04]), 0.01
+SIZES = {"size": (2 * HALF).tolist(), "radius": RADIUS}
+
+
+@dataclass(frozen=True, eq=False)
+class Pad(Rounded):
+    """A box with a ball about each of its points."""
+
+    half_extents: np.ndarray
+    radius: float
+
+    @property
+    def core(self):
+        """Of the parent, which knows distances and farthest points by it."""
+        return self.half_extents, self.radius
+
+    def surface(self, around, up):
+        """The corners of the box around it."""
+        return Box(self.half_extents + self.radius).surface(around, up)
+
+    def words(self):
+        """Kind and sizes [m]."""
+        return f"pad {lengths(2 * self.half_extents)}, rounded by {self.radius:g} m"
+
+
+PAD = Pad(HALF, RADIUS)
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    """A ball on a pad whose upper face is at z = 0."""
+    size = Field("three numbers", "edges of the box", "m")
+    rounding = Field("number", "of the ball", "m", above=0.0)
+    row = Kind(
+        {"size": size, "radius": rounding}, lambda _, __, size, radius: Pad(size / 2, radius)
+    )
+    monkeypatch.setitem(SOLIDS, "pad", row)
+    pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, -HALF[2] - RADIUS]}}
+    with_pad = changed(
+        SCENE, ("shapes/pad", pad), ("contacts/floor/alpha", "pad"), ("contacts/push", ...)
+    )
+    return str(scene_written(tmp_path, with_pad))
+
+
+def test_its_distances_of_points_are_those_of_the_formula():
+    corner, beyond = HALF, np.array([0.02, 0.03, 0.06])
+    points = np.array([[0.0, 0.1, HALF[2] + 0.05], [0.0, 0.0, 0.03], corner + beyond])
+    phi, normal = signed_distance(PAD, points)
+    away = np.sqrt(beyond @ beyond)
+    np.testing.assert_allclose(phi, [0.05 - RADIUS, -0.01 - RADIUS, away - RADIUS], rtol=ROUNDING)
+    np.testing.assert_allclose(normal, [[0, 0, 1], [0, 0, 1], beyond / away], atol=ROUNDING)
+    assert PAD.extent == pytest.approx(2 * (HALF.max() + RADIUS), rel=ROUNDING)
+
+
+@pytest.mark.parametrize("other", [Box(np.full(3, 0.05)), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
+def test_its_distance_to_other_solids_is_that_of_the_faces(other):
+    # The lower face of the box, and the plane of the half-space, are 0.05 from their frame.
+    gap = 0.02
+    above = Placed(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
+    found = solid_pair("pad", Placed(PAD, np.eye(3), np.zeros(3)), above)
+    np.testing.assert_allclose(found.phi, gap, atol=ROUNDING)
+    np.testing.assert_allclose(found.n, [0, 0, 1], atol=ROUNDING)
+
+
+def test_what_it_has_not_said_is_refused_in_a_sentence():
+    box = Placed(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
+    with pytest.raises(ContactError, match="shape: has no coal object of another size"):
+        solid_pair("pad", Placed(PAD, np.eye(3), np.zeros(3)), box)
+    with pytest.raises(ContactError, match="shape: has no known faces"):
+        kinks(PAD)
+    with pytest.raises(ContactError, match="shape: has no derivatives"):
+        feature(PAD, HALF, np.eye(3)[0])
+
+
+def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
+    scenario = load_scenario(scene)
+    run = scenario.run(progress=False)
+    # The wrench of the scene is along y and about z: in contact the load is the weight, m g.
+    np.testing.assert_allclose(run["phi"][0, 0], 0.0, atol=ROUNDING)
+    np.testing.assert_allclose(run["wrench"][0, 0, 2], 0.3 * 9.81, rtol=SCENARIO)
+
+
+def test_it_is_drawn_and_inspected(scene, capsys):
+    scenario = load_scenario(scene)
+    run = scenario.run(progress=False)
+    page, (axes,) = panels(4.6, 4.0)
+    draw_scene(axes, moment(scenario, run, 0))
+    reached = np.concatenate([patch.get_xy() for patch in axes.patches])
+    assert np.ptp(reached[:, 0]) >= 2 * (HALF[0] + RADIUS) - ROUNDING
+    plt.close(page)
+    assert main(["inspect", scene]) == 0
+    assert PAD.words() in capsys.readouterr().out

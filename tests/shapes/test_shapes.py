@@ -1,0 +1,170 @@
+"""Collision shapes: what they refuse, and that coal sees the same solid."""
+
+from collections.abc import Callable
+from typing import Any
+
+import coal
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.tolerances import ORTHONORMAL, SHORT
+from tests.tolerances import ROUNDING
+
+TEXT: Any = "big"
+
+
+def sheared(by: float) -> np.ndarray:
+    """A matrix R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
+    return np.array([[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+
+
+REFUSED: list[tuple[str, Callable[[], Any], str]] = [
+    ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
+    ("negative radius", lambda: Sphere(-1.0), r"radius: must be a positive length \(got -1.0\)"),
+    ("nan radius", lambda: Sphere(np.nan), "radius: must be a finite number"),
+    ("infinite radius", lambda: Sphere(np.inf), "radius: must be a finite number"),
+    ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
+    ("text", lambda: Sphere(TEXT), r"radius: must be a finite number \(got 'big'\)"),
+    ("a radius below a proton's", lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
+    (
+        "extent too large to double",
+        lambda: Box(np.array([1, 1.7e308, 1])),
+        "half_extents: must be three positive lengths",
+    ),
+    (
+        "an extent below a proton's",
+        lambda: Box(np.array([1, 0.9 * SHORT, 1])),
+        "half_extents: must be at least 1e-15 m",
+    ),
+    ("flat box", lambda: Box(np.array([1, 0, 1])), "half_extents: must be three positive lengths"),
+    ("two extents", lambda: Box(np.ones(2)), r"half_extents: must have shape \(3,\)"),
+    ("nan box", lambda: Box(np.array([1, np.nan, 1])), "half_extents: must hold finite numbers"),
+    ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
+    ("thin cylinder", lambda: Cylinder(-0.1, 1.0), "radius: must be a positive length"),
+    ("short capsule", lambda: Capsule(1.0, -1.0), "half_length: must be a positive length"),
+    ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
+    ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
+    ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must hold at least one point"),
+    ("plane points", lambda: PointCloud(np.zeros((4, 2))), r"points: must have shape \(4, 3\)"),
+    ("inf point", lambda: PointCloud(np.full((1, 3), np.inf)), "points: must hold finite numbers"),
+    (
+        "reflection",
+        lambda: PlacedShape("a#0", 0, np.diag([1.0, 1.0, -1.0]), np.zeros(3), Sphere(1.0)),
+        "a#0.R: must be a rotation",
+    ),
+    (
+        "shear",
+        lambda: PlacedShape("a#0", 0, sheared(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
+        "a#0.R: must be a rotation",
+    ),
+]
+
+
+@pytest.mark.parametrize(("make", "words"), [r[1:] for r in REFUSED], ids=[r[0] for r in REFUSED])
+def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> None:
+    with pytest.raises(ModelError, match=words):
+        make()
+
+
+def test_sizes_and_rotations_at_their_limits_are_taken() -> None:
+    assert Sphere(SHORT).radius == SHORT
+    assert Box(np.full(3, SHORT)).half_extents.tolist() == [SHORT] * 3
+    R = sheared(ORTHONORMAL)
+    assert np.array_equal(PlacedShape("a#0", 0, R, np.zeros(3), Sphere(1.0)).R, R)
+
+
+def test_coal_sees_the_sizes_as_written() -> None:
+    assert Sphere(0.2).coal == coal.Sphere(0.2)
+    assert Box(np.array([0.1, 0.2, 0.3])).coal == coal.Box(0.2, 0.4, 0.6)
+    assert Cylinder(0.1, 0.4).coal == coal.Cylinder(0.1, 0.8)
+    assert Capsule(0.1, 0.4).coal == coal.Capsule(0.1, 0.8)
+    assert Capsule(0.1, 0.4).coal != coal.Capsule(0.1, 0.4)
+
+
+def test_the_coal_object_is_made_once() -> None:
+    shape = Box(np.ones(3))
+    assert shape.coal is shape.coal
+
+
+def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
+    floor = HalfSpace(np.array([0.0, 0.0, 2.0]), 0.6)
+    result = coal.DistanceResult()
+    centre = coal.Transform3s(np.eye(3), np.array([0.0, 0.0, 1.0]))
+    ball, request = coal.Sphere(0.25), coal.DistanceRequest()
+    distance = coal.distance(floor.coal, coal.Transform3s(), ball, centre, request, result)
+    # 2 z <= 0.6 is solid up to z = 0.3; the ball's lowest point is at 0.75.
+    assert distance == pytest.approx(0.45, abs=ROUNDING)
+    assert result.normal == pytest.approx([0, 0, 1], abs=ROUNDING)
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1.0, 3.0, 1e200])
+def test_a_half_space_is_the_same_solid_at_any_length_of_its_normal(scale: float) -> None:
+    shape = HalfSpace(scale * np.array([3.0, 0.0, 4.0]), scale * 10.0)
+    assert shape.normal == pytest.approx([0.6, 0.0, 0.8], abs=ROUNDING)
+    assert shape.offset == pytest.approx(2.0, abs=ROUNDING)
+
+
+def test_arrays_are_copied_and_read_only() -> None:
+    points = np.zeros((2, 3))
+    cloud = PointCloud(points)
+    points[0, 0] = 1.0
+    assert cloud.points[0, 0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        cloud.points[0, 0] = 2.0
+
+
+# Four points of the unit circle, the first again, and five of each of three levels of the sphere.
+CIRCLE = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0]])
+POLE = np.tile([0.0, 0.0, 1.0], (5, 1))
+BALL = np.concatenate([-POLE, CIRCLE, POLE])
+UP = np.array([0.0, 0.0, 0.4])
+AXES = np.array([0.1, 0.2, 0.3])
+SURFACES = {
+    "sphere": (Sphere(0.1), 0.1 * BALL),
+    "ellipsoid": (Ellipsoid(AXES), BALL * AXES),
+    "capsule": (Capsule(0.1, 0.4), np.concatenate([0.1 * BALL + UP, 0.1 * BALL - UP])),
+    "cylinder": (Cylinder(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, 0.1 * CIRCLE + UP])),
+    "cone": (Cone(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, UP[None]])),
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_the_surface_that_is_drawn_is_that_of_the_solid(name: str) -> None:
+    shape, expected = SURFACES[name]
+    np.testing.assert_allclose(shape.surface(5, 3), expected, rtol=0, atol=ROUNDING)
+
+
+def test_the_corners_of_a_box_are_drawn_each_once() -> None:
+    expected = {(x, y, z) for x in (-0.1, 0.1) for y in (-0.2, 0.2) for z in (-0.3, 0.3)}
+    points = Box(AXES).surface(5, 3)
+    assert len(points) == len(expected)
+    assert {tuple(point) for point in points.tolist()} == expected
+
+
+def test_a_mesh_of_another_size_is_the_hull_of_its_corners() -> None:
+    mesh = convex_hull([[0.5, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 4]])
+    other, expected = mesh.resized(3.0), convex_hull(3.0 * mesh.vertices)
+    np.testing.assert_allclose(other.vertices, expected.vertices, rtol=ROUNDING)
+    np.testing.assert_allclose(other.offsets, expected.offsets, atol=ROUNDING)
+    np.testing.assert_allclose(other.volume, expected.volume, rtol=ROUNDING)
+
+
+def test_words_say_the_box_about_points_and_no_zero_is_negative() -> None:
+    points = np.array([[0.5, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]])
+    assert convex_hull(points).words().endswith("within 2 x 3 x 4 m")
+    assert PointCloud(points).words().endswith("within 2 x 3 x 4 m")
+    floor = HalfSpace(np.array([-0.0, 0.0, 1.0]), 0.0)
+    assert "(0, 0, 1)" in floor.words()

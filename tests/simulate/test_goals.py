@@ -1,0 +1,179 @@
+"""Targets and forces as functions of t or of (t, q); loops by hand that end in a trajectory."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.goals import of_time_and_q
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.rollout import rollout
+from tests.scenes import written_scenario
+from tests.tolerances import EXACT
+
+STEPS = 4
+
+
+@pytest.fixture
+def scenario(tmp_path):
+    return load_scenario(written_scenario(tmp_path))
+
+
+@pytest.fixture
+def run(scenario):
+    """A rollout of the scenario with other targets or forces."""
+
+    def done(target, **options):
+        q = scenario.system.q_start
+        return rollout(scenario.simulator(), q, target, STEPS, progress=False, **options)
+
+    return done
+
+
+def goal(t):
+    return np.array([0.1 * t, np.cos(t), np.sin(t)])
+
+
+class Callable:
+    """An object that is called with t."""
+
+    def __call__(self, t, nu=0):
+        """Its target; splines take the order of a derivative as well."""
+        assert nu == 0
+        return goal(t)
+
+
+OF_TIME = {
+    "a function": goal,
+    "with a default": lambda t, k=3: goal(t),
+    "with options": lambda t, *, k=3, **more: goal(t),
+    "all defaults": lambda time=99.0: goal(time),
+    "partial": partial(lambda k, t: goal(t), 3),
+    "an object": Callable(),
+    "of t and q": lambda t, q: goal(t),
+    "of other names": lambda time, state: goal(time),
+    "of t and q with a default": lambda t, q, k=3: goal(t),
+    "a list": lambda t: goal(t).tolist(),
+}
+
+
+@pytest.mark.parametrize("target", OF_TIME.values(), ids=OF_TIME)
+def test_a_function_of_time_may_be_written_in_any_way(run, target):
+    times = [0.01 * (k + 1) for k in range(STEPS)]
+    expected = np.array([goal(t) for t in times])
+    np.testing.assert_allclose(run(target)["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
+
+
+def test_what_has_no_signature_is_a_function_of_time():
+    class NoSignature:
+        __signature__ = "none"
+
+        def __call__(self, *given):
+            return given
+
+    assert of_time_and_q(NoSignature(), "target")(0.5, None) == (0.5,)
+
+
+def test_a_spline_is_a_function_of_time(scenario, run):
+    times = np.array([0.0, 0.02, 0.05])
+    start = scenario.system.q_start[:3]
+    spline = CubicSpline(times, np.array([start, start, start]))
+    np.testing.assert_allclose(run(spline)["q_bar_a"], [start] * STEPS, rtol=EXACT)
+
+
+def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
+    calls = []
+
+    def target(t, q):
+        calls.append((t, q.copy()))
+        return q[:3]
+
+    done = run(target)
+    np.testing.assert_allclose([t for t, _ in calls], done["t"], rtol=EXACT)
+    np.testing.assert_allclose([q for _, q in calls], done["q"][:STEPS], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(done["q_bar_a"], done["q"][:STEPS, :3], rtol=EXACT, atol=EXACT)
+
+
+def test_a_closed_loop_is_the_open_loop_with_its_own_targets(run):
+    closed = run(lambda t, q: [q[0] + 0.001, q[1], q[2]])
+    opened = run(closed["q_bar_a"])
+    for name in ("q", "lam", "wrench", "delta_q"):
+        np.testing.assert_allclose(opened[name], closed[name], rtol=EXACT, atol=EXACT)
+    assert np.ptp(closed["q_bar_a"][:, 0]) > 0
+
+
+def test_a_force_may_be_a_function_of_time_alone(run):
+    of_t = run(goal, force=lambda t: np.full(8, t))
+    of_t_and_q = run(goal, force=lambda t, q: np.full(8, t))
+    np.testing.assert_allclose(of_t["q"], of_t_and_q["q"], rtol=EXACT, atol=EXACT)
+    assert not np.array_equal(of_t["q"], run(goal)["q"])
+
+
+OTHER = {
+    "none": lambda: goal(0.0),
+    "three": lambda t, q, history: goal(t),
+    "q alone": lambda q: goal(0.0),
+    "the other way round": lambda q, t: goal(t),
+    "by name only": lambda t, *, q: goal(t),
+    "any number": lambda *given: goal(given[0]),
+    "any names": lambda **given: goal(0.0),
+}
+
+
+@pytest.mark.parametrize("function", OTHER.values(), ids=OTHER)
+@pytest.mark.parametrize("name", ["target", "force"])
+def test_other_arguments_are_refused_before_the_first_step(run, name, function):
+    given = {"target": goal} | {name: function}
+    with pytest.raises(InputError, match=rf"^{name}: must be a function of t, or of \(t, q\)"):
+        run(**given)
+
+
+RETURNED = {
+    "too short": np.zeros(2),
+    "a number": 3.0,
+    "nothing": None,
+    "words": "abc",
+    "ragged": [[1.0], [1.0, 2.0]],
+    "a row": np.zeros((1, 3)),
+}
+
+
+@pytest.mark.parametrize("value", RETURNED.values(), ids=RETURNED)
+def test_another_shape_ends_the_run_in_a_sentence(run, value):
+    with pytest.raises(RunFailed, match=r"^step 2: target: must return numbers of shape \(3,\)"):
+        run(lambda t: value if t > 0.025 else goal(t))
+    with pytest.raises(RunFailed, match=r"^step 0: force: must return numbers of shape \(8,\)"):
+        run(goal, force=lambda t: value)
+
+
+def test_an_error_of_the_callers_own_is_left_alone(run):
+    with pytest.raises(ZeroDivisionError):
+        run(lambda t: 1 / 0)
+
+
+@pytest.mark.parametrize("record", ["full", "light"])
+def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario, record):
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    expected = rollout(scenario.simulator(), q, goal, STEPS, record=record, progress=False)
+    recorder = Recorder(simulator, q, record)
+    for _ in range(STEPS):
+        result = simulator.step(q, goal(recorder.t))
+        recorder.add(goal(recorder.t), result)
+        q = result.q
+    found = recorder.trajectory()
+    assert found.header == expected.header
+    assert found.arrays.keys() == expected.arrays.keys()
+    for name, array in expected.arrays.items():
+        np.testing.assert_array_equal(found[name], array)
+    assert found.seconds.keys() == expected.seconds.keys()
+
+
+def test_a_recorder_refuses_what_rollout_refuses(scenario):
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    with pytest.raises(InputError, match="record: must be one of full, light"):
+        Recorder(simulator, q, "half")
+    with pytest.raises(InputError, match=r"q: must have shape"):
+        Recorder(simulator, q[:-1])

@@ -1,0 +1,46 @@
+"""Memory: certified steps leave nothing behind, and a record is as large as its arrays."""
+
+import copy
+import gc
+import subprocess
+import sys
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.recorder import PACKED, Recorder
+
+GROWTH = "from validation.memory_of_steps import growth; print(*growth(1000, [600, 1000]))"
+"""In a process of its own: what other tests have put in Python's free lists is counted, too."""
+LEFT = 50.0
+"""Bytes that a step may leave between the 600th and the 1,000th, where NumPy still fills its cache
+of small arrays: 11 to 26 were seen; one number that is kept in a dictionary takes more than 60."""
+APIECE = 40
+"""Bytes a step beyond its numbers: of names and heads of arrays, which are there once."""
+
+
+def test_certified_steps_leave_nothing_behind():
+    command = [sys.executable, "-c", GROWTH]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    a, before, _, b, after, _ = (int(number.strip("(,)")) for number in printed.split())
+    assert (after - before) / (b - a) < LEFT
+
+
+@pytest.mark.parametrize("record", ["light", "full"])
+def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more(record):
+    scenario = load_scenario("sphere_spin", record=record)
+    simulator, q, target = scenario.simulator(), scenario.system.q_start, np.zeros(0)
+    recorder, result = Recorder(simulator, q, record), simulator.step(q, target)
+    gc.collect()
+    tracemalloc.start()
+    for _ in range(PACKED):
+        recorder.add(target, copy.deepcopy(result))  # arrays of its own, as in a run
+    gc.collect()
+    held = tracemalloc.get_traced_memory()[0]
+    tracemalloc.stop()
+    arrays = sum(array.nbytes for array in recorder.trajectory().arrays.values())
+    # tau, the gap of each contact, three measures of artifacts, four wall times: 8 bytes each.
+    more = 8 * (scenario.system.n_v + simulator.layout.rows.size + 3 + 4)
+    assert held < arrays + PACKED * (more + APIECE)

@@ -1,0 +1,204 @@
+"""The simulator: its step is the hand-assembled one, its targets and forces at the right times."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import contact_layout
+from quasistatic_ref.errors import InputError, ModelError, RunFailed, StepDataError
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import StepData
+from tests.model.urdf.urdf_texts import joint, link, robot, written
+from tests.scenes import BALL, written_scenario
+from tests.tolerances import EXACT, ROUNDING, STICKING
+
+GRAVITY = 9.81
+
+
+@pytest.fixture
+def scenario(tmp_path):
+    return load_scenario(written_scenario(tmp_path))
+
+
+@pytest.fixture
+def lift(tmp_path):
+    """A mass of 2 kg on a vertical slide."""
+    text = robot(link("post"), link("car"), joint("z", "post", "car", "prismatic", "0 0 1"))
+    return System([Body("lift", written(tmp_path, text), actuated=("z",))])
+
+
+def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
+    system, simulator = scenario.system, scenario.simulator()
+    q, force = system.q_start, rng.normal(size=8)
+    q_bar_a = np.array([0.01, np.cos(0.3), np.sin(0.3)])
+    kinematics = system.kinematics(q)
+    points = closest_points(scenario.pairs, kinematics)
+    gravity = [0.0] * 4 + [-0.3 * GRAVITY] + [0.0] * 3  # on the ball, whose frame is the world's
+    geometry = ContactGeometry(contact_layout(scenario.pairs), system.motion)
+    expected = StepData(
+        h=0.01,
+        K_q=np.diag([500.0, 2.5]),
+        M_u=system.M_u(q),
+        tau_a=force[:2],
+        tau_u=force[2:] + gravity[2:],
+        delta_q_bar_a=[0.01, 0.3],
+        contacts=geometry.contacts(points, kinematics),
+    )
+    found = simulator.step(q, q_bar_a, force)
+    for key in ("h", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
+        np.testing.assert_allclose(
+            getattr(found.step, key), getattr(expected, key), rtol=ROUNDING, atol=ROUNDING
+        )
+    for key in ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"):
+        one, two = getattr(found.step.contacts, key), getattr(expected.contacts, key)
+        np.testing.assert_allclose(one, two, rtol=EXACT, atol=EXACT)
+    solution = solve_step(found.step)
+    np.testing.assert_allclose(found.solution.delta_q, solution.delta_q, rtol=EXACT, atol=EXACT)
+    q_next = system.integrate(q, solution.delta_q)
+    np.testing.assert_allclose(found.q, q_next, rtol=EXACT, atol=EXACT)
+
+
+def test_the_target_is_a_change_from_where_the_joints_are(scenario):
+    system, simulator = scenario.system, scenario.simulator()
+    q = system.integrate(system.q_start, np.array([0.004, 3.0, 0, 0, 0, 0, 0, 0]))
+    q_bar_a = np.array([0.01, np.cos(3.4), np.sin(3.4)])
+    step = simulator.step(q, q_bar_a).step
+    np.testing.assert_allclose(step.delta_q_bar_a, [0.006, 0.4], rtol=ROUNDING)
+
+
+def test_a_constant_a_table_and_a_function_are_the_same_target(scenario):
+    q, goal = scenario.system.q_start, np.array([0.01, np.cos(0.3), np.sin(0.3)])
+    targets = (goal, goal.tolist(), np.tile(goal, (4, 1)), lambda t: goal)
+    runs = [rollout(scenario.simulator(), q, target, 4, progress=False) for target in targets]
+    for run in runs[1:]:
+        np.testing.assert_allclose(run["q"], runs[0]["q"], rtol=EXACT, atol=EXACT)
+
+
+def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
+    steps = 100
+    table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
+    q = scenario.system.q_start
+    run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
+    np.testing.assert_allclose(run["q_bar_a"], table, rtol=EXACT, atol=EXACT)
+
+
+def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
+    calls = []
+
+    def force(t, q):
+        calls.append((t, q.copy()))
+        return np.zeros(8)
+
+    q = scenario.system.q_start
+    run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+    np.testing.assert_allclose([t for t, _ in calls], [0.01, 0.02, 0.03], rtol=EXACT)
+    np.testing.assert_allclose([q for _, q in calls], run["q"][:3], rtol=EXACT, atol=EXACT)
+    expected = [scenario.targets(t) for t in (0.01, 0.02, 0.03)]
+    np.testing.assert_allclose(run["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
+
+
+TARGETS = {
+    "too short": np.zeros(2),
+    "too few steps": np.zeros((3, 3)),
+    "a cube": np.zeros((4, 3, 1)),
+    "NaN": np.array([np.nan, 1.0, 0.0]),
+    "infinite": np.full((4, 3), np.inf),
+}
+
+
+@pytest.mark.parametrize("target", TARGETS.values(), ids=TARGETS)
+def test_a_target_of_another_shape_or_not_finite_is_refused(scenario, target):
+    with pytest.raises(
+        InputError, match=r"target: must hold finite numbers of shape \(3,\) or \(4"
+    ):
+        rollout(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
+
+
+def test_a_target_that_is_no_configuration_is_refused(scenario):
+    goal = np.array([0.0, 2 * np.cos(0.3), 2 * np.sin(0.3)])  # taken for 0, not 0.3
+    with pytest.raises(InputError):
+        rollout(scenario.simulator(), scenario.system.q_start, goal, 1, progress=False)
+
+
+def test_a_start_that_is_no_configuration_is_refused(scenario):
+    q = scenario.system.q_start.copy()
+    q[-1] = 0.0
+    with pytest.raises(ModelError, match=r"q\[ball/base\]: its quaternion must have length one"):
+        rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
+
+
+def test_an_unknown_record_is_refused(scenario):
+    q = scenario.system.q_start
+    with pytest.raises(InputError, match="record: must be one of full, light"):
+        rollout(scenario.simulator(), q, scenario.targets, 1, record="half", progress=False)
+
+
+def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
+    def force(t, q):
+        return np.full(8, np.nan if t > 0.015 else 0.0)
+
+    q = scenario.system.q_start
+    with pytest.raises(RunFailed, match=r"^step 1: tau_a: must hold finite") as caught:
+        rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+    assert caught.value.trajectory.steps == 1
+    assert isinstance(caught.value.__cause__, StepDataError)
+
+
+@pytest.mark.parametrize("h", [0.005, 0.02])
+def test_free_fall_is_h_squared_g_per_step_without_acceleration(tmp_path, h):
+    system = System([Body("ball", written(tmp_path, BALL), "floating", xyz=(0, 0, 1))])
+    simulator = Simulator(system, [], h=h, K_q=np.zeros((0, 0)))
+    run = rollout(simulator, system.q_start, np.zeros(0), 10, progress=False)
+    expected = [1 - k * h**2 * GRAVITY for k in range(11)]
+    np.testing.assert_allclose(run["q"][:, 2], expected, rtol=ROUNDING)
+    np.testing.assert_allclose(run["q"][:, :2], np.zeros((11, 2)), rtol=EXACT, atol=ROUNDING)
+
+
+def test_a_compensated_joint_does_not_feel_gravity(lift):
+    simulator = Simulator(lift, [], h=0.01, K_q=np.array([[400.0]]))
+    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
+    np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("certify", ["residual", "full"])
+def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift, certify):
+    feels = np.array([True])
+    K_q = np.array([[400.0]])
+    simulator = Simulator(lift, [], h=0.01, K_q=K_q, gravity_acts=feels, certify=certify)
+    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
+    sag = 2 * GRAVITY / 400
+    np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)
+    np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)
+
+
+def test_gravity_may_point_anywhere(tmp_path):
+    system = System([Body("ball", written(tmp_path, BALL), "floating")])
+    simulator = Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(1.0, -2.0, 3.0))
+    run = rollout(simulator, system.q_start, np.zeros(0), 1, progress=False)
+    expected = [0.01**2 * a for a in (1.0, -2.0, 3.0)]
+    np.testing.assert_allclose(run["q"][1, :3], expected, rtol=ROUNDING)
+
+
+def test_the_problem_is_compiled_once(scenario):
+    simulator, q = replace(scenario, engine="cvxpy").simulator(), scenario.system.q_start
+    compiled = []
+    for k in range(4):
+        result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
+        compiled.append(simulator.solver.problem.problem._cache.param_prog)
+        q = result.q
+    assert compiled[0] is not None
+    assert all(program is compiled[0] for program in compiled)
+
+
+def test_a_simulator_used_twice_gives_the_same_bits(scenario):
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    one, two = (rollout(simulator, q, scenario.targets, 3, progress=False) for _ in range(2))
+    np.testing.assert_allclose(one["q"], two["q"], rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(one["lam"], two["lam"], rtol=EXACT, atol=EXACT)

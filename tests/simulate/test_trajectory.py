@@ -1,0 +1,279 @@
+"""Trajectories: the same bits in and out, without pickles; failed runs keep what succeeded."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, RunFailed, StepNotSolved
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.trajectory import trajectory_read, worst_residual
+from quasistatic_ref.step.files import step_read, step_written
+from quasistatic_ref.step.standard_form import standard_form
+from tests.scenes import SWING, written_scenario
+from tests.tolerances import EXACT
+
+LIGHT = {
+    "q", "t", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "d1", "d2", "point", "lam",
+    "wrench", "worst_residual", "certificate", "digits", "mu_v", "mu_omega", "rows",
+}  # fmt: skip
+FULL = LIGHT | {"H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("scenes")
+
+
+@pytest.fixture(scope="module")
+def scenario(folder):
+    return load_scenario(written_scenario(folder))
+
+
+@pytest.fixture(scope="module")
+def run(scenario):
+    return scenario.run(progress=False)
+
+
+@pytest.fixture(scope="module")
+def failure(folder):
+    swing = load_scenario(written_scenario(folder, SWING, "swing.toml"))
+    with pytest.raises(RunFailed) as caught:
+        swing.run(progress=False)
+    return caught.value
+
+
+def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
+    shapes = {
+        "q": (6, 10), "t": (5,), "delta_q": (5, 8), "q_bar_a": (5, 3), "phi": (5, 2),
+        "alpha": (5, 2, 3), "beta": (5, 2, 3), "n": (5, 2, 3), "d1": (5, 2, 3), "d2": (5, 2, 3),
+        "point": (5, 2), "lam": (5, 10), "wrench": (5, 2, 4), "worst_residual": (5,),
+        "certificate": (5,), "digits": (5,),
+        "H": (5, 8, 8), "g": (5, 8), "A": (5, 10, 8), "b": (5, 10), "J": (5, 2, 4, 8),
+        "K_q": (5, 2, 2), "M_u": (5, 6, 6), "tau_a": (5, 2), "tau_u": (5, 6),
+        "delta_q_bar_a": (5, 2), "mu_v": (2,), "mu_omega": (2,), "rows": (2,),
+    }  # fmt: skip
+    assert {name: array.shape for name, array in run.arrays.items()} == shapes
+    np.testing.assert_allclose(run["q"][0], scenario.system.q_start, rtol=EXACT)
+    np.testing.assert_allclose(run["t"], [(k + 1) * 0.01 for k in range(5)], rtol=EXACT)
+
+
+def test_each_configuration_is_the_one_before_plus_delta_q(scenario, run):
+    for k in range(run.steps):
+        expected = scenario.system.integrate(run["q"][k], run["delta_q"][k])
+        np.testing.assert_allclose(run["q"][k + 1], expected, rtol=EXACT, atol=EXACT)
+
+
+def test_the_recorded_programs_are_those_of_the_recorded_steps(run):
+    for k in range(run.steps):
+        form = standard_form(run.step_data(k))
+        for key in ("H", "g", "A", "b"):
+            np.testing.assert_allclose(run[key][k], getattr(form, key), rtol=EXACT, atol=EXACT)
+
+
+def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
+    simulator, targets, force = scenario.simulator(), scenario.targets, scenario.force
+    for k in range(run.steps):
+        t, q = (k + 1) * scenario.h, run["q"][k]
+        solved = simulator.step(q, targets(t), force(t, q))
+        assert run.step_data(k) == solved.step
+        np.testing.assert_allclose(run["delta_q"][k], solved.solution.delta_q, rtol=EXACT)
+
+
+def test_a_file_read_back_is_the_same_bits(tmp_path, run):
+    back = trajectory_read(run.save(tmp_path / "run.npz"))
+    assert set(back.arrays) == FULL
+    for name, array in run.arrays.items():
+        assert back[name].dtype == array.dtype
+        np.testing.assert_array_equal(back[name], array)
+        assert back[name].tobytes() == np.ascontiguousarray(array).tobytes()
+    assert back.header == json.loads(json.dumps(run.header))
+    for k in range(run.steps):
+        assert back.step_data(k) == run.step_data(k)
+
+
+def test_equal_runs_make_equal_files(tmp_path, scenario, run):
+    one, two = run.save(tmp_path / "1.npz"), scenario.run(progress=False).save(tmp_path / "2.npz")
+    assert one.read_bytes() == two.read_bytes()
+
+
+def test_the_header_says_what_the_run_was(run):
+    header = dict(run.header)
+    assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
+    assert header.pop("largest_drag_share") > 0
+    assert header.pop("largest_boundary_layer") > 0
+    assert header.pop("warnings") == list(run.warnings)  # their sentences: test_watch.py
+    assert header == {
+        "format": "quasistatic-ref/trajectory",
+        "version": 1,
+        "h": 0.01,
+        "backend": "daqp",
+        "cone": "pyramid",
+        "extra": [],
+        "record": "full",
+        "n_a": 2,
+        "n_u": 6,
+        "coordinates": [
+            "rail/slide", "rail/turn", "ball/base.x", "ball/base.y", "ball/base.z", "ball/base.rx",
+            "ball/base.ry", "ball/base.rz",
+        ],
+        "steps": 5,
+        "failed": None,
+        "contacts": [("floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0")] * 5,
+    }  # fmt: skip
+
+
+def test_no_array_needs_a_pickle(tmp_path, run):
+    with zipfile.ZipFile(run.save(tmp_path / "run.npz")) as archive:
+        for name in archive.namelist():
+            array = np.lib.format.read_array(io.BytesIO(archive.read(name)), allow_pickle=False)
+            assert array.dtype.kind in "fiuU"
+
+
+def test_wall_times_are_kept_in_memory_only(tmp_path, run):
+    assert set(run.seconds) == {"distances", "rows", "solve", "integrate"}
+    assert all(s.shape == (5,) and (s >= 0).all() for s in run.seconds.values())
+    assert trajectory_read(run.save(tmp_path / "run.npz")).seconds == {}
+
+
+def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
+    light = load_scenario(folder / "scene.toml", ["record=light"]).run(progress=False)
+    assert set(light.arrays) == LIGHT
+    back = trajectory_read(light.save(tmp_path / "run.npz"))
+    np.testing.assert_allclose(back["q"], run["q"], rtol=EXACT, atol=EXACT)
+    with pytest.raises(InputError, match="a light record holds no problems"):
+        back.step_data(0)
+
+
+@pytest.mark.parametrize("k", [-1, 5, 1000])
+def test_a_step_that_does_not_exist_is_refused(run, k):
+    with pytest.raises(InputError, match=rf"^step: must be 0 to 4 \(got {k}\)$"):
+        run.step_data(k)
+
+
+def test_the_worst_residual_is_that_of_all_steps(run, folder):
+    assert worst_residual(run) == max(run["worst_residual"])
+    settings = ["solver.certify=off"]
+    uncertified = load_scenario(folder / "scene.toml", settings).run(progress=False)
+    assert worst_residual(uncertified) is None
+    assert np.isnan(uncertified["digits"]).all()
+
+
+def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
+    empty = load_scenario(folder / "scene.toml", ["steps=0"]).run(progress=False)
+    back = trajectory_read(empty.save(tmp_path / "run.npz"))
+    assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
+    assert worst_residual(back) is None
+
+
+def test_a_run_that_fails_keeps_the_steps_before(tmp_path, failure):
+    back = trajectory_read(failure.trajectory.save(tmp_path / "run.npz"))
+    assert back.steps == 3
+    assert back.failed is not None
+    assert back.failed.startswith("step 3: the step has no solution: floor(")
+    assert back.failed == failure.reason
+    assert isinstance(failure.__cause__, StepNotSolved)
+    assert back.step_data(2) == failure.trajectory.step_data(2)
+    np.testing.assert_allclose(back["q"][:, 0], [0, 0, 0, -1.5 * np.pi], rtol=1e-9, atol=1e-9)
+
+
+def test_a_run_that_fails_hands_over_the_step_that_failed(tmp_path, failure):
+    step = step_read(step_written(tmp_path / "step.json", failure.step))
+    assert step == failure.step
+    # The club points straight down: 0.1 - 0.2 - 0.01 deep, and only sideways motion is left.
+    np.testing.assert_allclose(step.contacts.phi, [-0.11], rtol=1e-9)
+    np.testing.assert_allclose(step.contacts.J[0, :, 0], [-0.21, 0, 0, 0], rtol=1e-9, atol=1e-9)
+
+
+def test_an_interrupted_run_keeps_the_steps_before(scenario):
+    def target(t):
+        if t > 0.025:
+            raise KeyboardInterrupt
+        return scenario.targets(t)
+
+    with pytest.raises(RunFailed, match=r"^step 2: interrupted$") as caught:
+        rollout(scenario.simulator(), scenario.system.q_start, target, 5, progress=False)
+    assert caught.value.trajectory.steps == 2
+    assert caught.value.step is None
+    assert isinstance(caught.value.__cause__, KeyboardInterrupt)
+
+
+def header_changed(path, change):
+    """The same file with another header."""
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files}
+    header = json.loads(arrays["header"].tobytes())
+    change(header)
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    np.savez(path, **arrays)
+
+
+NOT_ONE = "is not a trajectory written by this program"
+SPOILT = {
+    "empty": (lambda p: p.write_bytes(b""), NOT_ONE),
+    "text": (lambda p: p.write_text("t, q\n0, 1\n"), NOT_ONE),
+    "truncated": (lambda p: p.write_bytes(p.read_bytes()[:-100]), NOT_ONE),
+    "half": (lambda p: p.write_bytes(p.read_bytes()[: p.stat().st_size // 2]), NOT_ONE),
+    "a bare array": (lambda p: np.save(p.open("wb"), np.zeros(3)), NOT_ONE),
+    "another archive": (lambda p: np.savez(p, t=np.zeros(3)), NOT_ONE),
+    "a pickle in it": (lambda p: np.savez(p, header=np.array([{}], dtype=object)), NOT_ONE),
+    "a header of words": (lambda p: np.savez(p, header=np.array(["{}"])), NOT_ONE),
+    "a header that is a list": (
+        lambda p: np.savez(p, header=np.frombuffer(b"[]", dtype=np.uint8)),
+        "must be a table of named fields",
+    ),
+    "another format": (
+        lambda p: header_changed(p, lambda h: h.update(format="quasistatic-ref/step")),
+        "format: must be 'quasistatic-ref/trajectory'",
+    ),
+    "a later version": (
+        lambda p: header_changed(p, lambda h: h.update(version=2)),
+        "version: is not known here; this program reads 1 (got 2)",
+    ),
+    "no array of positions": (
+        lambda p: np.savez(p, header=np.load(p)["header"], t=np.zeros(1)),
+        "holds no array named 'delta_q'",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")  # of the spoilers, not of the reader
+@pytest.mark.parametrize(("spoil", "says"), SPOILT.values(), ids=SPOILT)
+def test_what_is_not_a_trajectory_is_refused_in_words(tmp_path, run, spoil, says):
+    path = run.save(tmp_path / "run.npz")
+    spoil(path)
+    with pytest.raises(InputError) as caught:
+        trajectory_read(path)
+    assert str(caught.value).startswith(f"{path}: {says}")
+
+
+def test_a_missing_file_is_refused_in_words(tmp_path):
+    with pytest.raises(InputError, match=r"none\.npz: no such file"):
+        trajectory_read(tmp_path / "none.npz")
+
+
+def test_flipped_bits_are_refused_in_words_or_change_nothing_unseen(tmp_path, run):
+    path, flips = run.save(tmp_path / "run.npz"), np.random.default_rng(3)
+    content, refusals = bytearray(path.read_bytes()), []
+    for _ in range(300):
+        spoilt = bytearray(content)
+        spoilt[flips.integers(len(content))] ^= 1 << flips.integers(8)
+        path.write_bytes(spoilt)
+        try:
+            trajectory_read(path)
+        except InputError as refused:
+            refusals.append(str(refused))
+    assert refusals
+    assert not [words for words in refusals if not words.startswith(str(path))]
+
+
+@pytest.mark.parametrize(
+    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
+)
+def test_each_step_says_how_it_was_certified(folder, certify, kind):
+    settings = ["steps=2", f"solver.certify={certify}"]
+    run = load_scenario(folder / "scene.toml", settings).run(progress=False)
+    assert run["certificate"].tolist() == [kind, kind]

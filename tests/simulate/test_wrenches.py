@@ -1,0 +1,171 @@
+"""Forces on bodies and of pairs: against the rows that were solved, and against plain loops."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.wrenches import Scene
+from tests.scenes import SWING, written_scenario
+from tests.tolerances import EXACT, ROUNDING
+
+
+@pytest.fixture(scope="module")
+def scenario(tmp_path_factory):
+    """A plate pushes a ball over the floor; 5 mm apart at the start."""
+    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), steps=40)
+
+
+@pytest.fixture(scope="module")
+def run(scenario):
+    done = scenario.run(progress=False)
+    push = done["wrench"][:, 1]
+    assert (np.abs(push[:, 2]) > 0).any()  # the plate does reach the ball
+    return done
+
+
+@pytest.fixture(scope="module")
+def pinch():
+    """Two fingers on a bar: a body of three links, whose fingers are alpha."""
+    scenario = load_scenario("two_finger_pinch", steps=10)
+    return scenario, scenario.run(progress=False)
+
+
+def generalised(run, k):
+    """A' lam / h, shape (n_v,): what the rows of step k do to the coordinates."""
+    return run["A"][k].T @ run["lam"][k] / run.header["h"]
+
+
+def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
+    """J' w = A' lam / h: the ball is beta of the floor and of the plate, the plate is alpha."""
+    system = scenario.system
+    ball, plate = run.wrench_on("ball"), run.wrench_on("rail/plate")
+    for k in range(run.steps):
+        J = system.kinematics(run["q"][k]).J
+        both = J[system.link("ball")].T @ ball[k] + J[system.link("rail/plate")].T @ plate[k]
+        np.testing.assert_allclose(both, generalised(run, k), rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_so_does_the_sum_over_the_links_of_a_body(pinch):
+    scenario, run = pinch
+    system = scenario.system
+    links = ["near/palm", "near/left", "near/right", "held"]
+    wrenches = {link: run.wrench_on(link) for link in links}
+    own = [i for i, c in enumerate(system.coordinates) if c.name.startswith(("near/", "held/"))]
+    for k in range(run.steps):
+        J = system.kinematics(run["q"][k]).J
+        total = sum(J[system.link(link)].T @ wrenches[link][k] for link in links)
+        expected = generalised(run, k)[own]
+        np.testing.assert_allclose(total[own], expected, rtol=ROUNDING, atol=ROUNDING)
+    assert np.abs(wrenches["held"]).max() > 1  # N
+
+
+def by_loops(run, pairs_of, origin, sign_of):
+    """The same sum, contact by contact; sign_of: +1 beta's body, -1 alpha's, 0 neither."""
+    total = np.zeros((run.steps, 6))
+    for k in range(run.steps):
+        for j, pair in enumerate(pairs_of):
+            for side, point in zip(sign_of(pair), ("alpha", "beta"), strict=True):
+                f_d1, f_d2, f_n, tau_n = run["wrench"][k, j]
+                f = f_d1 * run["d1"][k, j] + f_d2 * run["d2"][k, j] + f_n * run["n"][k, j]
+                r = run[point][k, j] - origin(k)
+                torque = [
+                    r[1] * f[2] - r[2] * f[1],
+                    r[2] * f[0] - r[0] * f[2],
+                    r[0] * f[1] - r[1] * f[0],
+                ]
+                total[k, :3] += side * f
+                total[k, 3:] += side * (np.array(torque) + tau_n * run["n"][k, j])
+    return total
+
+
+def test_the_sums_are_those_of_plain_loops(scenario, run, pinch):
+    sides = {"ball": {"floor": (0, 1), "push": (0, 1)}, "rail/plate": {"push": (-1, 0)}}
+    sides["rail"], sides["world"] = sides["rail/plate"], {"floor": (-1, 0)}
+    for name, sign in sides.items():
+        link = scenario.system.link(name)
+        expected = by_loops(
+            run,
+            ("floor", "push"),
+            lambda k, link=link: scenario.system.kinematics(run["q"][k]).t[link],
+            lambda pair, sign=sign: sign.get(pair, (0, 0)),
+        )
+        np.testing.assert_allclose(run.wrench_on(name), expected, rtol=ROUNDING, atol=ROUNDING)
+    there, held = pinch
+    palm = there.system.link("near")
+    for name, signs in (("near", ((-1, 0),) * 2), ("held", ((0, 1),) * 2)):
+        link = palm if name == "near" else there.system.link("held")
+        expected = by_loops(
+            held,
+            (*signs, (0, 0), (0, 0)),
+            lambda k, link=link: there.system.kinematics(held["q"][k]).t[link],
+            lambda sides: sides,
+        )
+        np.testing.assert_allclose(held.wrench_on(name), expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_both_sides_together_are_the_couple_of_the_gaps(scenario, run):
+    """About one point, the wrenches on all bodies sum to phi n x f; their forces to nothing."""
+    total, couple = np.zeros((run.steps, 6)), np.zeros((run.steps, 3))
+    for name in ("world", "rail", "ball"):
+        wrench = run.wrench_on(name)
+        link = scenario.system.link(name)
+        at = np.array([scenario.system.kinematics(q).t[link] for q in run["q"][:-1]])
+        total[:, :3] += wrench[:, :3]
+        total[:, 3:] += wrench[:, 3:] + np.cross(at, wrench[:, :3])
+    for k in range(run.steps):
+        for j in range(2):
+            f_d1, f_d2, _, _ = run["wrench"][k, j]
+            # n x n = 0, n x d1 = d2, n x d2 = -d1
+            n_x_f = f_d1 * run["d2"][k, j] - f_d2 * run["d1"][k, j]
+            couple[k] += run["phi"][k, j] * n_x_f
+    np.testing.assert_allclose(total[:, :3], 0, atol=ROUNDING)
+    np.testing.assert_allclose(total[:, 3:], couple, rtol=ROUNDING, atol=ROUNDING)
+    assert np.abs(couple).max() > 1e3 * ROUNDING  # such a couple there was
+
+
+def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
+    forces = run.pair_forces()
+    assert list(forces) == [pair.name for pair in scenario.pairs]
+    floor, push = forces.values()
+    np.testing.assert_allclose(floor + push, run.wrench_on("ball")[:, :3], atol=ROUNDING)
+    np.testing.assert_allclose(-push, run.wrench_on("rail")[:, :3], atol=ROUNDING)
+    np.testing.assert_allclose(floor[:, 2], run["wrench"][:, 0, 2], rtol=ROUNDING)
+
+
+def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, tmp_path):
+    for other in (trajectory_read(run.save(tmp_path / "run.npz")), pickle.loads(pickle.dumps(run))):
+        with pytest.raises(InputError, match=r"^scene: is not known: .* is from a file"):
+            other.wrench_on("ball")
+        with pytest.raises(InputError, match=r"^scene: is not known"):
+            other.pair_forces()
+        scenes = (scenario, scenario.simulator(), Scene(scenario.system, scenario.pairs))
+        for scene in scenes:
+            np.testing.assert_array_equal(other.wrench_on("ball", scene), run.wrench_on("ball"))
+            assert other.pair_forces(scene).keys() == run.pair_forces().keys()
+    assert copy.copy(run)["q"] is run["q"]
+
+
+def test_a_light_record_has_the_same_forces(scenario, run, tmp_path):
+    light = load_scenario(scenario.path, steps=40, record="light").run(progress=False)
+    np.testing.assert_allclose(light.wrench_on("ball"), run.wrench_on("ball"), rtol=EXACT)
+
+
+def test_a_run_without_steps_has_no_forces(scenario):
+    empty = load_scenario(scenario.path, steps=0).run(progress=False)
+    assert empty.wrench_on("ball").shape == (0, 6)
+    assert [force.shape for force in empty.pair_forces().values()] == [(0, 3), (0, 3)]
+
+
+def test_other_names_and_scenes_are_refused(scenario, run, pinch, tmp_path):
+    with pytest.raises(ModelError, match="link: is no link; did you mean 'ball'"):
+        run.wrench_on("bal")
+    with pytest.raises(InputError, match="scene: is another one than that of the trajectory"):
+        run.wrench_on("held", pinch[0])
+    swing = load_scenario(written_scenario(tmp_path, SWING))
+    with pytest.raises(InputError, match="scene: is another one than that of the trajectory"):
+        run.wrench_on("post", swing)

@@ -1,0 +1,117 @@
+"""Which backend and engine a run has that names none."""
+
+import subprocess
+import sys
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.adapters.clarabel import Clarabel
+from quasistatic_ref.solve.adapters.daqp import Daqp
+from quasistatic_ref.solve.adapters.piqp import Piqp
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.engines import default_backend, default_engine, sparse_from
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
+from tests.helpers import error
+from tests.tolerances import OPTIMUM
+
+FAILED = Reply(None, None, False, "at a loss")
+
+
+def test_the_default_is_native_where_it_reaches():
+    assert default_engine("clarabel", "pyramid") == "native"
+    assert default_engine("clarabel", "ellipsoid") == "native"
+    assert default_engine("scs", "ellipsoid") == "cvxpy"
+    assert default_engine("highs", "pyramid") == "cvxpy"
+    assert default_engine("none", "pyramid") == "cvxpy"
+
+
+def test_the_default_of_uncertified_rows_is_daqp_then_piqp():
+    for certify, least in (("off", DENSE_BELOW), ("residual", SPARSE_FROM_PIQP)):
+        assert default_backend(None, "pyramid", certify, least - 1) == "daqp"
+        assert default_backend("native", "product", certify, least) == "piqp"
+        assert sparse_from("native", "piqp", certify, "product") == SPARSE_FROM_PIQP
+        assert sparse_from("native", "daqp", certify, "product") == 0
+        assert sparse_from("cvxpy", "piqp", certify, "product") == 0
+    assert default_backend(None, "pyramid", "full", 10**9) == "daqp"
+    assert sparse_from("native", "piqp", "full", "pyramid") == 0
+    few, many = pile((2, 1, 1), certify="residual"), pile((8, 1, 1), certify="residual")
+    for some, named in ((few, "daqp"), (many, "piqp")):
+        own = some.simulator
+        made = Simulator(own.system, own.pairs, h=own.h, K_q=own.K_q, certify="residual")
+        answer = made.step(some.q, np.zeros(0), some.force).solution
+        assert (made.backend, answer.backend) == (named, named)
+        assert answer.certificate.error_bound < 1e-4
+
+
+def test_the_default_backend_of_certified_native_rows_is_daqp():
+    assert default_backend(None, "pyramid", "full") == "daqp"
+    assert default_backend("native", "facets-8", "full") == "daqp"
+    for others in (("cvxpy", "pyramid", "full"), (None, "ellipsoid", "off")):
+        assert default_backend(*others, 10**9) == "clarabel"
+    assert load_scenario("sphere_spin").backend == "daqp"
+    assert load_scenario("sphere_spin", {"solver.engine": "cvxpy"}).backend == "clarabel"
+    assert load_scenario("sphere_spin", cone="ellipsoid").backend == "clarabel"
+
+
+WITHOUT_DAQP = """
+import sys
+sys.modules["daqp"] = sys.modules["piqp"] = None
+from quasistatic_ref import load_scenario
+from quasistatic_ref.solve.engines import default_backend
+from quasistatic_ref.cli.main import main
+run = load_scenario("sphere_spin", steps=2).run(progress=False)
+print(run.header["backend"], *run["certificate"], main(["bench", "--out", sys.argv[1]]))
+print(default_backend(None, "pyramid", "off"), default_backend(None, "pyramid", "off", 10**9))
+"""
+
+
+def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path):
+    command = [sys.executable, "-c", WITHOUT_DAQP, str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "clarabel exact exact 2\nclarabel clarabel\n"
+    assert "pip install daqp" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("by_code", [True, False])
+def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by_code):
+    scenario = load_scenario("sphere_spin", ["solver.certify=off"])
+    simulator, honest, q = scenario.simulator(), Daqp.reply, scenario.system.q_start
+    simulator.fast = simulator.fast if by_code else None
+    backends = []
+    for k in range(4):
+        fails = k in (1, 2)
+        monkeypatch.setattr(Daqp, "reply", (lambda *_: FAILED) if fails else honest)
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        optimum = solve_step(result.step, "none").delta_q
+        assert error(result.step, result.solution.delta_q, optimum) <= OPTIMUM
+        backends.append(result.solution.backend)
+        q = result.q
+    assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
+
+
+def test_a_failure_of_both_backends_is_that_of_the_first(monkeypatch):
+    monkeypatch.setattr(Daqp, "reply", lambda *_: FAILED)
+    monkeypatch.setattr(Clarabel, "reply", lambda *_: FAILED)
+    monkeypatch.setattr(Piqp, "reply", lambda *_: FAILED)
+    for backend in ("daqp", "piqp"):
+        scenario = load_scenario("sphere_spin", ["solver.certify=off", f"solver.backend={backend}"])
+        with pytest.raises(StepNotSolved, match=f"{backend} did not solve the step [(]at a loss"):
+            scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
+
+
+def test_a_simulator_that_names_no_backend_takes_curved_extensions():
+    scenario = load_scenario("sphere_spin")
+    simulator = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
+    assert simulator.backend == "daqp"  # which takes rows only
+    simulator.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+    answer = simulator.step(scenario.system.q_start, scenario.targets(scenario.h)).solution
+    assert (answer.backend, answer.certificate.kind) == ("clarabel", "residual")

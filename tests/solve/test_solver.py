@@ -1,0 +1,294 @@
+"""A solver is one thing to pass: a name, or an object that says what it is and is not replaced."""
+
+import copy
+import inspect
+import pickle
+import re
+from pathlib import Path
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.large.sparse import SparseSolver
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve import backends
+from quasistatic_ref.solve.adapters.clarabel import Clarabel
+from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
+from quasistatic_ref.solve.solver import NoSolver
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
+from tests.helpers import (
+    REQUIRED,
+    always_in_blocks,
+    changed,
+    error,
+    planted_step,
+    point_on_floor,
+    random_step,
+)
+from tests.tolerances import EXACT, OPTIMUM
+
+ROWS = (6, 4, 6)
+ADAPTERS = Path(backends.__file__).parent / "adapters"
+
+
+@pytest.fixture
+def step(rng):
+    return planted_step(rng, 3, 4, ROWS)[0]
+
+
+@pytest.fixture
+def large_step(monkeypatch):
+    """A step whose contacts are in blocks."""
+    always_in_blocks(monkeypatch)
+    some = pile((2, 1, 2))
+    return some.simulator.step(some.q, np.zeros(0), some.force).step
+
+
+EVERY = [
+    *((CvxpySolver, name, "cvxpy") for name in installed("cvxpy") if BACKENDS[name].steps),
+    *((QpsolversSolver, name, "qpsolvers") for name in installed_backends() if ":" in name),
+    *((NativeSolver, name, "native") for name in installed("native")),
+    (NoSolver, "none", "none"),
+]
+every_solver = pytest.mark.parametrize(("kind", "name", "engine"), EVERY)
+
+
+def test_every_backend_of_these_tests_is_installed_by_every_interface():
+    assert {(kind, name.rpartition(":")[2]) for kind, name, _ in EVERY} >= {
+        (kind, name) for kind in (CvxpySolver, QpsolversSolver, NativeSolver) for name in REQUIRED
+    } | {(NativeSolver, "quadprog"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
+
+
+@every_solver
+def test_the_result_names_the_backend_and_the_interface_that_were_asked(kind, name, engine, step):
+    word = "native" if kind is NativeSolver else "cvxpy"
+    solver = solver_for(step, name, word)
+    assert type(solver) is kind
+    assert (solver.name, solver.engine) == (name, engine)
+    solution = solve_step(step, solver)
+    said = solution.statistics
+    assert (solution.backend, said.backend, said.engine) == (name, name, engine)
+    if name in REQUIRED:
+        assert said.status == "optimal"
+    if kind is not NativeSolver:  # a name alone never means the native engine
+        said = solve_step(step, name).statistics
+        assert (said.backend, said.engine) == (name, engine)
+
+
+def test_what_is_reported_is_what_was_called(step, monkeypatch):
+    called = []
+    honest = Clarabel.reply
+    monkeypatch.setattr(Clarabel, "reply", lambda *a: called.append("native") or honest(*a))
+    solve = cp.Problem.solve
+    monkeypatch.setattr(
+        cp.Problem, "solve", lambda *a, **k: called.append(k["solver"]) or solve(*a, **k)
+    )
+    solve_step(step, NativeSolver(step, "clarabel"))
+    solve_step(step, CvxpySolver(step, "osqp"))
+    solve_step(step, "piqp")
+    assert called == ["native", "OSQP", "PIQP"]
+
+
+def test_a_call_that_contradicts_itself_cannot_be_written(step):
+    assert list(inspect.signature(solve_step).parameters) == [
+        "step", "solver", "accuracy", "certify", "extension",
+    ]  # fmt: skip
+    for word, value in (
+        ("engine", "cvxpy"), ("backend", "clarabel"), ("problem", NativeSolver(step, "daqp")),
+    ):  # fmt: skip
+        with pytest.raises(TypeError, match=word):
+            solve_step(step, "clarabel", **{word: value})
+
+
+def test_a_problem_is_no_solver(step):
+    with pytest.raises(BackendError, match="is not a backend"):
+        solve_step(step, StepProblem(step))
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "says"),
+    [
+        (CvxpySolver, "qpsolvers:osqp", "leave out 'qpsolvers:'"),
+        (QpsolversSolver, "osqp", "as 'qpsolvers:osqp'"),
+        (NativeSolver, "qpsolvers:daqp", "has no native interface"),
+        (SparseSolver, "daqp", "takes no sparse matrices"),
+    ],
+)
+def test_a_class_takes_names_of_its_own_interface_only(kind, name, says, step):
+    with pytest.raises(BackendError, match=says):
+        kind(step, name)
+
+
+def with_mu(step, **mu):
+    return step.replace(contacts=changed(step.contacts, **mu))
+
+
+OTHERS = {
+    "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CN"),
+    "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CN"),
+    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CNQ"),
+    "rows of contacts": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CN"),
+    "rows of the user's own": (
+        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CN",
+    ),
+    "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
+    "mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
+    "mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
+}  # fmt: skip
+"""Steps of another kind, and who cannot take them: (C)vxpy, (N)ative, (Q)psolvers."""
+
+
+@pytest.mark.parametrize(
+    ("engine", "name"), [("cvxpy", "piqp"), ("cvxpy", "qpsolvers:piqp"), ("native", "piqp")]
+)
+@pytest.mark.parametrize("what", OTHERS)
+def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
+    what, engine, name, step, rng
+):
+    solver = solver_for(step, name, engine)
+    other, who = OTHERS[what]
+    other = other(step, rng)
+    assert solver.fits(step)
+    letter = type(solver).__name__[0]
+    refused = letter in who
+    assert solver.fits(other) == (not refused)
+    if refused:
+        for certify in ("off", "full"):
+            with pytest.raises(InputError) as caught:
+                solve_step(other, solver, certify=certify)
+            named = str(caught.value).partition("in ")[2].partition(";")[0].split(", ")
+            assert what in named
+            assert set(named) <= {w for w, (_, refuse) in OTHERS.items() if letter in refuse}
+    else:
+        answer = solve_step(other, solver, certify="off").delta_q
+        assert error(other, answer, solve_step(other, "none").delta_q) <= OPTIMUM
+    assert solver.fits(step)
+
+
+def test_rows_of_an_extension_count_as_rows_of_the_step(step):
+    floor = Extension(lambda s: [s.delta_q >= -1.0])
+    for word in ("cvxpy", "native"):
+        with pytest.raises(InputError, match="rows of the user's own"):
+            solve_step(step, solver_for(step, "clarabel", word), extension=floor)
+
+
+def test_a_sparse_solver_certifies_nothing_exactly_and_says_so(large_step):
+    solver = solver_for(large_step, "osqp", "native")
+    assert type(solver) is SparseSolver
+    said = solve_step(large_step, solver, certify="residual").statistics
+    assert (said.backend, said.engine) == ("osqp", "native")
+    with pytest.raises(BackendError, match="is sparse and certifies no exact optimum"):
+        solve_step(large_step, solver, certify="full")
+
+
+def test_a_sparse_solver_refuses_a_step_of_another_pattern(large_step, step):
+    solver = SparseSolver(large_step, "clarabel")
+    with pytest.raises(InputError, match=r"n_u, .*pattern of A; make one like it"):
+        solve_step(step, solver, certify="off")
+
+
+def test_no_solver_gives_no_answer_of_its_own(step):
+    with pytest.raises(BackendError, match="gives no answer of its own"):
+        solve_step(step, NoSolver(step), certify="residual")
+    with pytest.raises(StepNotSolved, match="not called"):
+        NoSolver(step).answer(NoSolver(step).scaled(step), 1e-9)
+
+
+@pytest.mark.parametrize("engine", ["cvxpy", "native"])
+def test_a_simulator_keeps_its_solver_while_steps_fit(engine):
+    some = load_scenario("two_finger_pinch", [f"solver.engine={engine}", "solver.certify=off"])
+    run, q = some.simulator(), some.system.q_start
+    result = run.step(q, some.targets(some.h))
+    first = run.solver
+    run.step(result.q, some.targets(2 * some.h))
+    assert run.solver is first
+    extra = Extra(("stop",), np.ones((1, result.step.n_v)), [-1.0])
+    solution = run.solution(result.step.replace(extra=extra))
+    assert run.solver is not first
+    assert type(run.solver) is type(first)
+    assert solution.statistics.engine == engine
+
+
+@every_solver
+def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, engine, step):
+    solver = solver_for(step, name, "native" if kind is NativeSolver else "cvxpy")
+    expected = solve_step(step, solver)
+    for again in (pickle.loads(pickle.dumps(solver)), copy.deepcopy(solver), copy.copy(solver)):
+        assert type(again) is kind
+        assert (again.name, again.engine) == (name, engine)
+        assert again.fits(step)
+        found = solve_step(step, again)
+        np.testing.assert_allclose(found.delta_q, expected.delta_q, rtol=EXACT, atol=EXACT)
+        assert found.statistics.status == expected.statistics.status
+
+
+def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
+    solver, honest = NativeSolver(step, "clarabel"), Clarabel.reply
+
+    def broken(*_):
+        raise RuntimeError("out of order")
+
+    monkeypatch.setattr(Clarabel, "reply", broken)
+    with pytest.raises(StepNotSolved, match="the solver failed: out of order") as caught:
+        solve_step(step, solver, certify="off")
+    assert isinstance(caught.value.__cause__, RuntimeError)
+    monkeypatch.setattr(Clarabel, "reply", honest)
+    answer = solve_step(step, solver, certify="off").delta_q
+    assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
+
+
+def test_a_backend_is_one_line_of_the_table_and_an_adapter_one_file():
+    # A second line of the same name would be lost in the dictionary.
+    assert len(re.findall(r"\bBackend\(\n?\s*\"", inspect.getsource(backends))) == len(BACKENDS)
+    files = {path.stem for path in ADAPTERS.glob("*.py")} - {"__init__", "program"}
+    assert files == {name for name, entry in BACKENDS.items() if entry.adapter}
+    for name in files:
+        assert f"class {BACKENDS[name].adapter}(Adapter):" in (ADAPTERS / f"{name}.py").read_text()
+
+
+@pytest.mark.parametrize("name", BACKENDS)
+def test_the_floor_and_the_limits_of_the_table_are_the_backend_s_own(name):
+    entry = BACKENDS[name]
+    tightest = entry.first(1e-15)
+    assert tightest == entry.first(max(1e-15, entry.floor))
+    assert set(entry.warm) <= {"cvxpy", "qpsolvers"}
+    assert entry.cvxpy or "cvxpy" not in entry.warm
+    assert not entry.sparse or entry.adapter
+    assert (entry.plain is None) == (tightest == {})
+
+
+def test_a_backend_of_studies_only_is_no_backend_of_steps():
+    assert not BACKENDS["qpalm"].steps
+    for name in ("qpalm", "qpsolvers:qpalm"):
+        assert name not in installed_backends()
+        for engine in ("cvxpy", "native"):
+            with pytest.raises(BackendError, match="is not a backend"):
+                solver_for(point_on_floor(), name, engine)
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "facets-8", "ellipsoid"])
+def test_wrenches_that_are_not_looked_at_are_finite(cone):
+    """Where h, mu and lam are as far towards the ends of float64 as is taken for harmless."""
+    least, most = 1.0000001 / LARGE, 0.49 * LARGE**0.5
+    step = random_step(np.random.default_rng(3), rows=(6,)).replace(cone=cone, h=1.0)
+    contacts = changed(step.contacts, mu_v=np.array([0.7 * most]), mu_omega=np.array([0.01]))
+    step = step.replace(contacts=contacts)
+    lam = np.full(int(step.offsets[-1]), most / step.offsets[-1])
+    said = SolverStatistics("some", "optimal", None, None, 1e-12)
+    for h, harmless in ((1.0, True), (least, True), (1e-300, False)):
+        of_h = copy.copy(step)
+        vars(of_h)["h"] = h
+        solution = step_solution(of_h, np.zeros(step.n_v), lam, Certificate("none"), said)
+        assert _far_from_largest(solution) == harmless
+        assert not harmless or np.isfinite(solution.wrench).all()

@@ -1,0 +1,104 @@
+"""One thing of every kind of public data, by name."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import (
+    InputError,
+    LimitExceeded,
+    NotDifferentiable,
+    RunFailed,
+    StepDataError,
+    StepInfeasible,
+    StepNotSolved,
+)
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra, StepData
+from tests.helpers import always_in_blocks, contacts_of, random_step
+from tests.scenes import written_scenario
+
+NAN, INF = np.nan, np.inf
+DOWN = np.array([0.0, 0.0, -9.81])
+
+
+def squeezed():
+    """The error about a step whose two contacts contradict each other."""
+    frames = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]]
+    J = np.zeros((2, 4, 1))
+    J[:, 2, 0] = 1.0
+    contacts = contacts_of(-1e-3, frames, J, 0.0, 0.0, (4, 4))
+    step = StepData(0.01, [[]], [[1.0]], [], [0.0], [], contacts)
+    with pytest.raises(StepInfeasible) as caught:
+        solve_step(step, "none")
+    return caught.value
+
+
+def sparse_step():
+    """A step whose contacts are in blocks, as its simulator poses it."""
+    some = pile((2, 1, 2), certify="off")
+    with pytest.MonkeyPatch.context() as patch:
+        always_in_blocks(patch)
+        return copy.copy(some.simulator).step(some.q, np.zeros(0), some.force).step
+
+
+def public_data(folder):
+    """Every kind of public data, by name; a scenario is written into a folder."""
+    scenario = load_scenario(written_scenario(folder))
+    grasp = load_scenario("bunny_grasp", ["steps=2"])
+    system, simulator = scenario.system, scenario.simulator()
+    result = simulator.step(system.q_start, scenario.targets(scenario.h))
+    run = rollout(simulator, system.q_start, scenario.targets, 3, progress=False)
+    step = random_step(np.random.default_rng(0))
+    extra = Extra(("a", "b"), np.ones((2, 7)), [-1.0, -2.0])
+    solution = solve_step(step)
+    infeasible = squeezed()
+    return {
+        "StepData": step,
+        "StepData with rows of a user's": step.replace(extra=extra),
+        "PosedStep": result.step,
+        "sparse PosedStep": sparse_step(),
+        "Contacts": step.contacts,
+        "PosedContacts": result.step.contacts,
+        "SparseContacts": sparse_step().contacts,
+        "Blocks": sparse_step().contacts.blocks,
+        "Extra": extra,
+        "StepSolution": solution,
+        "Certificate": solution.certificate,
+        "StepResult": result,
+        "Derivatives": derivatives(simulator, system.q_start, scenario.targets(scenario.h)),
+        "smoothed Derivatives": smoothed(
+            simulator, system.q_start, scenario.targets(scenario.h), 1e-6
+        ),
+        "Trajectory": run,
+        "System": system,
+        "System of the grasp": grasp.system,
+        "Body": system.bodies[0],
+        "ContactPair": grasp.pairs[0],
+        "Scenario": scenario,
+        "Scenario of the grasp": grasp,
+        "Targets": scenario.targets,
+        "Limits": scenario.limits,
+        "Wrenches": scenario.wrenches,
+        "Sphere": Sphere(0.1),
+        "Box": Box([0.1, 0.2, 0.3]),
+        # Its normal is divided by its length when it is made; a second time would change bits.
+        "HalfSpace": HalfSpace([1.0, 2.0, 3.0], 0.1),
+        "PointCloud": PointCloud(np.eye(3)),
+        "FarkasVector": infeasible.farkas,
+        "InputError": InputError("is bad", field="h", value=np.arange(3.0), file="step.json"),
+        "StepDataError": StepDataError("is bad", field="h", value=NAN),
+        "StepNotSolved": StepNotSolved("osqp", "user_limit", step, 1e-9),
+        "StepInfeasible": infeasible,
+        "LimitExceeded": LimitExceeded("is too deep", step),
+        "NotDifferentiable": NotDifferentiable((Reason("a tie", ("c/0",), ("dq_dq",), "ties"),)),
+        "RunFailed": RunFailed("step 3: is too deep", run, step),
+    }

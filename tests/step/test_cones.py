@@ -1,0 +1,283 @@
+"""The tables of the friction cones: names, counts, directions, limit surfaces, JSON."""
+
+import json
+from fractions import Fraction
+
+import cvxpy as cp
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpq
+
+from quasistatic_ref.certify.dyadic import dyadic
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone, direction
+from quasistatic_ref.step.files import step_from_record, step_text
+from quasistatic_ref.step.friction import (
+    cone_function,
+    cone_matrix,
+    contact_wrenches,
+    friction_rows,
+    row_gaps,
+)
+from quasistatic_ref.step.standard_form import standard_form
+from tests.certify.test_rational import in_si
+from tests.helpers import JUDGE, changed, random_step
+from tests.tolerances import EXACT, ROUNDING
+
+POLYHEDRAL = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "facets-10", "frictionless")
+COUNTS = {
+    "pyramid": (6, 4),
+    "product": (8, 4),
+    "facets-4": (6, 4),
+    "facets-10": (12, 10),
+    "frictionless": (1, 1),
+    "ellipsoid": (4, 4),
+}
+
+
+@pytest.mark.parametrize(("name", "counts"), COUNTS.items(), ids=COUNTS)
+def test_how_many_multipliers_a_contact_has(name, counts, rng):
+    step = random_step(rng, rows=(6, 4)).replace(cone=name)
+    assert step.counts.tolist() == list(counts)
+    assert step.offsets.tolist() == [0, counts[0], sum(counts)]
+    assert standard_form(step).A.shape == (sum(counts), step.n_v)
+
+
+@pytest.mark.parametrize(
+    "name", ["", "cone", "facets", "facets-", "facets-3", "facets-5", "facets-2", "facets-08",
+             "facets-+8", "facets-1026", "facets-٨", "Pyramid", "facets-8.0"],
+)  # fmt: skip
+def test_another_name_is_refused(name, rng):
+    with pytest.raises(StepDataError, match=r"cone: must be one of pyramid, ellipsoid"):
+        random_step(rng).replace(cone=name)
+
+
+def test_zeros_of_directions_have_no_sign():
+    found = np.array([direction(k, 4) for k in range(4)])
+    assert not np.signbit(found[found == 0]).any()
+
+
+def test_a_cone_has_1024_sides_at_most():
+    assert len(cone("facets-1024").row_names) == 1024 + 2  # and two spins
+
+
+@pytest.mark.parametrize("K", [4, 6, 8, 10, 12, 16, 30, 64, 360, 1024])
+def test_directions_are_the_cosines_and_sines(K):
+    turn = 2 * np.pi * np.arange(K) / K
+    expected = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    found = np.array([direction(k, K) for k in range(K)])
+    # Both are right to an ulp; the argument of np.cos is rounded, which costs another.
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-15)
+
+
+@pytest.mark.parametrize("K", [4, 6, 8, 10, 12, 64])
+def test_opposite_directions_and_quarter_turns_are_exact(K):
+    found = [direction(k, K) for k in range(K)]
+    for k, (c, s) in enumerate(found):
+        assert (-c, -s) == found[(k + K // 2) % K]
+        assert (c, -s) in found
+        if K % 4 == 0:
+            assert (-s, c) == found[(k + K // 4) % K]
+
+
+def test_cosines_are_rounded_correctly():
+    # cos(pi/4) = sqrt(1/2), cos(pi/3) = 1/2: IEEE 754 rounds a root correctly.
+    assert direction(1, 8) == (np.sqrt(0.5), np.sqrt(0.5))
+    assert direction(2, 12)[0] == 0.5
+    assert direction(1, 12)[1] == 0.5
+    assert direction(1, 12)[0] == np.sqrt(0.75)
+
+
+def test_four_facets_are_the_pyramid_bit_for_bit(rng):
+    contacts = random_step(rng, rows=(6, 6)).contacts
+    for found in (friction_rows, lambda _, name: cone_matrix(name)):
+        np.testing.assert_allclose(
+            found(contacts, "facets-4"), found(contacts, "pyramid"), rtol=EXACT, atol=EXACT
+        )
+
+
+def coefficients(name):
+    """What each row combines of d1, d2 and spin, in units of the coefficients of friction."""
+    sliding = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    if name == "frictionless":
+        return [(0, 0, 0)]
+    if name == "product":
+        return [(t_1, t_2, turn) for turn in (1, -1) for t_1, t_2, _ in sliding]
+    if name.startswith("facets-"):
+        K = int(name.removeprefix("facets-"))
+        angles = [2 * np.pi * k / K for k in range(K)]
+        sliding = [(np.cos(angle), np.sin(angle), 0) for angle in angles]
+    return [*sliding, (0, 0, 1), (0, 0, -1)]
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+def test_a_cone_function_combines_the_gap_and_the_motions(name):
+    expected = np.array([(1.0, *t) for t in coefficients(name)])
+    matrix = cone_matrix(name)
+    assert len(matrix) == len(cone(name).row_names)
+    # np.cos rounds its argument, the cone's own cosines are right to an ulp.
+    tolerance = 1e-15 if name.startswith("facets-") else EXACT
+    np.testing.assert_allclose(matrix, expected, rtol=0.0, atol=tolerance)
+    # The leading rows do without torsion: its coefficient is then zero.
+    short = np.array([(1.0, t_1, t_2) for t_1, t_2, _ in coefficients(name)])[: cone(name).short]
+    np.testing.assert_allclose(matrix[: cone(name).short, :3], short, rtol=0.0, atol=tolerance)
+    assert name == "product" or not matrix[: cone(name).short, 3].any()
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+def test_the_gap_is_in_every_row_of_a_polyhedral_cone(name, rng):
+    """A row is the gap and a sum of slips, 1 phi + ..."""
+    contacts = random_step(rng).contacts
+    expected = np.repeat(contacts.phi[:, None], len(cone(name).row_names), axis=1)
+    assert np.array_equal(row_gaps(contacts, name), expected)
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+def test_numbers_expressions_and_rows_go_through_a_cone_alike(name, rng):
+    # Multiples of 1/8 times float64 coefficients: sums of them are exact in 200 bits, not in 53.
+    motion = rng.integers(-64, 64, size=4) / 8.0
+    row_of = [[Fraction(c) for c in row] for row in cone_matrix(name).tolist()]
+    expected = [
+        sum((c * Fraction(x) for c, x in zip(row, motion.tolist(), strict=True)), Fraction(0))
+        for row in row_of
+    ]
+    rows = cone_function(name)
+    rounded = [float(x) for x in expected]
+    numbers = rows(*motion.tolist())
+    np.testing.assert_allclose(numbers, rounded, rtol=ROUNDING, atol=ROUNDING)
+    expressions = [row.value for row in rows(*(cp.Constant(x) for x in motion))]
+    np.testing.assert_allclose(expressions, rounded, rtol=ROUNDING, atol=ROUNDING)
+    stacked = np.stack(rows(*(x * np.eye(4)[i] for i, x in enumerate(motion)))).sum(axis=1)
+    np.testing.assert_allclose(stacked, rounded, rtol=ROUNDING, atol=ROUNDING)
+    exact = [row.m.item() * Fraction(2) ** row.e for row in rows(*map(dyadic, motion[:, None]))]
+    assert exact == expected
+    with ctx.workprec(200):
+        balls = rows(*(arb(x) for x in motion.tolist()))
+        fractions = [fmpq(x.numerator, x.denominator) for x in expected]
+        assert all(ball == arb(x) for ball, x in zip(balls, fractions, strict=True))
+
+
+def spent(name, f_1, f_2, tau):
+    """The left side of a cone's limit surface, forces in units of mu_v, mu_v, mu_omega."""
+    if name == "product":
+        return max(abs(f_1) + abs(f_2), abs(tau))
+    if name == "frictionless":
+        return 0.0 if f_1 == f_2 == tau == 0 else np.inf
+    if name == "pyramid":
+        return abs(f_1) + abs(f_2) + abs(tau)
+    K = int(name.removeprefix("facets-"))
+    # The gauge of a regular polygon with corners at 2 pi k / K: its sides' normals are half-way.
+    normals = 2 * np.pi * (np.arange(K) + 0.5) / K
+    return max(f_1 * np.cos(normals) + f_2 * np.sin(normals)) / np.cos(np.pi / K) + abs(tau)
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL)
+@pytest.mark.parametrize("seed", range(5))
+def test_every_wrench_is_inside_of_the_limit_surface(name, seed):
+    rng = np.random.default_rng(seed)
+    step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
+    contacts, m = step.contacts, int(step.offsets[-1])
+    lam = rng.exponential(size=m) * (rng.uniform(size=m) < 0.7)
+    for j, (f_1, f_2, f_n, tau) in enumerate(contact_wrenches(contacts, lam, 0.01, name)):
+        units = contacts.mu_v[j], contacts.mu_v[j], contacts.mu_omega[j]
+        assert spent(name, *np.array([f_1, f_2, tau]) / units) <= f_n * (1 + ROUNDING)
+        assert contacts.rows[j] == 6 or tau == 0.0
+
+
+@pytest.mark.parametrize("name", POLYHEDRAL[:-1])
+def test_each_row_alone_is_on_the_limit_surface(name, rng):
+    step = random_step(rng, rows=(6,)).replace(cone=name)
+    contacts = step.contacts
+    units = np.array([contacts.mu_v[0], contacts.mu_v[0], contacts.mu_omega[0]])
+    for i in range(int(step.counts[0])):
+        lam = np.eye(int(step.counts[0]))[i]
+        ((f_1, f_2, f_n, tau),) = contact_wrenches(contacts, lam, 0.5, name)
+        reached = spent(name, *np.array([f_1, f_2, tau]) / units)
+        np.testing.assert_allclose([reached, f_n], [2.0, 2.0], rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_wrenches_do_the_same_generalised_work_as_the_rows(name, seed):
+    rng = np.random.default_rng(seed)
+    step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
+    contacts, lam = step.contacts, rng.exponential(size=int(step.offsets[-1]))
+    work = np.zeros(step.n_v)
+    for j, (f_1, f_2, f_n, tau) in enumerate(contact_wrenches(contacts, lam, 0.01, name)):
+        force = f_1 * contacts.d1[j] + f_2 * contacts.d2[j] + f_n * contacts.n[j]
+        work += contacts.J[j].T @ np.array([*force, tau]) * 0.01
+    expected = standard_form(step).A.T @ lam
+    np.testing.assert_allclose(work, expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
+def test_rows_are_formed_without_rounding(name, rng):
+    step = random_step(rng, rows=(6, 4)).replace(cone=name)
+    _, _, A, b = in_si(exact_form(step))
+    form = standard_form(step)
+    np.testing.assert_allclose(np.array(A, float), form.A, rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(np.array(b, float), form.b, rtol=EXACT, atol=EXACT)
+
+
+def test_a_cone_travels_in_a_step_file(rng):
+    step = random_step(rng).replace(cone="facets-12")
+    again = step_from_record(json.loads(step_text(step)))
+    assert again.cone == "facets-12"
+    assert again == step
+    record = json.loads(step_text(step))
+    del record["cone"]
+    assert step_from_record(record).cone == "pyramid"
+
+
+@pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
+@pytest.mark.parametrize("mu", [(0.0, 0.02), (0.5, 0.0), (0.0, 0.0)])
+def test_zero_friction_coefficients_are_legal_in_every_cone(name, mu, rng):
+    step = random_step(rng)
+    contacts = changed(step.contacts, mu_v=np.full(3, mu[0]), mu_omega=np.full(3, mu[1]))
+    step = step.replace(contacts=contacts, cone=name)
+    backend = "clarabel" if name == "ellipsoid" else JUDGE
+    answer = solve_step(step, backend)
+    assert answer.certificate.kind in ("exact", "enclosure")
+    f = answer.wrench
+    assert not (mu[0] == 0 and f[:, :2].any())
+    assert not (mu[1] == 0 and f[:, 3].any())
+
+
+@pytest.mark.parametrize("name", ["pyramid", "product", "facets-8", "facets-10"])
+@pytest.mark.parametrize("seed", range(10))
+def test_with_mu_omega_zero_six_rows_and_four_give_the_same_bits(name, seed):
+    rng = np.random.default_rng(seed)
+    step = random_step(rng, rows=(6, 6, 6))
+    contacts = changed(step.contacts, mu_omega=np.zeros(3))
+    step = step.replace(contacts=contacts, cone=name)
+    four = step.replace(contacts=changed(contacts, rows=(4, 4, 4)))
+    six = solve_step(step, JUDGE).delta_q
+    np.testing.assert_allclose(solve_step(four, JUDGE).delta_q, six, rtol=EXACT, atol=EXACT)
+
+
+def test_rows_four_means_that_mu_omega_is_not_used(rng):
+    step = random_step(rng, rows=(4, 4))
+    other = changed(step.contacts, mu_omega=[7.0, 8.0])
+    for name in (*POLYHEDRAL, "ellipsoid"):
+        one = solve_step(step.replace(cone=name)).delta_q
+        two = solve_step(step.replace(cone=name, contacts=other)).delta_q
+        np.testing.assert_allclose(two, one, rtol=EXACT, atol=EXACT)
+
+
+def test_frictionless_is_any_cone_with_zero_coefficients(rng):
+    step = random_step(rng, rows=(6, 4))
+    smooth = changed(step.contacts, mu_v=[0.0, 0.0], mu_omega=[0.0, 0.0])
+    expected = solve_step(step.replace(cone="frictionless")).delta_q
+    for name in (*POLYHEDRAL, "ellipsoid"):
+        found = solve_step(step.replace(contacts=smooth, cone=name)).delta_q
+        tolerance = ROUNDING if name == "ellipsoid" else EXACT
+        np.testing.assert_allclose(found, expected, rtol=tolerance, atol=0.0)
+
+
+def test_rows_of_all_cones_hold_n_c_contacts(rng):
+    contacts = random_step(rng, rows=(6, 4)).contacts
+    assert friction_rows(contacts, "product").shape == (2, 8, 7)
+    assert friction_rows(contacts, "frictionless").shape == (2, 1, 7)
+    assert friction_rows(contacts, "ellipsoid").shape == (2, 4, 7)

@@ -1,0 +1,239 @@
+"""Plain data: what is public is compared bit for bit, copied and pickled, and works the same."""
+
+import copy
+import pickle
+import shutil
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, Sphere
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra
+from tests.scenes import written_scenario
+from tests.step.public_data import DOWN, public_data, squeezed
+
+ROUND_TRIPS = {
+    "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+}
+
+
+NAN, INF = np.nan, np.inf
+
+
+@pytest.fixture(scope="module")
+def things(tmp_path_factory):
+    """Every kind of public data, by name."""
+    return public_data(tmp_path_factory.mktemp("scene"))
+
+
+NAMES = (
+    "StepData", "StepData with rows of a user's", "PosedStep", "sparse PosedStep", "Contacts",
+    "PosedContacts", "SparseContacts", "Blocks", "Extra", "StepSolution", "Certificate",
+    "StepResult", "Derivatives", "smoothed Derivatives", "Trajectory", "System",
+    "System of the grasp", "Body", "ContactPair", "Scenario", "Scenario of the grasp", "Targets",
+    "Limits", "Wrenches", "Sphere", "Box", "HalfSpace", "PointCloud", "FarkasVector", "InputError",
+    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded",
+    "NotDifferentiable", "RunFailed",
+)  # fmt: skip
+
+
+every_trip = pytest.mark.parametrize("trip", ROUND_TRIPS.values(), ids=ROUND_TRIPS)
+
+
+def test_no_kind_of_data_is_left_out(things):
+    assert tuple(things) == NAMES
+
+
+@every_trip
+@pytest.mark.parametrize("name", NAMES)
+def test_a_copy_is_equal_and_of_the_same_class_and_hash(things, name, trip):
+    thing = things[name]
+    again = trip(thing)
+    assert type(again) is type(thing)
+    assert again == thing
+    assert hash(again) == hash(thing)
+    if isinstance(thing, Exception):
+        assert str(again) == str(thing)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_two_kinds_of_data_are_equal(things, name):
+    assert [other for other in NAMES if things[other] == things[name]] == [name]
+
+
+@every_trip
+@pytest.mark.parametrize("name", [name for name in NAMES if "Step" in name])
+def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, name, trip):
+    def locked(data):
+        for key, value in vars(data).items():
+            if isinstance(value, Plain):
+                yield from locked(value)
+            elif isinstance(value, np.ndarray) and not value.flags.writeable:
+                yield key
+
+    again = sorted(locked(trip(things[name])))
+    kept = sorted(key for key in locked(things[name]))
+    derived = {"H", "mu", "wrench"}  # a copy forms them when they are read
+    assert [key for key in again if key not in derived] == [k for k in kept if k not in derived]
+
+
+@every_trip
+@pytest.mark.parametrize("name", ["StepData", "StepData with rows of a user's", "PosedStep"])
+def test_a_copy_of_a_step_is_solved_to_the_same_bits(things, name, trip):
+    one, two = solve_step(things[name]), solve_step(trip(things[name]))
+    assert one.certificate.kind == "exact"
+    assert one == two
+
+
+@every_trip
+def test_a_copy_of_a_sparse_step_is_solved_to_the_same_bits(things, trip):
+    step = things["sparse PosedStep"]
+    one, two = (solve_step(some, certify="residual") for some in (step, trip(step)))
+    assert one == two
+
+
+@every_trip
+@pytest.mark.parametrize("name", ["System", "System of the grasp"])
+def test_a_copy_of_a_system_computes_the_same_bits(things, name, trip):
+    system = things[name]
+    again, q = trip(system), system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
+    for one, two in (
+        (system.M_u(q), again.M_u(q)),
+        (system.kinematics(q).J, again.kinematics(q).J),
+        (system.gravity_force(q, DOWN), again.gravity_force(q, DOWN)),
+        (system.q_start, again.q_start),
+    ):
+        assert one.tobytes() == two.tobytes()
+        assert one.size
+
+
+def test_two_copies_of_a_system_fall_each_its_own_way(things):
+    system = things["System of the grasp"]
+    up = tuple(-DOWN)
+    alone = system.gravity_force(system.q_start, tuple(DOWN))
+    other = copy.copy(system).gravity_force(system.q_start, up)
+    assert alone.any()
+    np.testing.assert_array_equal(other, -alone)
+    np.testing.assert_array_equal(system.gravity_force(system.q_start, tuple(DOWN)), alone)
+
+
+def test_a_pickled_system_does_not_need_its_files(tmp_path):
+    folder = tmp_path / "scene"
+    folder.mkdir()
+    system = load_scenario(written_scenario(folder)).system
+    text = pickle.dumps(system)
+    shutil.rmtree(folder)
+    again = pickle.loads(text)
+    q = system.q_start
+    assert again.M_u(q).tobytes() == system.M_u(q).tobytes()
+    assert again.links == system.links
+
+
+@every_trip
+@pytest.mark.parametrize("name", ["Scenario", "Scenario of the grasp"])
+def test_a_copy_of_a_scenario_runs_to_the_same_bits(things, name, trip):
+    assert trip(things[name]).run(progress=False) == things[name].run(progress=False)
+
+
+@every_trip
+def test_a_copy_of_a_simulator_takes_the_same_step_afresh(things, trip):
+    scenario = replace(things["Scenario of the grasp"], certify="off", backend="daqp")
+    one, q = scenario.simulator(), scenario.system.q_start
+    first = one.step(q, scenario.targets(0.01))
+    assert trip(one).step(q, scenario.targets(0.01)) == first
+
+
+@every_trip
+def test_a_copy_of_a_simulator_has_every_setting(things, trip):
+    scenario = things["Scenario"]
+    given = {
+        "h": 0.002,
+        "K_q": np.diag([3.0, 4.0]),
+        "gravity": (1.0, 2.0, 3.0),
+        "gravity_acts": np.array([True, False]),
+        "solver": "osqp",
+        "engine": "cvxpy",
+        "accuracy": 1e-7,
+        "certify": "off",
+        "cone": "product",
+        "extension": squeezed,  # any function that a pickle finds by its name
+        "limits": replace(scenario.limits, reach=7.0),
+    }
+    again, arguments = trip(Simulator(scenario.system, scenario.pairs, **given)).__reduce__()
+    assert arguments == ()
+    assert again.func is Simulator
+    assert again.args == (scenario.system, tuple(scenario.pairs))
+    assert set(again.keywords) == set(given)
+    for name, value in given.items():
+        np.testing.assert_array_equal(again.keywords[name], value)
+
+
+def test_equality_sees_one_bit_in_every_field_of_a_solution(things):
+    solution = things["StepSolution"]
+    for name in ("delta_q", "lam"):
+        array = getattr(solution, name).copy()
+        array.flat[0] = np.nextafter(array.flat[0], INF)
+        assert replace(solution, **{name: array}) != solution
+    longer = np.append(solution.lam_extra, 1.0)
+    heavier = solution.step.replace(M_u=2 * solution.step.M_u)
+    other = {"lam_extra": longer, "backend": "osqp", "certificate": 0, "step": heavier}
+    for name, value in other.items():
+        assert replace(solution, **{name: value}) != solution
+
+
+def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):
+    solution, result = things["StepSolution"], things["StepResult"]
+    slower = solution.statistics._replace(solve_time=1e3)
+    assert replace(solution, statistics=slower) == solution
+    assert replace(result, seconds={"solve": 1e3}) == result
+    assert copy.deepcopy(replace(solution, statistics=slower)).statistics == slower
+
+
+@dataclass(frozen=True, eq=False)
+class Some(Plain):
+    """Anything."""
+
+    value: object
+
+
+ALIKE = {
+    "NaN": (NAN, float("nan")),
+    "NaN in an array": (np.array([NAN]), np.array([NAN])),
+    "-0.0 and 0.0": (0.0, -0.0),
+    "-0.0 and 0.0 in an array": (np.zeros(1), -np.zeros(1)),
+    "a mapping in another order": ({"a": 1, "b": 2}, {"b": 2, "a": 1}),
+}
+
+
+UNLIKE = {
+    "one ulp": (1.0, np.nextafter(1.0, 2.0)),
+    "a float and an integer": (1.0, 1),
+    "float64 and float32": (np.ones(1), np.ones(1, np.float32)),
+    "another shape": (np.ones((1, 2)), np.ones((2, 1))),
+    "a tuple and a list": ((1,), [1]),
+    "deep down": ({"a": [np.ones(1)]}, {"a": [np.zeros(1)]}),
+}
+
+
+@pytest.mark.parametrize(("one", "two"), ALIKE.values(), ids=ALIKE)
+def test_alike(one, two):
+    assert Some(one) == Some(two)
+    assert hash(Some(one)) == hash(Some(two))
+
+
+@pytest.mark.parametrize(("one", "two"), UNLIKE.values(), ids=UNLIKE)
+def test_unlike(one, two):
+    assert Some(one) != Some(two)
+
+
+def test_plain_data_equals_nothing_else(things):
+    assert Sphere(1.0) != Box([1.0, 1.0, 1.0])
+    assert Some(1.0) != 1.0
+    assert Extra((), np.zeros((0, 1)), []) != things["Extra"]

@@ -1,0 +1,99 @@
+"""The matrices that solvers see, against those that CVXPY derives from the problem."""
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import random_step
+from tests.tolerances import EXACT, ROUNDING
+
+
+def by_cvxpy(step):
+    """H, g, and the rows [A, b] of A x >= b as CVXPY compiles them for a QP solver."""
+    problem = cone_problem(step)
+    problem.fill(step)
+    data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
+    assert data["A"].shape[0] == 0  # no equality
+    P, q, F, G = data["P"].toarray(), data["q"], data["F"].toarray(), data["G"]
+    P = np.triu(P) + np.triu(P, 1).T
+    return P, -q, np.column_stack([-F, -G])  # F x <= G
+
+
+def sorted_rows(rows):
+    return rows[np.lexsort(np.round(rows, 9).T)]
+
+
+def with_extra(step, rng):
+    return step.replace(
+        extra=Extra(("one", "two"), rng.normal(size=(2, step.n_v)), rng.normal(size=2))
+    )
+
+
+@pytest.mark.parametrize(("n_a", "n_u"), [(7, 6), (0, 6), (7, 0)])
+@pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4), (6,)])
+def test_cvxpy_compiles_the_same_program_up_to_the_order_of_rows(n_a, n_u, rows, rng):
+    step = random_step(rng, n_a, n_u, rows)
+    form = standard_form(step)
+    H, g, rows_of_cvxpy = by_cvxpy(step)
+    ours = np.column_stack([form.A, form.b])
+    np.testing.assert_allclose(H, form.H, rtol=ROUNDING, atol=ROUNDING)
+    np.testing.assert_allclose(g, form.g, rtol=ROUNDING, atol=ROUNDING)
+    assert rows_of_cvxpy.shape == ours.shape
+    np.testing.assert_allclose(
+        sorted_rows(rows_of_cvxpy), sorted_rows(ours), rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+CONES = ("pyramid", "product", "facets-4", "facets-8", "facets-10", "frictionless")
+
+
+@pytest.mark.parametrize("name", CONES)
+@pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4), (6,)])
+def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
+    # CVXPY's list goes over the rows i first, ours over the contacts; no entry is sorted away.
+    step = with_extra(random_step(rng, 3, 4, rows).replace(cone=name), rng)
+    form, m = standard_form(step), int(step.offsets[-1])
+    by_row = np.argsort(np.nonzero(step.mask)[1], kind="stable")
+    ours = np.column_stack([form.A, form.b])[[*by_row, m, m + 1]]
+    _, _, rows_of_cvxpy = by_cvxpy(step)
+    np.testing.assert_allclose(rows_of_cvxpy, ours, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
+    # Its entries are b - A delta_q in the cone: gap, slip_1, slip_2 and spin.
+    step = random_step(rng, 3, 4, (6, 4, 6)).replace(cone="ellipsoid")
+    problem = cone_problem(step)
+    problem.fill(step)
+    data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
+    assert (data["dims"].nonneg, data["dims"].soc) == (0, [4, 4, 4])
+    form = standard_form(step)
+    mu = np.column_stack([np.ones(3), step.contacts.mu]).reshape(-1, 1)
+    rows = np.column_stack([-data["A"].toarray(), -data["b"]])
+    expected = mu * np.column_stack([form.A, form.b])
+    np.testing.assert_allclose(rows, expected, rtol=ROUNDING, atol=ROUNDING)
+
+
+def test_the_user_s_own_rows_come_last_as_given(rng):
+    step = with_extra(random_step(rng), rng)
+    form = standard_form(step)
+    np.testing.assert_allclose(form.A[-2:], step.extra.A, rtol=EXACT, atol=EXACT)
+    np.testing.assert_allclose(form.b[-2:], step.extra.b, rtol=EXACT, atol=EXACT)
+    rows_of_cvxpy = by_cvxpy(step)[2]
+    ours = np.column_stack([form.A, form.b])
+    np.testing.assert_allclose(
+        sorted_rows(rows_of_cvxpy), sorted_rows(ours), rtol=ROUNDING, atol=ROUNDING
+    )
+
+
+def test_H_is_exactly_symmetric(rng):
+    H = standard_form(random_step(rng, 7, 6)).H
+    np.testing.assert_allclose(H, H.T, rtol=EXACT, atol=EXACT)
+
+
+def test_without_contacts_there_are_no_rows(rng):
+    form = standard_form(random_step(rng, 2, 3, rows=()))
+    assert form.A.shape == (0, 5)
+    assert form.b.shape == (0,)
