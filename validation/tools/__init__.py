@@ -1,0 +1,1 @@
+"""Checks of the checkout itself: what CI runs that is no test of the package."""
