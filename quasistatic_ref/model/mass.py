@@ -1,4 +1,8 @@
-"""The un-actuated block M_u of the mass matrix: whether it is constant, and not singular."""
+"""The un-actuated block M_u of the mass matrix, whether it is constant, and not singular.
+
+M is the sum over the links of J' I J. pinocchio's crba is not used: where a joint mimics another,
+it adds to what its last call left behind, and misses products of the mimic's branches.
+"""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -7,16 +11,85 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.motion import Motion, crossed
+from quasistatic_ref.step.arrays import Array, read_only
 
 
-def constant_mass(model: Any, joints: Sequence[Joint]) -> bool:
+class MassMatrix:
+    """M_u of the links that un-actuated coordinates move, as a function of where the links are.
+
+    The entry of two coordinates is a sum over the links that both move, of
+    m nu_i . nu_j + omega_i . I omega_j, with the velocity nu of the link's centre of mass. All
+    sums are added up in one fixed order.
+
+    Parameters
+    ----------
+    motion : Motion
+    n_a : int
+    masses : ndarray, shape (L,)
+        [kg]
+    centres : ndarray, shape (L, 3)
+        [m]
+    inertias : ndarray, shape (L, 3, 3)
+        As in :class:`~quasistatic_ref.model.system.System` [kg m^2].
+    """
+
+    def __init__(
+        self, motion: Motion, n_a: int, masses: Array, centres: Array, inertias: Array
+    ) -> None:
+        self.n_u = motion.n_v - n_a
+        free = motion.owner >= n_a
+        # Each link once for each column that moves it.
+        self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & free)
+        self.centre, self.inertia = centres[self.link], inertias[self.link]
+        owner = motion.owner[self.column] - n_a
+        # Two columns of a link at a time, for the entries on the diagonal and above it. A joint and
+        # its mimic have one coordinate: both orders of their columns count in the same entry.
+        of_links = np.split(np.arange(len(owner)), np.flatnonzero(np.diff(self.link)) + 1)
+        i = np.concatenate([np.repeat(own, len(own)) for own in of_links])
+        j = np.concatenate([np.tile(own, len(own)) for own in of_links])
+        above = owner[i] <= owner[j]
+        self.i, self.j = i[above], j[above]
+        self.mass = masses[self.link[self.i]]
+        self.entry = owner[self.i] * self.n_u + owner[self.j]
+
+    def at(self, kinematics: Kinematics) -> Array:
+        """M_u, shape (n_u, n_u) [kg, kg m, kg m^2], exactly symmetric and read-only."""
+        R, t = kinematics.R[self.link], kinematics.t[self.link]
+        column = kinematics.columns.T[self.column]
+        omega = column[:, 3:]
+        nu = column[:, :3] + crossed(omega, turned(R, self.centre) + t)
+        turn = turned(R.transpose(0, 2, 1), omega)  # omega in the link's frame
+        spin = turned(self.inertia, turn)
+        terms = self.mass * dot(nu[self.i], nu[self.j]) + dot(turn[self.i], spin[self.j])
+        above = np.bincount(self.entry, terms, self.n_u**2).reshape(self.n_u, self.n_u)
+        return read_only(above + np.triu(above, 1).T)
+
+
+def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
+    """Mass matrices (k, 6, 6) of the floating bases of k lone rigid bodies, in their frames."""
+    masses = [model.inertias[model.getJointId(joint_key(joint.name))].matrix() for joint in joints]
+    return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
+
+
+def turned(M: Array, v: Array) -> Array:
+    """Products M v, shape (k, 3), of matrices (k, 3, 3) and vectors (k, 3) [any unit]."""
+    x, y, z = v.T[:, :, None]
+    return M[:, :, 0] * x + M[:, :, 1] * y + M[:, :, 2] * z
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Products a . b, shape (k,), of vectors of shape (k, 3) [any unit]."""
+    return a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2]
+
+
+def constant_mass(model: Any, free: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    free = [joint for joint in joints if not joint.actuated]
     if any(joint.kind != "floating" for joint in free):
         return False
     parents = list(model.parents)

@@ -29,6 +29,18 @@ def cross_matrix(r: Array) -> Array:
     return entries.reshape(*r.shape, 3)
 
 
+def crossed(a: Array, b: Array) -> Array:
+    """Vector products a x b, shape (N, 3, ...); of few vectors np.cross takes three times as long.
+
+    Parameters
+    ----------
+    a, b : ndarray, shape (N, 3, ...)
+        Of any units; an axis of length 1 in the one stands for all of the other [-].
+    """
+    (ax, ay, az), (bx, by, bz) = ((v[:, 0], v[:, 1], v[:, 2]) for v in (a, b))
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
+
+
 class Motion:
     """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
 

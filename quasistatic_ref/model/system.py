@@ -19,7 +19,13 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mass import check_mass, constant_mass, regular
+from quasistatic_ref.model.mass import (
+    MassMatrix,
+    check_mass,
+    constant_mass,
+    regular,
+    rigid_masses,
+)
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
@@ -127,13 +133,15 @@ class System:
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
         self.q_start = read_only(self._order.paper_q(world.start))
-        u = self._order.v[self.n_a :]
-        self._un_actuated = np.ix_(u, u)
         self.motion = Motion(self._model, world.frames, self._order)
-        self.constant_mass_matrix = constant_mass(self._model, self.joints)
-        rigid = u.reshape(-1, 6) if self.constant_mass_matrix else np.zeros((0, 6), np.int64)
-        blocks = self._workspace.mass_blocks(world.start, rigid)
-        self.mass_blocks = read_only(blocks + 0.0)  # never -0.0
+        free = [joint for joint in self.joints if not joint.actuated]
+        self.constant_mass_matrix = constant_mass(self._model, free)
+        self._mass: MassMatrix | None = None  # if M_u is constant
+        if not self.constant_mass_matrix:
+            inertias = self.masses, self.centres, self.inertias
+            self._mass = MassMatrix(self.motion, self.n_a, *inertias)
+            free = []
+        self.mass_blocks = read_only(rigid_masses(self._model, free))
         if not (self.constant_mass_matrix and regular(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 
@@ -227,12 +235,11 @@ class System:
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
-        if self._M_u is None and self.constant_mass_matrix:
+        if self._mass is not None:
+            return self._mass.at(self.kinematics(q))
+        if self._M_u is None:
             self._M_u = whole(self.mass_blocks)
-        if self._M_u is not None:
-            return self._M_u
-        M = self._workspace.mass(self._order.model_q(q))
-        return read_only(M[self._un_actuated] + 0.0)  # never -0.0
+        return self._M_u
 
     def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
         """Generalised force of gravity at q, shape (n_v,) [N, N m].

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array
 
 PART = 48
 """Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""
@@ -60,7 +60,7 @@ class Workspace:
             R, t = [p.rotation for p in placements], [p.translation for p in placements]
             self.parts.append(Part(model, data, R, t, *entries))
             q, v = q + model.nq, v + model.nv
-        self.n_v, self._none = v, np.zeros((6, 0))
+        self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
     def move(self, q: Array) -> None:
@@ -95,26 +95,6 @@ class Workspace:
         """Change q_next (-) q, shape (n_v,), of which only rotations of floating bases count."""
         parts = [pin.difference(part.model, q[part.q], q_next[part.q]) for part in self.parts]
         return parts[0] if len(parts) == 1 else np.concatenate(parts)
-
-    def mass(self, q: Array) -> Array:
-        """Mass matrix, shape (n_v, n_v)."""
-        M = np.zeros((self.n_v, self.n_v))
-        for part in self.parts:
-            # Exactly symmetric: pinocchio's bindings copy the upper triangle to the lower.
-            M[part.v, part.v] = pin.crba(part.model, part.data, q[part.q])
-        return M
-
-    def mass_blocks(self, q: Array, v: Indices) -> Array:
-        """The same rows and columns of it, shape (k, s, s), for each of k lists of entries of v.
-
-        The entries of a list, shape (k, s), are of one body.
-        """
-        blocks = np.zeros((*v.shape, v.shape[1]))
-        for part in self.parts:
-            own = (part.v.start <= v[:, 0]) & (v[:, 0] < part.v.stop)
-            at = v[own] - part.v.start
-            blocks[own] = pin.crba(part.model, part.data, q[part.q])[at[:, :, None], at[:, None]]
-        return blocks
 
     def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].

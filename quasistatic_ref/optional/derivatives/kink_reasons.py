@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
-from quasistatic_ref.optional.derivatives.model.motion_rates import crossed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.optional.derivatives.step.touching import Touching

@@ -14,7 +14,7 @@ generalised force :math:`J^T W`.
 import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.motion import Motion, crossed
 from quasistatic_ref.step.arrays import Array
 
 
@@ -72,18 +72,6 @@ class MotionRates:
         on_columns = self.moves.T @ wrenches  # (n_x, 6)
         carried = np.einsum("ajk,ja->jk", self.turned, on_columns)
         return np.asarray(direct + self.coordinates.T @ carried @ self.coordinates)
-
-
-def crossed(a: Array, b: Array) -> Array:
-    """Vector products a x b, shape (N, 3, ...); of few vectors np.cross takes three times as long.
-
-    Parameters
-    ----------
-    a, b : ndarray, shape (N, 3, ...)
-        Of any units; an axis of length 1 in the one stands for all of the other [-].
-    """
-    (ax, ay, az), (bx, by, bz) = ((v[:, 0], v[:, 1], v[:, 2]) for v in (a, b))
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
 
 
 def _each(a: Array, b: Array) -> Array:

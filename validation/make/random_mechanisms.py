@@ -1,0 +1,420 @@
+"""M_u, gravity's force and J of random mechanisms with mimic joints, against a reference.
+
+    python validation/make/random_mechanisms.py [--count COUNT]
+
+The reference shares no code with the package. It places the links that a URDF was written from by
+complex numbers: the derivative of a pose by a coordinate is the imaginary part that an imaginary
+step of 1e-30 leaves, without truncation. M is the sum of m J_c' J_c + J_w' I J_w over the links.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT))
+
+from quasistatic_ref.model.system import Body, System
+
+STEP = 1e-30
+"""The imaginary step of a coordinate [m, rad]: its square is nothing next to 1."""
+CALLS = 10
+GRAVITY = (1.0, -2.0, -9.81)
+QUANTITIES = ("R, t", "J", "gravity", "wrench", "M_u")
+WORDS = """Errors are relative to the largest entry of a quantity (J, R and t: absolute, in m and rad). Each mechanism is
+evaluated ten times by one `System`, at three configurations in turn; the first call and the tenth are at the same one.
+"""
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link, its inertia, and the joint that moves it; `leader` counts in the links."""
+
+    name: str
+    parent: int
+    kind: str
+    xyz: np.ndarray
+    rpy: np.ndarray
+    axis: np.ndarray
+    mass: float
+    com: np.ndarray
+    com_rpy: np.ndarray
+    moments: np.ndarray
+    actuated: bool
+    leader: int | None = None
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+    @property
+    def joint(self) -> str:
+        """Name of its joint."""
+        return f"j{self.name}"
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Some links, the root first, and how the root moves."""
+
+    name: str
+    links: list[Link]
+    base: str
+    base_actuated: bool
+
+
+def random_links(rng: np.random.Generator, count: int) -> list[Link]:
+    """A random tree of links; about half of the joints that can follow another one do."""
+    links: list[Link] = []
+    for i in range(count):
+        parent = -1 if i == 0 else int(rng.choice([i - 1, rng.integers(i)]))
+        kind = str(
+            rng.choice(["revolute", "continuous", "prismatic", "fixed"], p=[0.4, 0.2, 0.3, 0.1])
+        )
+        axis = rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        moments = 0.01 * rng.uniform(1, 2, 3)  # any two exceed the third
+        massless = i > 0 and kind == "fixed" and rng.random() < 0.3
+        link = Link(
+            f"{i:02}", parent, kind if i else "root", rng.uniform(-0.3, 0.3, 3), rng.uniform(-3, 3, 3),
+            axis, 0.0 if massless else float(rng.uniform(0.1, 2)), rng.uniform(-0.1, 0.1, 3),
+            rng.uniform(-3, 3, 3), moments, bool(rng.random() < 0.3),
+        )  # fmt: skip
+        links.append(link)
+    return with_mimics(rng, links)
+
+
+def with_mimics(rng: np.random.Generator, links: list[Link]) -> list[Link]:
+    """The same tree with mimic joints; URDF's reader wants a leader before those that follow it."""
+    found, leaders = list(links), list[int]()
+    for i in depth_first(links, 0):
+        link = links[i]
+        if link.kind in ("root", "fixed"):
+            continue
+        endless = link.kind == "continuous"
+        able = [k for k in leaders if (links[k].kind == "continuous") == endless]
+        if not able or rng.random() < 0.5:
+            leaders.append(i)
+            continue
+        multiplier = float(rng.choice([-1, 1]) * rng.choice([1.0, rng.uniform(0.1, 2)]))
+        own = vars(link) | {"leader": int(rng.choice(able)), "actuated": False}
+        found[i] = Link(**(own | {"multiplier": multiplier, "offset": float(rng.uniform(-1, 1))}))
+    return found
+
+
+def depth_first(links: list[Link], at: int) -> list[int]:
+    """Numbers of the links at and below one of them, as URDF's reader visits them."""
+    below = [k for k in range(len(links)) if links[k].parent == at]
+    return [at, *(i for k in below for i in depth_first(links, k))]
+
+
+def random_mechanisms(rng: np.random.Generator) -> list[Mechanism]:
+    """One mechanism or two, and sometimes a free box that stands before them."""
+    found = []
+    if rng.random() < 0.3:
+        found.append(Mechanism("box", random_links(rng, 1), "floating", False))
+    for name in ("arm", "hand")[: rng.integers(1, 3)]:
+        base = str(rng.choice(["fixed", "floating", "planar"]))
+        links = random_links(rng, int(rng.integers(2, 11)))
+        found.append(Mechanism(name, links, base, bool(rng.random() < 0.5)))
+    return found
+
+
+def words(numbers: np.ndarray) -> str:
+    """Numbers in shortest round-trip decimal."""
+    return " ".join(repr(float(x)) for x in numbers)
+
+
+def urdf(mechanism: Mechanism) -> str:
+    """Its URDF's text."""
+    text = ""
+    for link in mechanism.links:
+        text += f'<link name="l{link.name}">'
+        if link.mass:
+            x, y, z = (repr(float(moment)) for moment in link.moments)
+            text += f'<inertial><origin xyz="{words(link.com)}" rpy="{words(link.com_rpy)}"/>'
+            text += f'<mass value="{link.mass!r}"/><inertia ixx="{x}" iyy="{y}" izz="{z}" '
+            text += 'ixy="0" ixz="0" iyz="0"/></inertial>'
+        text += "</link>"
+        if link.kind == "root":
+            continue
+        text += f'<joint name="{link.joint}" type="{link.kind}"><parent link="l{link.parent:02}"/>'
+        text += f'<child link="l{link.name}"/><axis xyz="{words(link.axis)}"/>'
+        text += f'<origin xyz="{words(link.xyz)}" rpy="{words(link.rpy)}"/>'
+        text += '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+        if link.leader is not None:
+            text += f'<mimic joint="{mechanism.links[link.leader].joint}" '
+            text += f'multiplier="{link.multiplier!r}" offset="{link.offset!r}"/>'
+        text += "</joint>"
+    return f'<robot name="r" version="1.1">{text}</robot>'
+
+
+# The reference: nothing below this line up to `compare` is the package's.
+
+
+def cross_matrix(v: np.ndarray) -> np.ndarray:
+    """[v x]."""
+    x, y, z = v
+    return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+
+def about(axis: np.ndarray, angle: complex) -> np.ndarray:
+    """Rotation about a unit axis, whose angle may be complex."""
+    c, s = np.cos(angle), np.sin(angle)
+    return c * np.eye(3) + s * cross_matrix(axis) + (1 - c) * np.outer(axis, axis)
+
+
+def turned(rpy: np.ndarray) -> np.ndarray:
+    """Rotation of fixed-axis roll, pitch and yaw."""
+    X, Y, Z = np.eye(3)
+    return about(Z, rpy[2]) @ about(Y, rpy[1]) @ about(X, rpy[0])
+
+
+@dataclass(frozen=True)
+class State:
+    """Where a mechanism is: the pose of its base, and the position of each joint."""
+
+    base: tuple[np.ndarray, np.ndarray]
+    positions: list[float]
+
+
+Poses = list[tuple[np.ndarray, np.ndarray]]
+
+
+def poses(mechanism: Mechanism, state: State, moving: str | None) -> Poses:
+    """R and t of each link; the coordinate of that name has made an imaginary step."""
+    R, t = state.base
+    if moving is not None and moving.startswith("base."):
+        turns, axis = moving.startswith("base.r"), np.eye(3)["xyz".index(moving[-1])]
+        t = t + (0 if turns else 1j * STEP) * (R @ axis)
+        R = R @ (np.eye(3) + (1j * STEP if turns else 0) * cross_matrix(axis))
+    found = [(R, t)]
+    for link in mechanism.links[1:]:
+        at = mechanism.links.index(link) if link.leader is None else link.leader
+        position: complex = state.positions[at]
+        if moving == mechanism.links[at].joint:
+            position += 1j * STEP
+        position = link.multiplier * position + link.offset
+        R, t = found[link.parent]
+        R, t = R @ turned(link.rpy), t + R @ link.xyz
+        if link.kind == "prismatic":
+            t = t + position * (R @ link.axis)
+        elif link.kind != "fixed":
+            R = R @ about(link.axis, position)
+        found.append((R, t))
+    return found
+
+
+def jacobians(mechanism: Mechanism, state: State, names: list[str]) -> np.ndarray:
+    """J of each link, shape (links, 6, n): its origin's velocity, then its angular velocity."""
+    J = np.zeros((len(mechanism.links), 6, len(names)))
+    for k, name in enumerate(names):
+        for link, (R, t) in enumerate(poses(mechanism, state, name)):
+            W = (R.imag / STEP) @ R.real.T  # [omega x]
+            J[link, :, k] = [*(t.imag / STEP), W[2, 1], W[0, 2], W[1, 0]]
+    return J
+
+
+def dynamics(mechanism: Mechanism, at: Poses, J: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The mass matrix and gravity's force."""
+    M, force = np.zeros((J.shape[2], J.shape[2])), np.zeros(J.shape[2])
+    for link, (R, _), (J_t, J_w) in zip(
+        mechanism.links, at, J.reshape(-1, 2, 3, J.shape[2]), strict=True
+    ):
+        J_c = J_t - cross_matrix(R @ link.com) @ J_w
+        axes = R @ turned(link.com_rpy)
+        M += link.mass * J_c.T @ J_c
+        if link.mass:
+            M += J_w.T @ axes @ np.diag(link.moments) @ axes.T @ J_w
+        force += link.mass * J_c.T @ np.array(GRAVITY)
+    return M, force
+
+
+def root_centre(mechanism: Mechanism) -> np.ndarray:
+    """Centre of mass, in the root's frame, of the root and of the links that are welded to it."""
+    welded = {0: (np.eye(3), np.zeros(3))}
+    for i, link in enumerate(mechanism.links):
+        if link.kind == "fixed" and link.parent in welded:
+            R, t = welded[link.parent]
+            welded[i] = R @ turned(link.rpy), t + R @ link.xyz
+    links = mechanism.links
+    total = sum(links[i].mass for i in welded)
+    return (
+        np.sum([links[i].mass * (R @ links[i].com + t) for i, (R, t) in welded.items()], axis=0)
+        / total
+    )
+
+
+# What the package says, and by how much it differs.
+
+
+def random_state(rng: np.random.Generator, mechanism: Mechanism, body: Body) -> State:
+    """The pose that the body has in its scene if it is fixed, else a random one."""
+    xyz, rpy = rng.uniform(-1, 1, 3), rng.uniform(-3, 3, 3)
+    if mechanism.base == "fixed":
+        xyz, rpy = np.array(body.xyz), np.array(body.rpy)
+    if mechanism.base == "planar":
+        xyz[2], rpy[:2] = body.xyz[2], 0.0
+    return State((turned(rpy), xyz), rng.uniform(-2, 2, len(mechanism.links)).tolist())
+
+
+def quaternion(R: np.ndarray) -> np.ndarray:
+    """[x y z w] of a rotation: the eigenvector of its largest eigenvalue (Bar-Itzhack)."""
+    W = R - R.T
+    K = np.zeros((4, 4))
+    K[:3, :3] = R + R.T - np.trace(R) * np.eye(3)
+    K[:3, 3] = K[3, :3] = W[2, 1], W[0, 2], W[1, 0]
+    K[3, 3] = np.trace(R)
+    return np.linalg.eigh(K)[1][:, 3]
+
+
+def configuration(system: System, mechanisms: list[Mechanism], states: list[State]) -> np.ndarray:
+    """The q of these states."""
+    q = np.full(system.n_q, np.nan)
+    for joint in system.joints:
+        name, short = joint.name.split("/")
+        k = [mechanism.name for mechanism in mechanisms].index(name)
+        R, t = states[k].base
+        if joint.kind == "floating":
+            q[joint.q] = [*t, *quaternion(R)]
+        elif joint.kind == "planar":
+            q[joint.q] = [t[0], t[1], R[0, 0], R[1, 0]]
+        else:
+            position = states[k].positions[int(short[1:])]
+            endless = joint.kind == "continuous"
+            q[joint.q] = [np.cos(position), np.sin(position)] if endless else position
+    return q
+
+
+def expected(system: System, mechanisms: list[Mechanism], states: list[State]) -> list[np.ndarray]:
+    """The reference of each of QUANTITIES, in the system's order of links and coordinates."""
+    n = system.n_v
+    at, all_J = [np.hstack([np.eye(3), np.zeros((3, 1))])], [np.zeros((1, 6, n))]
+    M, force, pushed = np.zeros((n, n)), np.zeros(n), np.zeros(n)
+    for mechanism, state in zip(mechanisms, states, strict=True):
+        own = [
+            k for k, c in enumerate(system.coordinates) if c.name.startswith(f"{mechanism.name}/")
+        ]
+        names = [system.coordinates[k].name.partition("/")[2] for k in own]
+        J, placed = jacobians(mechanism, state, names), poses(mechanism, state, None)
+        M[np.ix_(own, own)], force[own] = dynamics(mechanism, placed, J)
+        if mechanism.base != "fixed":
+            arm = placed[0][0] @ root_centre(mechanism)
+            J_c = J[0, :3] - cross_matrix(arm) @ J[0, 3:]
+            pushed[own] = J_c.T @ [1, 2, 3] + J[0, 3:].T @ [4, 5, 6]
+        order = [
+            int(l.partition("/")[2][1:]) for l in system.links if l.startswith(f"{mechanism.name}/")
+        ]
+        at += [np.column_stack(placed[i]) for i in order]
+        whole = np.zeros((len(order), 6, n))
+        whole[:, :, own] = J[order]
+        all_J.append(whole)
+    return [np.array(at), np.concatenate(all_J), force, pushed, M[system.n_a :, system.n_a :]]
+
+
+def found(system: System, mechanisms: list[Mechanism], q: np.ndarray) -> list[np.ndarray]:
+    """The same, as the package has it."""
+    kinematics = system.kinematics(q)
+    at = np.concatenate([kinematics.R, kinematics.t[:, :, None]], axis=2)
+    pushed = np.zeros(system.n_v)
+    for mechanism in mechanisms:
+        if mechanism.base != "fixed":
+            pushed += system.centre_of_mass_force(q, mechanism.name, [1, 2, 3], [4, 5, 6])
+    return [at, kinematics.J, system.gravity_force(q, GRAVITY), pushed, system.M_u(q)]
+
+
+def error(a: np.ndarray, b: np.ndarray) -> float:
+    """Largest difference of two arrays, relative to the second where that exceeds 1."""
+    return float(np.abs(a - b).max(initial=0.0) / max(1e-3, np.abs(b).max(initial=0.0)))
+
+
+def compare(seed: int) -> tuple[Counter[str], np.ndarray, bool]:
+    """What a mechanism has, its errors (calls, quantities), whether its bits stay the same."""
+    rng = np.random.default_rng(seed)
+    mechanisms = random_mechanisms(rng)
+    bodies = []
+    for m in mechanisms:
+        own = [link.joint for link in m.links[1:] if link.actuated and link.kind != "fixed"]
+        if m.base != "fixed" and m.base_actuated:
+            own.append("base")
+        pose = {"xyz": tuple(rng.uniform(-1, 1, 3)), "rpy": tuple(rng.uniform(-3, 3, 3))}
+        if m.base == "planar":
+            pose["rpy"] = (0.0, 0.0, pose["rpy"][2])
+        bodies.append(Body(m.name, urdf(m), m.base, tuple(own), **pose))
+    system = System(bodies)
+    states = [
+        [random_state(rng, *both) for both in zip(mechanisms, bodies, strict=True)]
+        for _ in range(3)
+    ]
+    at = [configuration(system, mechanisms, one) for one in states]
+    truth = [expected(system, mechanisms, one) for one in states]
+    answers = [found(system, mechanisms, at[call % 3]) for call in range(CALLS)]
+    errors = np.array([
+        [error(a, b) for a, b in zip(answers[call], truth[call % 3], strict=True)]
+        for call in range(CALLS)
+    ])  # fmt: skip
+    same = all(np.array_equal(a, b) for a, b in zip(answers[0], answers[-1], strict=True))
+    return features(mechanisms), errors, same
+
+
+def features(mechanisms: list[Mechanism]) -> Counter[str]:
+    """How many mimic joints there are, and of which kinds."""
+    count = Counter[str]()
+    for mechanism in mechanisms:
+        links = mechanism.links
+        for link in links:
+            if link.leader is None:
+                continue
+            above, parent = [], link.parent
+            while parent > 0:
+                above.append(parent)
+                parent = links[parent].parent
+            count["mimic joints"] += 1
+            count["negative"] += link.multiplier < 0
+            count["passive"] += not links[link.leader].actuated
+            count["below another mimic joint"] += any(links[k].leader is not None for k in above)
+            count["below its leader"] += link.leader in above
+            count["of another kind than its leader"] += link.kind != links[link.leader].kind
+    return count
+
+
+def report(count: int) -> str:
+    """The committed table."""
+    kinds, errors, same, with_mimic = Counter[str](), [], 0, 0
+    for seed in range(count):
+        own, off, equal = compare(seed)
+        kinds += own
+        errors.append(off)
+        same += equal
+        with_mimic += own["mimic joints"] > 0
+    worst = np.array(errors)
+    lines = [
+        f"{count} random mechanisms, {with_mimic} of them with mimic joints; made by validation/make/random_mechanisms.py.",
+        "",
+    ]
+    lines += [WORDS, "| quantity | first call | tenth call | any call |", "|---|---|---|---|"]
+    for k, name in enumerate(QUANTITIES):
+        one = worst[:, :, k]
+        lines.append(
+            f"| {name} | {one[:, 0].max():.0e} | {one[:, -1].max():.0e} | {one.max():.0e} |"
+        )
+    lines += ["", f"Equal bits at the first and the tenth call: {same} of {count}.", ""]
+    lines += ["; ".join(f"{name}: {number}" for name, number in kinds.items()) + "."]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Write the result."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=1000)
+    text = report(parser.parse_args().count)
+    (ROOT / "validation" / "results" / "random_mechanisms.md").write_text(text)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
