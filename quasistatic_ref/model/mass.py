@@ -76,12 +76,14 @@ def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
 def turned(M: Array, v: Array) -> Array:
     """Products M v, shape (k, 3), of matrices (k, 3, 3) and vectors (k, 3) [any unit]."""
     x, y, z = v.T[:, :, None]
-    return M[:, :, 0] * x + M[:, :, 1] * y + M[:, :, 2] * z
+    product: Array = M[:, :, 0] * x + M[:, :, 1] * y + M[:, :, 2] * z
+    return product
 
 
 def dot(a: Array, b: Array) -> Array:
     """Products a . b, shape (k,), of vectors of shape (k, 3) [any unit]."""
-    return a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2]
+    product: Array = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2]
+    return product
 
 
 def constant_mass(model: Any, free: Sequence[Joint]) -> bool:

@@ -32,28 +32,6 @@ def test_the_mass_matrix_of_a_free_box_is_the_formula(tmp_path: Path) -> None:
     assert np.abs(system.M_u(system.q_start) - expected).max() < ROUNDING
 
 
-def mass_matrix(scene: System, q: np.ndarray) -> np.ndarray:
-    """Sum over links of m J_c' J_c + J_w' I J_w, by the numbers in the files."""
-    k, M = scene.kinematics(q), np.zeros((scene.n_v, scene.n_v))
-    for body in scene.bodies:
-        for name, said in urdf_file(body.urdf).links.items():
-            at = scene.link(f"{body.name}/{name}")
-            J_w = k.J[at, 3:]
-            J_c = k.J[at, :3] - cross_matrix(k.R[at] @ said.com) @ J_w
-            M += said.mass * J_c.T @ J_c + J_w.T @ k.R[at] @ said.inertia @ k.R[at].T @ J_w
-    return M
-
-
-def test_M_u_is_the_unactuated_block_of_the_sum_over_links(scene: System, q: np.ndarray) -> None:
-    M_u = scene.M_u(q)
-    expected = mass_matrix(scene, q)[scene.n_a :, scene.n_a :]
-    assert np.abs(M_u - expected).max() < ROUNDING * np.abs(expected).max()
-    assert np.array_equal(M_u, M_u.T)
-    # Off-diagonal entries between the arm's joints: the symmetry is not one of zeros.
-    arm = [k for k, c in enumerate(scene.coordinates[scene.n_a :]) if c.name.startswith("arm/")]
-    assert np.abs(M_u[arm[0], arm[1]]) > 0.01
-
-
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 2, -2.5])
 def test_gravity_turns_a_pendulum_by_m_g_l_sin(tmp_path: Path, angle: float) -> None:
     body = Body("p", written(tmp_path, PENDULUM), actuated="all", positions={"swing": angle})

@@ -17,18 +17,19 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from quasistatic_ref.model.system import Body, System
 
+ROOT = Path(__file__).parents[2]
 STEP = 1e-30
 """The imaginary step of a coordinate [m, rad]: its square is nothing next to 1."""
 CALLS = 10
 GRAVITY = (1.0, -2.0, -9.81)
 QUANTITIES = ("R, t", "J", "gravity", "wrench", "M_u")
-WORDS = """Errors are relative to the largest entry of a quantity (J, R and t: absolute, in m and rad). Each mechanism is
-evaluated ten times by one `System`, at three configurations in turn; the first call and the tenth are at the same one.
+WORDS = """Errors are the largest difference over the largest entry of a quantity. Each mechanism is
+evaluated ten times by one `System`, at three configurations in turn; the first call and the tenth
+are at the same one.
 """
 
 
@@ -80,8 +81,9 @@ def random_links(rng: np.random.Generator, count: int) -> list[Link]:
         moments = 0.01 * rng.uniform(1, 2, 3)  # any two exceed the third
         massless = i > 0 and kind == "fixed" and rng.random() < 0.3
         link = Link(
-            f"{i:02}", parent, kind if i else "root", rng.uniform(-0.3, 0.3, 3), rng.uniform(-3, 3, 3),
-            axis, 0.0 if massless else float(rng.uniform(0.1, 2)), rng.uniform(-0.1, 0.1, 3),
+            f"{i:02}", parent, kind if i else "root",
+            rng.uniform(-0.3, 0.3, 3), rng.uniform(-3, 3, 3), axis,
+            0.0 if massless else float(rng.uniform(0.1, 2)), rng.uniform(-0.1, 0.1, 3),
             rng.uniform(-3, 3, 3), moments, bool(rng.random() < 0.3),
         )  # fmt: skip
         links.append(link)
@@ -174,11 +176,19 @@ def turned(rpy: np.ndarray) -> np.ndarray:
     return about(Z, rpy[2]) @ about(Y, rpy[1]) @ about(X, rpy[0])
 
 
+def of_quaternion(p: np.ndarray) -> np.ndarray:
+    """Rotation of a unit quaternion [x y z w]."""
+    v, w = p[:3], p[3]
+    return (w * w - v @ v) * np.eye(3) + 2 * np.outer(v, v) + 2 * w * cross_matrix(v)
+
+
 @dataclass(frozen=True)
 class State:
     """Where a mechanism is: the pose of its base, and the position of each joint."""
 
-    base: tuple[np.ndarray, np.ndarray]
+    quaternion: np.ndarray
+    R: np.ndarray
+    t: np.ndarray
     positions: list[float]
 
 
@@ -187,7 +197,7 @@ Poses = list[tuple[np.ndarray, np.ndarray]]
 
 def poses(mechanism: Mechanism, state: State, moving: str | None) -> Poses:
     """R and t of each link; the coordinate of that name has made an imaginary step."""
-    R, t = state.base
+    R, t = state.R, state.t
     if moving is not None and moving.startswith("base."):
         turns, axis = moving.startswith("base.r"), np.eye(3)["xyz".index(moving[-1])]
         t = t + (0 if turns else 1j * STEP) * (R @ axis)
@@ -254,22 +264,14 @@ def root_centre(mechanism: Mechanism) -> np.ndarray:
 
 def random_state(rng: np.random.Generator, mechanism: Mechanism, body: Body) -> State:
     """The pose that the body has in its scene if it is fixed, else a random one."""
-    xyz, rpy = rng.uniform(-1, 1, 3), rng.uniform(-3, 3, 3)
+    p, t = rng.normal(size=4), rng.uniform(-1, 1, 3)
+    p /= np.linalg.norm(p)
+    R = of_quaternion(p)
     if mechanism.base == "fixed":
-        xyz, rpy = np.array(body.xyz), np.array(body.rpy)
+        R, t = turned(np.array(body.rpy)), np.array(body.xyz)
     if mechanism.base == "planar":
-        xyz[2], rpy[:2] = body.xyz[2], 0.0
-    return State((turned(rpy), xyz), rng.uniform(-2, 2, len(mechanism.links)).tolist())
-
-
-def quaternion(R: np.ndarray) -> np.ndarray:
-    """[x y z w] of a rotation: the eigenvector of its largest eigenvalue (Bar-Itzhack)."""
-    W = R - R.T
-    K = np.zeros((4, 4))
-    K[:3, :3] = R + R.T - np.trace(R) * np.eye(3)
-    K[:3, 3] = K[3, :3] = W[2, 1], W[0, 2], W[1, 0]
-    K[3, 3] = np.trace(R)
-    return np.linalg.eigh(K)[1][:, 3]
+        R, t[2] = about(np.eye(3)[2], rng.uniform(-3, 3)), body.xyz[2]
+    return State(p, R, t, rng.uniform(-2, 2, len(mechanism.links)).tolist())
 
 
 def configuration(system: System, mechanisms: list[Mechanism], states: list[State]) -> np.ndarray:
@@ -278,9 +280,9 @@ def configuration(system: System, mechanisms: list[Mechanism], states: list[Stat
     for joint in system.joints:
         name, short = joint.name.split("/")
         k = [mechanism.name for mechanism in mechanisms].index(name)
-        R, t = states[k].base
+        R, t = states[k].R, states[k].t
         if joint.kind == "floating":
-            q[joint.q] = [*t, *quaternion(R)]
+            q[joint.q] = [*t, *states[k].quaternion]
         elif joint.kind == "planar":
             q[joint.q] = [t[0], t[1], R[0, 0], R[1, 0]]
         else:
@@ -307,7 +309,9 @@ def expected(system: System, mechanisms: list[Mechanism], states: list[State]) -
             J_c = J[0, :3] - cross_matrix(arm) @ J[0, 3:]
             pushed[own] = J_c.T @ [1, 2, 3] + J[0, 3:].T @ [4, 5, 6]
         order = [
-            int(l.partition("/")[2][1:]) for l in system.links if l.startswith(f"{mechanism.name}/")
+            int(link.partition("/")[2][1:])
+            for link in system.links
+            if link.startswith(f"{mechanism.name}/")
         ]
         at += [np.column_stack(placed[i]) for i in order]
         whole = np.zeros((len(order), 6, n))
@@ -328,8 +332,8 @@ def found(system: System, mechanisms: list[Mechanism], q: np.ndarray) -> list[np
 
 
 def error(a: np.ndarray, b: np.ndarray) -> float:
-    """Largest difference of two arrays, relative to the second where that exceeds 1."""
-    return float(np.abs(a - b).max(initial=0.0) / max(1e-3, np.abs(b).max(initial=0.0)))
+    """Largest difference of two arrays, over the largest entry of the second."""
+    return float(np.abs(a - b).max(initial=0.0) / (np.abs(b).max(initial=0.0) or 1.0))
 
 
 def compare(seed: int) -> tuple[Counter[str], np.ndarray, bool]:
@@ -393,7 +397,7 @@ def report(count: int) -> str:
         with_mimic += own["mimic joints"] > 0
     worst = np.array(errors)
     lines = [
-        f"{count} random mechanisms, {with_mimic} of them with mimic joints; made by validation/make/random_mechanisms.py.",
+        f"{count} random mechanisms, {with_mimic} of them with mimic joints.",
         "",
     ]
     lines += [WORDS, "| quantity | first call | tenth call | any call |", "|---|---|---|---|"]

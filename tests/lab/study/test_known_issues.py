@@ -3,6 +3,9 @@
 Then docs/studies.md, which lists them, is out of date, and the workaround may go.
 """
 
+import json
+import runpy
+
 import numpy as np
 import pytest
 
@@ -16,6 +19,7 @@ from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
 from tests.lab.study.planted import slab
+from validation.engines.reproduce import FOLDER
 
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""
@@ -63,3 +67,11 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     works.fill(step)
     works.problem.solve(solver="CLARABEL", canon_backend=CANON)
     assert works.problem.status == "optimal"
+
+
+def test_pinocchio_still_finds_another_mass_matrix_at_each_call_where_joints_mimic(capsys):
+    file = "pinocchio_mimic.py"
+    runpy.run_path(str(FOLDER / file))
+    record = json.loads((FOLDER.parent / "results" / "pinocchio.json").read_text("utf-8"))
+    _, _, rows = capsys.readouterr().out.rstrip().partition(": ")
+    assert rows == record["printed"][file].partition(": ")[2]
