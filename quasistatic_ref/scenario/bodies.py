@@ -17,12 +17,14 @@ from quasistatic_ref.scenario.paths import path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import BODY, WAYPOINT, WRENCH, value
 from quasistatic_ref.scenario.tables import check_names, pose
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.arrays import Array, positive_definite
+from quasistatic_ref.step.arrays import Array, keep, positive_definite
 
 
 @dataclass(frozen=True, eq=False)
 class Wrenches(Plain):
     """An external wrench at the centre of mass of a body's root link, piecewise linear in time.
+
+    It is held before its first time, from the run's start, and after its last.
 
     Parameters
     ----------
@@ -36,6 +38,9 @@ class Wrenches(Plain):
     body: str
     times: Array
     values: Array
+
+    def __post_init__(self) -> None:
+        keep(self, "times", "values")
 
     def force(self, system: System, t: float, q: Array) -> Array:
         """Generalised force at time t, shape (n_v,)."""
@@ -142,10 +147,17 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
-    """The waypoints of a body's joints as functions of time."""
+    """The waypoints of a body's joints as functions of time.
+
+    Raises
+    ------
+    ScenarioError
+        If a waypoint names what has no target, or asks for more than half a turn at once.
+    """
     joints = {entry.short(joint): joint for joint in entry.actuated(system)}
     times: dict[str, list[float]] = {}
     values: dict[str, list[Any]] = {}
+    angles = {name: _start_angles(entry.body, name, joint) for name, joint in joints.items()}
     for i, record in enumerate(entry.targets):
         waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
         for name in waypoint.names():
@@ -156,13 +168,20 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
         if not waypoint.names():
             raise entry.table.fail(f"targets[{i}]", "names no joint", record)
         for name in waypoint.names():
-            if joints[name].kind == "floating":
-                xyz, rpy = pose(waypoint.table(name))
-                target: Any = np.concatenate([xyz, quaternion(rpy)])
-            elif joints[name].kind == "planar":
-                target = _planar(waypoint, name, entry.body)
+            kind = joints[name].kind
+            if kind == "floating":
+                xyz, turned = pose(waypoint.table(name))
+                target: Any = np.concatenate([xyz, quaternion(turned)])
+            elif kind == "planar":
+                xyz, turned = _planar(waypoint, name, entry.body)
+                target = np.array([xyz[0], xyz[1], np.cos(turned[2]), np.sin(turned[2])])
             else:
-                target = [waypoint.number(name)]
+                turned = np.array([waypoint.number(name)])
+                target = turned
+            # Between waypoints a continuous joint turns as often as they say.
+            if kind in BASES or (kind == "continuous" and name not in times):
+                _check_turn(waypoint, name, angles[name], turned)
+                angles[name] = turned
             times.setdefault(name, []).append(t)
             values.setdefault(name, []).append(target)
     return [
@@ -185,14 +204,33 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
     return np.diag(diagonal)
 
 
-def _planar(waypoint: Fields, name: str, body: Body) -> Array:
-    """Entries of q of a planar base, from the same table as a floating one's."""
+def _start_angles(body: Body, name: str, joint: Joint) -> Array:
+    """Roll, pitch and yaw of a base at the start, or the position of a joint [rad, m]."""
+    if joint.kind in BASES:
+        return np.asarray(body.rpy)
+    return np.array([body.positions.get(name, 0.0)])
+
+
+def _check_turn(waypoint: Fields, name: str, before: Array, after: Array) -> None:
+    """Refuse angles [rad] of which one differs by more than pi: q holds no number of turns."""
+    most = int(np.abs(after - before).argmax())
+    turn = float(after[most] - before[most])
+    if abs(turn) > np.pi:
+        problem = (
+            f"turns by {turn:.4g} rad from where it was, but a spring turns the shorter way: add "
+            "waypoints less than half a turn apart, or take away whole turns"
+        )
+        raise waypoint.fail(name, problem, after.tolist())
+
+
+def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
+    """Origin [m] and roll, pitch, yaw [rad] of a planar base."""
     xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
     height = float(np.asarray(body.xyz)[2])
     if xyz[2] != height or rpy[:2].any():
         problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
         raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
-    return np.array([xyz[0], xyz[1], np.cos(rpy[2]), np.sin(rpy[2])])
+    return xyz, rpy
 
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:

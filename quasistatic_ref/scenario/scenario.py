@@ -39,8 +39,8 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS, NONE
 from quasistatic_ref.solve.engines import check_solver, default_backend, default_engine
 from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.step.arrays import Array, keep
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -98,6 +98,9 @@ class Scenario(Plain):
     engine: str | None = None
 
     __repr__, _repr_html_ = shown(scenario_page)
+
+    def __post_init__(self) -> None:
+        keep(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""

@@ -96,7 +96,8 @@ TABLES = Tables({
         "targets": Field("list of tables", "waypoints, linear in time, held at both ends",
                          default=[], of=WAYPOINT),
         "cloud": Field(
-            "text", "file of points in the root link's frame, meant by the body's name in contacts",
+            "text", "file of points in the root link's frame, meant by the body's name in contacts; a "
+            "repeated point counts once",
             "m", None,
             schema={"pattern": r"\S"},
         ),
@@ -111,7 +112,7 @@ TABLES = Tables({
     },
     WAYPOINT: {"t": Field("number", "time; next to it any joints and their values", "s")},
     WRENCH: {
-        "t": Field("number", "time", "s"),
+        "t": Field("number", "time; held before the first one and after the last", "s"),
         "force": Field(
             "three numbers", "at the centre of mass of the root link, world frame", "N",
             (0.0, 0.0, 0.0),

@@ -45,7 +45,8 @@ SOLIDS: dict[str, Kind] = {
     "halfspace": Kind(
         {
             "normal": Field("three numbers", "out of the solid, of any length", "-"),
-            "offset": Field("number", "of the plane along the normal", "m", 0.0),
+            "offset": Field("number", "the solid is normal . x <= offset: for a normal of "
+                            "length 1 the height of its plane", "m", 0.0),
         },
         lambda _, __, normal, offset: shapes.HalfSpace(normal, offset),
     ),

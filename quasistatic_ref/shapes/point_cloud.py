@@ -7,12 +7,16 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, lengths
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, read_only
 
 
 @dataclass(frozen=True, eq=False)
 class PointCloud(Shape):
-    """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object."""
+    """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object.
+
+    Points that repeat an earlier one are left out: they would be contacts that bear nothing more,
+    in the place of others. Numbers of points count those that are left.
+    """
 
     points: Array
 
@@ -22,6 +26,9 @@ class PointCloud(Shape):
             problem = "must hold at least one point, as an array of shape (N, 3)"
             raise ModelError(problem, field="points", value=points.shape)
         freeze_array(self, "points", (points.shape[0], 3))
+        _, first = np.unique(self.points, axis=0, return_index=True)
+        if len(first) < len(self.points):
+            object.__setattr__(self, "points", read_only(self.points[np.sort(first)]))
 
     @property
     def extent(self) -> float:

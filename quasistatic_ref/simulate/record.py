@@ -1,12 +1,15 @@
 """What a record of a run holds, and whether a header and arrays are one."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.step.cones import cone
 
 RECORDS = ("full", "light")
 CONSTANT = ("mu_v", "mu_omega", "rows")
@@ -17,6 +20,8 @@ PER_STEP = (
 )  # fmt: skip
 PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
 """What a full record adds, step by step."""
+NOT_KNOWN = ("worst_residual", "digits")
+"""Arrays that hold NaN where nothing was certified; all others are finite."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
 
@@ -39,16 +44,29 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     steps = top.integer("steps", least=0)
     full = top.text("record", choices=RECORDS) == "full"
     top.number("h", above=0.0)
-    if not top.is_null("failed"):
-        top.text("failed")
-    extra = top.sequence("extra", [])
+    _unless_null(top, "failed", top.text)
+    _unless_null(top, "quasi_dynamic_number", top.number)
+    _unless_null(top, "largest_drag_share", top.number)
+    top.number("largest_boundary_layer")
+    top.text("backend")
+    with about_field("cone"):
+        cone(top.text("cone"))
+    n_v = top.integer("n_a", least=0) + top.integer("n_u", least=0)
+    if len(top.words("coordinates")) != n_v:
+        raise InputError(f"must have {n_v} entries", field="coordinates")
+    extra = top.words("extra")
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         _check_present(arrays, needed)
+    of_programs = PROGRAM if full else ()
+    _check_known(arrays, ("q", *CONSTANT, *PER_STEP, *of_programs, *(EXTRA if extra else ())))
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
             raise InputError("must hold numbers", field=name, value=str(array.dtype))
+        known = array[~np.isnan(array)] if name in NOT_KNOWN else array
+        if array.dtype.kind == "f" and not np.isfinite(known).all():
+            raise InputError("must hold finite numbers only", field=name)
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
         if arrays[name].ndim == 0 or len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
@@ -59,6 +77,20 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     if not all(isinstance(names, list) for names in contacts):
         raise top.fail("contacts", "must be lists of names", contacts)
     top.words("warnings", [])
+    top.close()
+
+
+def _unless_null(top: Fields, name: str, read: Callable[[str], Any]) -> None:
+    if top.is_null(name):
+        top.take(name)
+    else:
+        read(name)
+
+
+def _check_known(arrays: Iterable[str], known: Collection[str]) -> None:
+    for name in arrays:
+        if name not in known:
+            raise InputError(f"is unknown{suggestion(name, known)}", field=name)
 
 
 def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:

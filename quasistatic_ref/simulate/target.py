@@ -9,7 +9,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array, keep
 
 
 def piecewise_linear(times: Array, values: Array, t: float) -> Array:
@@ -57,6 +57,7 @@ class JointTrack(Plain):
     values: Array
 
     def __post_init__(self) -> None:
+        keep(self, "times", "values")
         if not (np.diff(self.times) > 0).all():
             field = f"targets of {self.joint.name}"
             raise ScenarioError("waypoint times must increase", field=field, value=self.times)
@@ -95,6 +96,9 @@ class Targets(Plain):
 
     q_a_start: Array
     tracks: Sequence[JointTrack]
+
+    def __post_init__(self) -> None:
+        keep(self, "q_a_start")
 
     def __call__(self, t: float) -> Array:
         """q_bar_a at time t [s], shape (n_q_a,)."""

@@ -21,7 +21,6 @@ from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, trajectory
 from quasistatic_ref.optional.show.table import data_frame
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
-from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
 if TYPE_CHECKING:
@@ -62,13 +61,18 @@ class Trajectory(Plain):
         The system and the pairs, where the run was made in this process; kept in memory only, and
         not copied or pickled.
 
-    Each array is an attribute as well: ``trajectory.phi`` is ``trajectory["phi"]``.
+    Each array is an attribute as well: ``trajectory.phi`` is ``trajectory["phi"]``. All are
+    read-only.
     """
 
     header: Mapping[str, Any]
     arrays: Mapping[str, NDArray[Any]]
     seconds: Mapping[str, Array] = field(default_factory=dict, compare=False)
     scene: Scene | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        for array in self.arrays.values():
+            array.setflags(write=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -137,14 +141,14 @@ class Trajectory(Plain):
             **{key: a[key] for key in CONSTANT},
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-        names = tuple(self.header.get("extra", ()))
+        names = tuple(self.header["extra"])
         none = np.zeros((0, a["delta_q"].shape[1])), np.zeros(0)
         rows = (a["extra_A"][k], a["extra_b"][k]) if names else none
         return StepData(
             h=self.header["h"],
             **{key: a[key][k] for key in parts},
             contacts=contacts,
-            cone=self.header.get("cone", PYRAMID),
+            cone=self.header["cone"],
             extra=Extra(names, *rows),
         )
 
@@ -221,7 +225,8 @@ def trajectory_read(path: str | Path) -> Trajectory:
     Raises
     ------
     InputError
-        If it is not one, is of another version, or its header and arrays do not fit together.
+        If it is not one, is of another version, its header and arrays do not fit together, a field
+        is unknown or missing, or a number is not finite that has to be.
     """
     header, arrays = npz_record(path, "a trajectory written by this program")
     with about_file(path):

@@ -115,6 +115,12 @@ def freeze(
         object.__setattr__(owner, key, frozen(getattr(owner, key), prefix + key, shape, error))
 
 
+def keep(owner: Any, *fields: str) -> None:
+    """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
+    for field in fields:
+        object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))
+
+
 def definite(name: str, matrix: Any, n: int) -> Array:
     """A read-only copy, shape (n, n) [any unit], of a symmetric positive definite matrix.
 

@@ -8,10 +8,10 @@ from validation.make.random_mechanisms import CALLS, compare
 
 def test_random_mechanisms_move_and_weigh_as_their_links_do() -> None:
     kinds = Counter[str]()
-    for seed in range(6):
+    for seed in range(8):
         own, errors, same = compare(seed)
         kinds += own
         assert errors.shape[0] == CALLS
         assert errors.max() < ROUNDING
         assert same
-    assert min(kinds[name] for name in ("negative", "passive", "below another mimic joint")) > 3
+    assert min(kinds[name] for name in ("negative", "passive", "below another mimic joint")) > 2

@@ -43,7 +43,7 @@ def point_cloud(path: str | Path) -> PointCloud:
     Returns
     -------
     PointCloud
-        Points in file order, shape (N, 3) [m].
+        Points in file order, shape (N, 3) [m]; a repeated one counts once.
 
     Raises
     ------

@@ -39,7 +39,7 @@ def watched(scene: Scene, run: Mapping[str, NDArray[np.generic]], gap: Array) ->
         Of the run.
     run : mapping of str to ndarray
         Of a trajectory of one step at least: ``phi`` [m], ``point``, of shape (steps, n_c),
-        ``delta_q`` and ``q_bar_a`` [m, rad].
+        ``q``, ``delta_q`` and ``q_bar_a`` [m, rad].
     gap : ndarray, shape (steps, n_c)
         What each step predicts for its contacts, phi + n'J delta_q [m].
 
@@ -47,13 +47,16 @@ def watched(scene: Scene, run: Mapping[str, NDArray[np.generic]], gap: Array) ->
     -------
     list of str
         At most one for meshes and clouds, one for each table's mu_omega, one for each table of
-        contacts, one for the fastest motion, one for each joint's targets.
+        contacts, one for the fastest motion, one for each joint's targets, and one for each that
+        comes to lag its target by half a turn.
     """
     system, pairs = scene
     sunk = _sunk(pairs, np.asarray(run["phi"]), np.asarray(run["point"]), gap)
     leaps = _leaps(system, pairs, np.asarray(run["delta_q"]))
-    targets = _targets(system, np.asarray(run["q_bar_a"]))
-    return [*doubtful_units(scene), *sunk, *leaps, *targets]  # causes before what comes of them
+    q_bar_a = np.asarray(run["q_bar_a"])
+    targets, turns = _targets(system, q_bar_a), _half_turns(system, np.asarray(run["q"]), q_bar_a)
+    # Causes before what comes of them.
+    return [*doubtful_units(scene), *sunk, *leaps, *targets, *turns]
 
 
 def _table(pair: ContactPair) -> str:
@@ -165,6 +168,33 @@ def _beyond(joint: Joint, target: Array, lower: float, upper: float) -> Iterator
             f"change the target of {joint.name}, {target[k]:.3g} {unit} at step {k}, or the limit "
             f"in its URDF, {limit:.3g} {unit}: the model ignores limits, the robot does not"
         )
+
+
+def _half_turns(system: System, q: Array, q_bar_a: Array) -> Iterator[str]:
+    """Joints that come to lag their target by half a turn, from where springs turn them back."""
+    for joint in system.joints:
+        if not joint.actuated or joint.kind not in ("floating", "planar", "continuous"):
+            continue
+        lag = _lag(joint.kind, q[:-1, joint.q], q_bar_a[:, joint.q])
+        far = np.linalg.norm(lag, axis=1) > np.sqrt(2)  # 2 sin of an eighth of a turn
+        turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
+        if turned_over.any():
+            yield (
+                f"take a larger K_q or a slower target: {joint.name} lags its target by half a "
+                f"turn at step {int(turned_over.argmax()) + 1}, and a spring turns the shorter way"
+            )
+
+
+def _lag(kind: str, q: Array, q_bar: Array) -> Array:
+    """Axis of the shorter turn from q to q_bar times 2 sin of half its angle; (steps, 1 or 3)."""
+    if kind == "floating":
+        v, w, v_bar, w_bar = q[:, 3:6], q[:, 6:], q_bar[:, 3:6], q_bar[:, 6:]
+        both = w * v_bar - w_bar * v - np.cross(v, v_bar)
+        cosine = w * w_bar + np.vecdot(v, v_bar)[:, None]
+        return np.where(cosine < 0, -2.0, 2.0) * both
+    (c, s), (c_bar, s_bar) = q[:, -2:].T, q_bar[:, -2:].T
+    angle = np.arctan2(c * s_bar - s * c_bar, c * c_bar + s * s_bar)
+    return np.asarray(2 * np.sin(angle / 2))[:, None]
 
 
 def doubtful_units(scene: Scene) -> Iterator[str]:

@@ -44,6 +44,7 @@ def made(scenario, steps=3, **changes):
         "phi": np.zeros((steps, n_c)),
         "point": np.zeros((steps, n_c), dtype=int),
         "delta_q": np.zeros((steps, system.n_v)),
+        "q": np.tile(system.q_start, (steps + 1, 1)),
         "q_bar_a": np.tile(system.q_start[: system.n_q_a], (steps, 1)),
     }
     gap = changes.pop("gap", np.zeros((steps, n_c)))
