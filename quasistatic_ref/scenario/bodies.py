@@ -179,7 +179,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
                 turned = np.array([waypoint.number(name)])
                 target = turned
             # Between waypoints a continuous joint turns as often as they say.
-            if kind in BASES or (kind == "continuous" and name not in times):
+            if kind in ("floating", "planar") or (kind == "continuous" and name not in times):
                 _check_turn(waypoint, name, angles[name], turned)
                 angles[name] = turned
             times.setdefault(name, []).append(t)
@@ -206,7 +206,7 @@ def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
 
 def _start_angles(body: Body, name: str, joint: Joint) -> Array:
     """Roll, pitch and yaw of a base at the start, or the position of a joint [rad, m]."""
-    if joint.kind in BASES:
+    if joint.kind in ("floating", "planar"):
         return np.asarray(body.rpy)
     return np.array([body.positions.get(name, 0.0)])
 

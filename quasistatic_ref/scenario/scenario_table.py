@@ -96,7 +96,8 @@ TABLES = Tables({
         "targets": Field("list of tables", "waypoints, linear in time, held at both ends",
                          default=[], of=WAYPOINT),
         "cloud": Field(
-            "text", "file of points in the root link's frame, meant by the body's name in contacts; a "
+            "text",
+            "file of points in the root link's frame, meant by the body's name in contacts; a "
             "repeated point counts once",
             "m", None,
             schema={"pattern": r"\S"},

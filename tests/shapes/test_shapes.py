@@ -126,6 +126,13 @@ def test_arrays_are_copied_and_read_only() -> None:
         cloud.points[0, 0] = 2.0
 
 
+def test_a_repeated_point_of_a_cloud_counts_once() -> None:
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (1, -0.0)])
+    thrice = np.concatenate([corners, corners[::-1] + 0.0, corners])
+    assert PointCloud(thrice).points.tolist() == corners.tolist()
+    assert PointCloud(corners).points.tolist() == corners.tolist()
+
+
 # Four points of the unit circle, the first again, and five of each of three levels of the sphere.
 CIRCLE = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0]])
 POLE = np.tile([0.0, 0.0, 1.0], (5, 1))

@@ -1,5 +1,6 @@
 """Trajectories: the same bits in and out, without pickles; failed runs keep what succeeded."""
 
+import dataclasses
 import io
 import json
 import zipfile
@@ -154,12 +155,13 @@ def test_a_step_that_does_not_exist_is_refused(run, k):
         run.step_data(k)
 
 
-def test_the_worst_residual_is_that_of_all_steps(run, folder):
+def test_the_worst_residual_is_that_of_all_steps(tmp_path, run, folder):
     assert worst_residual(run) == max(run["worst_residual"])
     settings = ["solver.certify=off"]
     uncertified = load_scenario(folder / "scene.toml", settings).run(progress=False)
     assert worst_residual(uncertified) is None
-    assert np.isnan(uncertified["digits"]).all()
+    back = trajectory_read(uncertified.save(tmp_path / "off.npz"))
+    assert np.isnan(back["digits"]).all()
 
 
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
@@ -201,6 +203,32 @@ def test_an_interrupted_run_keeps_the_steps_before(scenario):
     assert isinstance(caught.value.__cause__, KeyboardInterrupt)
 
 
+def test_what_a_run_leaves_cannot_be_written(tmp_path, scenario, run):
+    arrays = [
+        *run.arrays.values(),
+        *trajectory_read(run.save(tmp_path / "run.npz")).arrays.values(),
+    ]
+    arrays += [scenario.gravity, scenario.K_q, scenario.gravity_acts, scenario.targets.q_a_start]
+    for one in (*scenario.targets.tracks, *scenario.wrenches):
+        arrays += [one.times, one.values]
+    assert not any(array.flags.writeable for array in arrays)
+    given = np.array(scenario.K_q)
+    other = dataclasses.replace(scenario, K_q=given)
+    given[:] = 0.0
+    assert other == scenario
+
+
+def array_changed(path, name, values):
+    """The same file with a number in the middle of an array, or with another array."""
+    with np.load(path) as file:
+        arrays = {key: file[key] for key in file.files}
+    if name in arrays:
+        arrays[name].flat[arrays[name].size // 2] = values
+    else:
+        arrays[name] = values
+    np.savez(path, **arrays)
+
+
 def header_changed(path, change):
     """The same file with another header."""
     with np.load(path) as file:
@@ -232,6 +260,32 @@ SPOILT = {
     "a later version": (
         lambda p: header_changed(p, lambda h: h.update(version=2)),
         "version: is not known here; this program reads 1 (got 2)",
+    ),
+    "no cone": (lambda p: header_changed(p, lambda h: h.pop("cone")), "cone: is missing"),
+    "another cone": (
+        lambda p: header_changed(p, lambda h: h.update(cone="cylinder")),
+        "cone: ",
+    ),
+    "an unknown field": (
+        lambda p: header_changed(p, lambda h: h.update(step=5)),
+        "step: is unknown; did you mean 'steps'?",
+    ),
+    "a coordinate less": (
+        lambda p: header_changed(p, lambda h: h["coordinates"].pop()),
+        "coordinates: must have 8 entries",
+    ),
+    "an unknown array": (
+        lambda p: array_changed(p, "ph", np.zeros(5)),
+        "ph: is unknown; did you mean 'phi'?",
+    ),
+    "NaN in q": (lambda p: array_changed(p, "q", np.nan), "q: must hold finite numbers only"),
+    "infinity in phi": (
+        lambda p: array_changed(p, "phi", np.inf),
+        "phi: must hold finite numbers only",
+    ),
+    "infinite digits": (
+        lambda p: array_changed(p, "digits", np.inf),
+        "digits: must hold finite numbers only",
     ),
     "no array of positions": (
         lambda p: np.savez(p, header=np.load(p)["header"], t=np.zeros(1)),

@@ -20,7 +20,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.tolerances import BEYOND, IN_METRES, LEAP, SUNK
 from tests.model.urdf.urdf_texts import written
-from tests.scenes import written_scenario
+from tests.scenes import chain_scene, written_scenario
 from tests.tolerances import ROUNDING
 
 
@@ -160,3 +160,27 @@ def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):
     phi[2, 0] = -2 * SUNK * 0.1
     said = made(load_scenario(scene, {"contacts.floor.mu_omega": 20.0}), phi=phi)
     assert [sentence[:18] for sentence in said] == ["check the unit of ", "take a smaller h o"]
+
+
+@pytest.mark.parametrize("name", ["arm/spin", "arm/base"])
+@pytest.mark.parametrize(("angles", "step"), [
+    ([3.0, 3.1, 3.2, 3.3], 2),  # from here on the shorter way is the other one
+    ([3.0, 3.1, 3.0, 2.9], None),
+    ([1.0, 0.1, -0.1, -1.0], None),
+    ([-3.0, -3.2, -3.0, 0.0], 1),
+])  # fmt: skip
+def test_a_target_that_is_half_a_turn_ahead_is_named(tmp_path, name, angles, step):
+    system = chain_scene(tmp_path)
+    axis = np.zeros(system.n_v)
+    axis[system.joint(name).v] = [0, 0, 0, 0.6, 0, 0.8] if name == "arm/base" else 1.0
+    q = system.integrate(system.q_start, 0.3 * np.ones(system.n_v))
+    run = {
+        "q": np.tile(q, (5, 1)),
+        "q_bar_a": np.array([system.integrate(q, a * axis)[: system.n_q_a] for a in angles]),
+        "delta_q": np.zeros((4, system.n_v)), "phi": np.zeros((4, 0)), "point": np.zeros((4, 0)),
+    }  # fmt: skip
+    sentence = (
+        f"take a larger K_q or a slower target: {name} lags its target by half a turn at step "
+        f"{step}, and a spring turns the shorter way"
+    )
+    assert watched(Scene(system, ()), run, np.zeros((4, 0))) == ([sentence] if step else [])
