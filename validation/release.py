@@ -74,6 +74,7 @@ RESULTS = (
     printed("pair_distances", "validation/pair_distances.md"),
     printed("load_robots", "validation/load_robots.md"),
     printed("step_profile", "validation/step_profile.md"),
+    printed("make.random_mechanisms", "validation/results/random_mechanisms.md"),
     written("exact_everywhere", "validation/results/exact_everywhere.txt"),
     written("forgeries", "validation/forgeries.md"),
     Result(

@@ -49,10 +49,13 @@ class MassMatrix:
         of_links = np.split(np.arange(len(owner)), np.flatnonzero(np.diff(self.link)) + 1)
         i = np.concatenate([np.repeat(own, len(own)) for own in of_links])
         j = np.concatenate([np.tile(own, len(own)) for own in of_links])
-        above = owner[i] <= owner[j]
-        self.i, self.j = i[above], j[above]
+        once = owner[i] <= owner[j]
+        self.i, self.j = i[once], j[once]
         self.mass = masses[self.link[self.i]]
         self.entry = owner[self.i] * self.n_u + owner[self.j]
+        # Where each entry of M is computed: above the diagonal.
+        entries = np.arange(self.n_u**2).reshape(self.n_u, self.n_u)
+        self.above = np.minimum(entries, entries.T)
 
     def at(self, kinematics: Kinematics) -> Array:
         """M_u, shape (n_u, n_u) [kg, kg m, kg m^2], exactly symmetric and read-only."""
@@ -63,8 +66,7 @@ class MassMatrix:
         turn = turned(R.transpose(0, 2, 1), omega)  # omega in the link's frame
         spin = turned(self.inertia, turn)
         terms = self.mass * dot(nu[self.i], nu[self.j]) + dot(turn[self.i], spin[self.j])
-        above = np.bincount(self.entry, terms, self.n_u**2).reshape(self.n_u, self.n_u)
-        return read_only(above + np.triu(above, 1).T)
+        return read_only(np.bincount(self.entry, terms, self.n_u**2)[self.above])
 
 
 def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
@@ -75,15 +77,14 @@ def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
 
 def turned(M: Array, v: Array) -> Array:
     """Products M v, shape (k, 3), of matrices (k, 3, 3) and vectors (k, 3) [any unit]."""
-    x, y, z = v.T[:, :, None]
-    product: Array = M[:, :, 0] * x + M[:, :, 1] * y + M[:, :, 2] * z
-    return product
+    return dot(M, v[:, None])
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Products a . b, shape (k,), of vectors of shape (k, 3) [any unit]."""
-    product: Array = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2]
-    return product
+    """Products a . b, shape (...), of vectors of shape (..., 3) [any unit]."""
+    product = a * b
+    total: Array = product[..., 0] + product[..., 1] + product[..., 2]
+    return total
 
 
 def constant_mass(model: Any, free: Sequence[Joint]) -> bool:

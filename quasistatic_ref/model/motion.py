@@ -11,6 +11,8 @@ from quasistatic_ref.step.arrays import Array
 
 CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1).reshape(3, 9)
 """[x], [y] and [z] of the axes, each row by row."""
+YZX = np.array([1, 2, 0])
+ZXY = np.array([2, 0, 1])
 
 
 def cross_matrix(r: Array) -> Array:
@@ -37,8 +39,8 @@ def crossed(a: Array, b: Array) -> Array:
     a, b : ndarray, shape (N, 3, ...)
         Of any units; an axis of length 1 in the one stands for all of the other [-].
     """
-    (ax, ay, az), (bx, by, bz) = ((v[:, 0], v[:, 1], v[:, 2]) for v in (a, b))
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
+    product: Array = a[:, YZX] * b[:, ZXY] - a[:, ZXY] * b[:, YZX]
+    return product
 
 
 class Motion:

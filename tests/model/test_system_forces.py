@@ -7,9 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, written
-from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
+from tests.tolerances import ROUNDING
 
 GRAVITY = np.array([1.0, -2.0, -9.81])
 PENDULUM = robot(
@@ -48,22 +47,6 @@ def test_gravity_on_a_free_box_is_its_weight_in_the_body_frame(tmp_path: Path) -
     assert force == pytest.approx(np.r_[weight, moment], abs=20 * ROUNDING)
 
 
-def test_gravity_is_the_slope_of_the_potential(scene: System, q: np.ndarray) -> None:
-    def work(q: np.ndarray) -> float:
-        k, total = scene.kinematics(q), 0.0
-        for body in scene.bodies:
-            for name, said in urdf_file(body.urdf).links.items():
-                at = scene.link(f"{body.name}/{name}")
-                total += said.mass * GRAVITY @ (k.t[at] + k.R[at] @ said.com)
-        return total
-
-    force = scene.gravity_force(q, GRAVITY)
-    for k, direction in enumerate(DIFFERENCE_STEP * np.eye(scene.n_v)):
-        rise = work(scene.integrate(q, direction)) - work(scene.integrate(q, -direction))
-        # The potential is of size 100: weights of 100 N at a metre.
-        assert abs(force[k] - rise / (2 * DIFFERENCE_STEP)) < 100 * DIFFERENCE
-
-
 def test_gravity_of_another_call_leaves_no_trace(scene: System, q: np.ndarray) -> None:
     one, kinematics = scene.gravity_force(q, GRAVITY), scene.kinematics(q)
     scene.gravity_force(scene.q_start, [3, 2, 1])
@@ -71,22 +54,6 @@ def test_gravity_of_another_call_leaves_no_trace(scene: System, q: np.ndarray) -
     assert np.array_equal(scene.gravity_force(q, GRAVITY), one)
     assert np.array_equal(scene.kinematics(q).J, kinematics.J)
     assert not scene.gravity_force(q, np.zeros(3)).any()
-
-
-def test_a_force_at_the_centre_of_mass_does_the_work_of_its_point(
-    scene: System, q: np.ndarray, rng: np.random.Generator
-) -> None:
-    force, torque, box = rng.normal(size=3), rng.normal(size=3), scene.link("box")
-
-    def centre(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        k = scene.kinematics(q)
-        return k.t[box] + k.R[box] @ [0.01, -0.02, 0.03], k.R[box]
-
-    generalised = scene.centre_of_mass_force(q, "box", force, torque)
-    for k, direction in enumerate(DIFFERENCE_STEP * np.eye(scene.n_v)):
-        (c1, R1), (c2, R2) = (centre(scene.integrate(q, s * direction)) for s in (1, -1))
-        work = force @ (c1 - c2) + torque @ Rotation.from_matrix(R1 @ R2.T).as_rotvec()
-        assert abs(generalised[k] - work / (2 * DIFFERENCE_STEP)) < DIFFERENCE
 
 
 def test_weight_at_the_centre_of_mass_is_gravity(tmp_path: Path) -> None:

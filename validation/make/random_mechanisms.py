@@ -1,6 +1,6 @@
 """M_u, gravity's force and J of random mechanisms with mimic joints, against a reference.
 
-    python validation/make/random_mechanisms.py [--count COUNT]
+    python -m validation.make.random_mechanisms [--count COUNT]
 
 The reference shares no code with the package. It places the links that a URDF was written from by
 complex numbers: the derivative of a pose by a coordinate is the imaginary part that an imaginary
@@ -10,18 +10,13 @@ step of 1e-30 leaves, without truncation. M is the sum of m J_c' J_c + J_w' I J_
 from __future__ import annotations
 
 import argparse
-import sys
 from collections import Counter
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
 from quasistatic_ref.model.system import Body, System
 
-ROOT = Path(__file__).parents[2]
 STEP = 1e-30
 """The imaginary step of a coordinate [m, rad]: its square is nothing next to 1."""
 CALLS = 10
@@ -387,7 +382,7 @@ def features(mechanisms: list[Mechanism]) -> Counter[str]:
 
 
 def report(count: int) -> str:
-    """The committed table."""
+    """The committed result."""
     kinds, errors, same, with_mimic = Counter[str](), [], 0, 0
     for seed in range(count):
         own, off, equal = compare(seed)
@@ -408,16 +403,14 @@ def report(count: int) -> str:
         )
     lines += ["", f"Equal bits at the first and the tenth call: {same} of {count}.", ""]
     lines += ["; ".join(f"{name}: {number}" for name, number in kinds.items()) + "."]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines)
 
 
 def main() -> None:
-    """Write the result."""
+    """Print the result."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
-    text = report(parser.parse_args().count)
-    (ROOT / "validation" / "results" / "random_mechanisms.md").write_text(text)
-    print(text)
+    print(report(parser.parse_args().count))
 
 
 if __name__ == "__main__":
