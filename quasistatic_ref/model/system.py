@@ -19,13 +19,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mass import (
-    MassMatrix,
-    check_mass,
-    constant_mass,
-    regular,
-    rigid_masses,
-)
+from quasistatic_ref.model.mass import MassMatrix, check_mass, constant_mass, regular, rigid_masses
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of

@@ -214,50 +214,6 @@ def test_a_mimic_has_no_target(tmp_path):
         load_scenario(path)
 
 
-TURNS = {
-    # What is set, the words for it, and whether it is refused.
-    "a wheel that starts at 4 rad and shall be at 0": (
-        {"bodies.rail.positions": {"turn": 4.0}}, "rail.targets[0].turn: turns by -4 rad", True,
-    ),
-    "a wheel that starts at 3 rad": ({"bodies.rail.positions": {"turn": 3.0}}, "", False),
-    "a base by a whole turn": (
-        {"bodies.ball.targets": [{"t": 0, "base": {"rpy": [0, 0, 6.283]}}]},
-        "ball.targets[0].base: turns by 6.283 rad", True,
-    ),
-    "a base by a turn in quarters": (
-        {"bodies.ball.targets": [
-            {"t": k, "base": {"rpy": [0, 0, 1.5708 * k]}} for k in range(1, 5)
-        ]}, "", False,
-    ),
-    "a base by two thirds of a turn after a third": (
-        {"bodies.ball.targets": [
-            {"t": 0, "base": {"rpy": [0, 0, 2.1]}}, {"t": 1, "base": {"rpy": [0, 0, 6.3]}},
-        ]}, "ball.targets[1].base: turns by 4.2 rad", True,
-    ),
-    "a planar base by a whole turn": (
-        {
-            "bodies.ball.base": "planar",
-            "bodies.ball.targets": [
-                {"t": 0, "base": {"xyz": [0, 0, 0.05], "rpy": [0, 0, -6.283]}}
-            ],
-        }, "ball.targets[0].base: turns by -6.283 rad", True,
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("changes", "says", "refused"), TURNS.values(), ids=TURNS)
-def test_more_than_half_a_turn_at_once_is_refused(load, tmp_path, changes, says, refused):
-    load()
-    if "turn" not in str(changes):
-        changes = changes | {"bodies.ball.actuated": ["base"], "bodies.ball.K_q.base": 1.0}
-    if not refused:
-        load_scenario(tmp_path / "scene.toml", changes)
-        return
-    with pytest.raises(ScenarioError) as caught:
-        load_scenario(tmp_path / "scene.toml", changes)
-    assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: bodies.{says} from where")
-
-
 MISSING_FILES = {
     "the URDF": ('urdf = "ball.urdf"', 'urdf = "none.urdf"', "none.urdf"),
     "the cloud": ('base = "floating"', 'base = "floating"\ncloud = "none.csv"', "none.csv"),

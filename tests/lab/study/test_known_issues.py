@@ -69,7 +69,7 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     assert works.problem.status == "optimal"
 
 
-def test_pinocchio_still_finds_another_mass_matrix_at_each_call_where_joints_mimic(capsys):
+def test_crba_still_differs_from_call_to_call_where_joints_mimic(capsys):
     file = "pinocchio_mimic.py"
     runpy.run_path(str(FOLDER / file))
     record = json.loads((FOLDER.parent / "results" / "pinocchio.json").read_text("utf-8"))
