@@ -138,6 +138,31 @@ Where as many corners are wanted as are that near to the closest pair, it is kep
 
 Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
 
+FACING: Final = 0.25
+"""Angle [rad] between a face and the face that it can lie on after a step: a step that turns by
+more is worth a warning (LEAP)."""
+
+TIED_FACES: Final = 1e-12
+"""Difference of heights over two faces, or of the gaps along two normals, relative to sizes and
+places, at which they count as equal [-]. Places are right to 1e-16, and a body that rests on
+another stays where it is to about that."""
+
+TOUCHING_FACES: Final = 1e-9
+"""Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
+between them. Deeper, the push-out along it would part them along neither."""
+
+OVER_FACE: Final = 1e-9
+"""How far outside of a face the foot of a corner may be, relative to the shape's extent [-], for
+the corner to be over the face: a body that is flush with another turns by about that."""
+
+SAME_NORMAL: Final = 1e-6
+"""Largest difference of the components of two normals that count as one [-]: the coplanar
+triangles of a mesh, or the face of one body and the face of another that lies flat on it."""
+
+FILLED: Final = 1e6
+"""Distance [m] of a contact that stands for nothing. No step is as long: bodies are smaller, and a
+run ends 100 m from the origin."""
+
 CLOSED_FORM: Final = 1e-12
 """Largest difference of a certified step from its closed form, relative to the largest term.
 

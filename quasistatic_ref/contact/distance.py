@@ -1,10 +1,11 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
 For a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
-on beta, beta's corners on alpha, and the closest pair, in that order. The k candidates with the
-smallest signed distances are kept; two kinds rank after all others: candidates that repeat an
-earlier one, and the closest pair if k corners are as near. No candidate is nearer than the closest
-pair, so k = 1 keeps that one alone.
+on beta, beta's corners on alpha, and the closest pair, in that order; of these, the ones whose
+normal is about the pair's. The k with the smallest signed distances are kept; two kinds rank after
+all others: candidates that repeat an earlier one, and the closest pair if k corners are as near. No
+candidate is nearer than the closest pair, so k = 1 keeps that one alone. Where fewer than k are
+left, the closest pair fills the rest, put so far apart that it stands for nothing.
 """
 
 from collections.abc import Sequence
@@ -15,14 +16,22 @@ import numpy as np
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.patch import (
+    OWN,
+    TURNED,
+    Surface,
+    cloud_surface,
+    corner_surface,
+    pair_normal,
+    rounding,
+)
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import ON_RIM, REPEATED, UPRIGHT
+from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, UPRIGHT
 
 
 class ClosestPoints(NamedTuple):
@@ -38,7 +47,9 @@ class ClosestPoints(NamedTuple):
         Unit normal from alpha's body to beta's, also in penetration.
     point : ndarray of int, shape (n_c,)
         Index of the cloud's point; for two solids the number of the candidate, or 0 if only
-        one is kept.
+        one is kept; contacts that fill the number follow the closest pair's.
+    tie : ndarray of int, shape (n_c,)
+        How the normal was chosen, as :mod:`~quasistatic_ref.contact.patch` counts it.
     """
 
     phi: Array
@@ -46,10 +57,11 @@ class ClosestPoints(NamedTuple):
     beta: Array
     n: Array
     point: Indices
+    tie: Indices
 
     def swapped(self) -> "ClosestPoints":
         """The same contacts with alpha's and beta's bodies exchanged."""
-        return ClosestPoints(self.phi, self.beta, self.alpha, -self.n, self.point)
+        return self._replace(alpha=self.beta, beta=self.alpha, n=-self.n)
 
     def chosen(self, index: Indices) -> "ClosestPoints":
         """The contacts of an `index` of shape (k,), in its order."""
@@ -82,8 +94,8 @@ def check_finite(R: Array, t: Array) -> None:
 def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
     """Several lists of contacts as one."""
     if not found:
-        empty = np.zeros((0, 3))
-        return ClosestPoints(np.zeros(0), empty, empty, empty, np.zeros(0, dtype=np.int64))
+        empty, none = np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
+        return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
     return ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
 
 
@@ -91,32 +103,45 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
     a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
     if isinstance(b.shape, PointCloud):
-        return _points_on_solid(a, b, b.shape.points, 0.0, pair.k)
+        return _cloud_on_solid(pair, a, b, b.shape.points)
     if isinstance(a.shape, PointCloud):
-        return _points_on_solid(b, a, a.shape.points, 0.0, pair.k).swapped()
+        return _cloud_on_solid(pair, b, a, a.shape.points).swapped()
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
     candidates = with_corners(a, b, nearest)
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
-    return candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
+    kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
+    return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
+
+
+def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[ClosestPoints]:
+    """Contacts that stand for nothing: the closest pair, FILLED apart, `count` times."""
+    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
+    return [far._replace(point=np.array([pair.corners + 1 + i])) for i in range(count)]
 
 
 def nearest_of_solids(pair: ContactPair, a: Placed, b: Placed) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
-    found = solid_pair(pair.name, a, b)
+    found, tie = pair_normal(pair.name, a, b)
     phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
-    return ClosestPoints(phi, found.alpha[None], found.beta[None], found.n[None], point)
+    ends = found.alpha[None], found.beta[None]
+    return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
 
 
 def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
-    """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair."""
+    """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair.
+
+    Corners whose normal is not about the pair's are none: they cannot bear with it.
+    """
     n = nearest.n[0]
     corners_a, radius_a = a.shape.corners(_towards(a, nearest.alpha[0], n))
     corners_b, radius_b = b.shape.corners(_towards(b, nearest.beta[0], -n))
-    on_b = _points_on_solid(b, a, corners_a, radius_a).swapped()
-    on_a = _points_on_solid(a, b, corners_b, radius_b, first=len(corners_a))
-    return joined([on_b, on_a, nearest])
+    on_b = _corners_on_solid(b, a, corners_a, radius_a, -n).swapped()
+    on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
+    on_a = on_a._replace(point=len(corners_a) + on_a.point)
+    every = joined([on_b, on_a, nearest])
+    return every.chosen(np.flatnonzero(every.n @ n >= TURNED))
 
 
 def _towards(body: Placed, nearest: Array, n: Array) -> Array:
@@ -149,24 +174,46 @@ def late(candidates: ClosestPoints, k: int) -> Mask:
     return np.asarray(found)
 
 
-def _points_on_solid(
-    solid: Placed, other: Placed, points: Array, radius: float, k: int | None = None, first: int = 0
+def _cloud_on_solid(
+    pair: ContactPair, solid: Placed, cloud: Placed, points: Array
 ) -> ClosestPoints:
-    """Points of another body, each with a ball about it, on a solid: all, or the k closest."""
+    """The k closest points of a cloud on a solid."""
+    relative = _relative(solid, cloud)
+    x = rotated(relative[:, :3], points) + relative[:, 3]
+    phi, normal = signed_distance(solid.shape, x)
+    some = closest(phi, pair.k)
+    found = cloud_surface(pair.name, solid, cloud, relative, x[some], phi[some], normal[some])
+    return _contacts(solid, cloud, points[some], 0.0, found)._replace(point=some)
+
+
+def _corners_on_solid(
+    solid: Placed, other: Placed, corners: Array, radius: float, n: Array
+) -> ClosestPoints:
+    """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
+    relative = _relative(solid, other)
+    x = rotated(relative[:, :3], corners) + relative[:, 3]
+    found = corner_surface(solid, x, solid.R.T @ n, rounding(solid, other))
+    return _contacts(solid, other, corners, radius, found)
+
+
+def _relative(solid: Placed, other: Placed) -> Array:
+    """[R, t] from another body's frame to a solid's, shape (3, 4)."""
     # One product, because a tracker forms it so for all pairs at once: the bits are then equal.
-    relative = solid.R.T @ np.column_stack([other.R, other.t - solid.t])
-    in_solid = rotated(relative[:, :3], points) + relative[:, 3]
-    phi, normal = signed_distance(solid.shape, in_solid)
-    index = np.arange(len(points)) if k is None else closest(phi, k)
-    n = rotated(solid.R, normal[index])
-    centre = rotated(other.R, points[index]) + other.t
-    distance = phi[index]
+    return np.asarray(solid.R.T @ np.column_stack([other.R, other.t - solid.t]))
+
+
+def _contacts(
+    solid: Placed, other: Placed, points: Array, radius: float, found: Surface
+) -> ClosestPoints:
+    n = rotated(solid.R, found.normal)
+    centre = rotated(other.R, points) + other.t
     return ClosestPoints(
-        phi=distance - radius,
-        alpha=centre - distance[:, None] * n,
+        phi=found.phi - radius,
+        alpha=centre - found.phi[:, None] * n,
         beta=centre - radius * n,
         n=n,
-        point=first + index,
+        point=np.arange(len(points)),
+        tie=found.tie,
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.shapes.frozen import freeze_lengths
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import lengths
+from quasistatic_ref.shapes.shape import AXES, lengths
 from quasistatic_ref.step.arrays import Array
 
 
@@ -31,6 +31,11 @@ class Box(Rounded):
     def core(self) -> tuple[Array, float]:
         """Half extents, shape (3,) [m], and no ball."""
         return self.half_extents, 0.0
+
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], above six planes."""
+        heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
+        return heights, np.broadcast_to(AXES, (len(points), 6, 3))
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""

@@ -32,6 +32,16 @@ class Cone(Round):
         """Of `points`, shape (N, 3) [m], in the half-plane (r, z)."""
         return distance_to_cone(points, self.radius, self.half_length)
 
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], above the side and the base."""
+        p, outward = _half_plane(points)
+        heights = np.stack(_heights(p, self.radius, self.half_length), axis=1)
+        side = _side(self.radius, self.half_length)
+        normals = np.zeros((len(points), 2, 3))
+        normals[:, 0, :2], normals[:, 0, 2] = side[0] * outward, side[1]
+        normals[:, 1, 2] = -1.0
+        return heights, normals
+
     def support_point(self, direction: Array) -> Array:
         """The tip or a point of the rim, by the `direction`; both of shape (3,), [m] and [-]."""
         tip = np.array([0.0, 0.0, self.half_length])
@@ -60,16 +70,11 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
 
     In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
     """
-    r = np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
-    degenerate = r == 0
-    outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
-    outward[degenerate] = (1.0, 0.0)
-    p = np.stack([r, points[:, 2]], axis=1)
+    p, outward = _half_plane(points)
     rim, tip = np.array([radius, -half_length]), np.array([0.0, half_length])
     slant = np.hypot(radius, 2 * half_length)
-    side = np.array([2 * half_length, radius]) / slant  # outward normal of rim - tip
-    above_side = (p[:, 0] - rim[0]) * side[0] + (p[:, 1] - rim[1]) * side[1]
-    above_base = -half_length - p[:, 1]
+    side = _side(radius, half_length)
+    above_side, above_base = _heights(p, radius, half_length)
     along = (tip - rim) / slant
     s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
     on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
@@ -93,3 +98,24 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
 
 def _length(vectors: Array) -> Array:
     return np.hypot(vectors[:, 0], vectors[:, 1])
+
+
+def _half_plane(points: Array) -> tuple[Array, Array]:
+    """(r, z) of points, and the unit vectors (N, 2) away from the axis; x where there is none."""
+    r = np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
+    degenerate = r == 0
+    outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
+    outward[degenerate] = (1.0, 0.0)
+    return np.stack([r, points[:, 2]], axis=1), outward
+
+
+def _side(radius: float, half_length: float) -> Array:
+    """Outward normal of the edge rim - tip."""
+    return np.asarray(np.array([2 * half_length, radius]) / np.hypot(radius, 2 * half_length))
+
+
+def _heights(p: Array, radius: float, half_length: float) -> tuple[Array, Array]:
+    """Heights above the side and above the base."""
+    side = _side(radius, half_length)
+    above_side = (p[:, 0] - radius) * side[0] + (p[:, 1] + half_length) * side[1]
+    return above_side, -half_length - p[:, 1]

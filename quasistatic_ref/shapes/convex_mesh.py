@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import freeze_array
-from quasistatic_ref.shapes.hull import distance_to_hull
+from quasistatic_ref.shapes.hull import distance_to_hull, levels
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.tolerances import CONVEX
@@ -69,6 +69,11 @@ class ConvexMesh(Shape):
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], to planes inside and to triangles outside."""
         return distance_to_hull(points, self)
+
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], above the planes of all triangles."""
+        shape = (len(points), *self.normals.shape)
+        return levels(points, self), np.broadcast_to(self.normals, shape)
 
     def support_point(self, direction: Array) -> Array:
         """The first vertex farthest along a `direction`; both of shape (3,), [m] and [-]."""

@@ -29,6 +29,17 @@ class Cylinder(Round):
         """Of `points`, shape (N, 3) [m], in the half-plane (r, |z|)."""
         return distance_to_cylinder(points, self.radius, self.half_length)
 
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], above the side and both caps."""
+        radial = points * [1.0, 1.0, 0.0]
+        r = norm(radial)
+        caps = np.stack([points[:, 2], -points[:, 2]], axis=1) - self.half_length
+        heights = np.concatenate([(r - self.radius)[:, None], caps], axis=1)
+        normals = np.zeros((len(points), 3, 3))
+        normals[:, 0] = _unit(radial, r)
+        normals[:, 1, 2], normals[:, 2, 2] = 1.0, -1.0
+        return heights, normals
+
     def support_point(self, direction: Array) -> Array:
         """On a rim, or mid-side or mid-cap, by the `direction`; shapes (3,), [m] and [-]."""
         rim = rim_point(self.radius, direction)

@@ -57,6 +57,11 @@ class HalfSpace(Shape):
         phi = dot(points, self.normal) - self.offset
         return phi, np.broadcast_to(self.normal, points.shape)
 
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Of `points`, shape (N, 3) [m], above its plane."""
+        phi, normal = self.signed_distance(points)
+        return phi[:, None], normal[:, None]
+
     def surface(self, around: int, up: int) -> Array:
         """No points, shape (0, 3) [m]: how much of the plane is drawn depends on the scene."""
         return np.zeros((0, 3))

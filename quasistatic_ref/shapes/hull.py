@@ -37,8 +37,7 @@ def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
 
 
 def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
-    x, y, z = points.T[:, :, None]
-    level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
+    level = levels(points, hull)
     face = level.argmax(axis=1)
     phi, normal = level[np.arange(len(points)), face], hull.normals[face].copy()
     outside = np.flatnonzero(phi > 0)
@@ -52,6 +51,13 @@ def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
         at = outside[edge]
         phi[at], normal[at] = distance[edge], away[edge] / distance[edge, None]
     return phi, normal
+
+
+def levels(points: Array, hull: "ConvexMesh") -> Array:
+    """Heights of points (N, 3) above the planes of all triangles, shape (N, T) [m]."""
+    x, y, z = points.T[:, :, None]
+    level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
+    return np.asarray(level)
 
 
 def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:

@@ -41,6 +41,26 @@ class Shape(Plain):
         """
         raise self.lacks("a cloud touches solid shapes only")
 
+    def faces(self, points: Array) -> tuple[Array, Array]:
+        """Heights of points above each face, and the faces' outward normals there.
+
+        Faces are flat, or the side of a cylinder or a cone. Inside of a shape that has faces only,
+        the signed distance is the largest height. By default there are none.
+
+        Parameters
+        ----------
+        points : ndarray, shape (N, 3)
+            [m].
+
+        Returns
+        -------
+        heights : ndarray, shape (N, F)
+            [m], negative below a face.
+        normals : ndarray, shape (N, F, 3)
+            Unit vectors [-].
+        """
+        return np.zeros((len(points), 0)), np.zeros((len(points), 0, 3))
+
     def support_point(self, direction: Array) -> Array:
         """A point that is farthest along a direction.
 

@@ -108,7 +108,7 @@ def test_candidates_that_differ_by_as_much_as_counts_are_one() -> None:
     for share, expected in ((1.0, [False, True, True]), (2.0, [False, False, False])):
         phi = np.array([share * REPEATED, 0.0, 0.0])
         off = np.array([[0.0, 0, 0], [0, 0, 0], [1, 0, 0]])
-        candidates = ClosestPoints(phi, off, zero, zero, np.arange(3))
+        candidates = ClosestPoints(phi, off, zero, zero, np.arange(3), np.zeros(3, dtype=int))
         assert late(candidates, 1 if share == 1.0 else 2).tolist() == expected
 
 

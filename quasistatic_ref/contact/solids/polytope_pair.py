@@ -16,7 +16,9 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
-def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
+def polytope_pair(
+    a: Polytope, b: Polytope, R: Array, t: Array, gaps: tuple[Array, Array]
+) -> Witness:
     """Signed distance, closest points and normal of two polytopes, in the frame of `a`.
 
     Parameters
@@ -25,10 +27,13 @@ def polytope_pair(a: Polytope, b: Polytope, R: Array, t: Array) -> Witness:
         Each in its own frame.
     R, t : ndarray, shapes (3, 3) and (3,)
         Pose of b's frame in a's.
+    gaps : (ndarray, ndarray)
+        Of :func:`gaps_between` them.
     """
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _capsule_pair(a, b.moved(R, t))
-    gap, n = _widest_gap(a, b.moved(R, t))
+    best = int(gaps[0].argmax())
+    gap, n = float(gaps[0][best]), gaps[1][best]
     size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
     if gap > 0:
         on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
@@ -67,13 +72,6 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
         n = n * (1.0 if n @ apart >= 0 else -1.0)
         gap = float(n @ apart / np.sqrt(n @ n))
     return _with_margins(a, b, gap, on_a[0], n / np.sqrt(n @ n))
-
-
-def _widest_gap(a: Polytope, b: Polytope) -> tuple[float, Array]:
-    """Largest gap over the faces of the Minkowski difference, and its direction."""
-    every, normals = gaps_between(a, b)
-    best = int(every.argmax())
-    return float(every[best]), normals[best]
 
 
 def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:

@@ -12,12 +12,16 @@ from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.contact.solids.curved_pair import curved_witness
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.contact.solids.polytope_pair import polytope_pair
+from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
+from quasistatic_ref.step.data import Array
 
 
 def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     """Closest points of two solids in the world frame.
+
+    Where the normal is not unique, it is any one; a contact's is chosen by
+    :func:`~quasistatic_ref.contact.patch.pair_normal`.
 
     Parameters
     ----------
@@ -31,6 +35,22 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     ContactError
         If the pair is of the last kind, and coal's refined answer fails a check.
     """
+    return pair_and_gaps(name, a, b)[0]
+
+
+def pair_and_gaps(name: str, a: Placed, b: Placed) -> tuple[Witness, tuple[Array, Array] | None]:
+    """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
+    P, Q = polytope(a.shape), polytope(b.shape)
+    if P is None or Q is None:
+        return _curved_pair(name, a, b), None
+    R, t = a.R.T @ b.R, a.R.T @ (b.t - a.t)
+    every, normals = gaps_between(P, Q.moved(R, t))
+    found = polytope_pair(P, Q, R, t, (every, normals))
+    points = Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
+    return points, (every - P.margin - Q.margin, normals @ a.R.T)
+
+
+def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
     if isinstance(b.shape, Sphere):
         return _sphere_on_solid(a, b, b.shape.radius)
     if isinstance(a.shape, Sphere):
@@ -39,12 +59,8 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
         return _solid_on_plane(a, a.shape, b)
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
-    P, Q = polytope(a.shape), polytope(b.shape)
-    if P is None or Q is None:
-        apart = curved_witness(a, b)
-        return coal_witness(name, a, b) if apart is None else apart
-    found = polytope_pair(P, Q, a.R.T @ b.R, a.R.T @ (b.t - a.t))
-    return Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
+    apart = curved_witness(a, b)
+    return coal_witness(name, a, b) if apart is None else apart
 
 
 def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:

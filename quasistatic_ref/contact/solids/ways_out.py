@@ -52,7 +52,8 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     list of ndarray, shape (3,)
         At most STARTS, the widest gap first.
     """
-    sharp, (sphere, neighbours) = np.concatenate([_sharp(a), -_sharp(b)]), _sphere()
+    sharp = np.concatenate([sharp_directions(a), -sharp_directions(b)])
+    sphere, neighbours = _sphere()
     spread_gaps, sharp_gaps = gaps(a, b, sphere), gaps(a, b, sharp)
     peaks = (spread_gaps[neighbours] <= spread_gaps[:, None]).all(axis=1)
     near = sharp @ sphere.T > NEAR
@@ -68,8 +69,8 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     return chosen[1:]
 
 
-def _sharp(solid: Placed) -> Array:
-    """Normals of the faces, or the axes of a curved solid, in the world frame."""
+def sharp_directions(solid: Placed) -> Array:
+    """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
     flat = polytope(solid.shape)
     own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
     return own @ solid.R.T

@@ -139,7 +139,7 @@ def _corner(
     for side, body in enumerate((a, b)):
         if isinstance(body.shape, PointCloud):
             return side, 0.0, None
-    if pair.n_c == 1 or index == pair.corners:
+    if pair.n_c == 1 or index >= pair.corners:
         return None
     first = a.shape.corner_count
     side, k = (0, index) if index < first else (1, index - first)

@@ -2,21 +2,20 @@
 
 import numpy as np
 
+from quasistatic_ref.contact.patch import TURNED, faces_apart
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between
 from quasistatic_ref.contact.solids.settle import settled
 from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import (
-    Box,
     Capsule,
-    Cone,
-    Cylinder,
     Ellipsoid,
     HalfSpace,
+    PointCloud,
     Shape,
+    Sphere,
 )
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
@@ -35,8 +34,10 @@ def depth_tie(couple: Couple) -> bool:
     a, b = couple.bodies
     if couple.centre is not None:
         other, centre, _ = couple.centre
-        solid = couple.bodies[other]
-        return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.size)
+        solid, body = couple.bodies[other], couple.bodies[1 - other].shape
+        corner = not isinstance(body, PointCloud | Sphere)
+        way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
+        return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.size, way)
     if couple.phi > 0 or isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
         if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
             return _axes_cross(couple)
@@ -71,36 +72,21 @@ def _differ(normals: Array, n: Array) -> bool:
     return bool((np.abs(normals - n).max(axis=1, initial=0.0) > np.sqrt(TIED)).any())
 
 
-def _inside_tie(shape: Shape, p: Array, size: float) -> bool:
-    """Whether a point p (3,) [m] inside of a shape, in its frame, has several nearest points."""
+def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -> bool:
+    """Whether a point p (3,) [m] inside of a shape, in its frame, has several nearest points.
+
+    A corner's normal is that of a face that faces the pair's: only such faces count if `way` (3,)
+    is its normal, out of the shape.
+    """
     near = TIED * size
-    match shape:
-        case Box():
-            excess = np.sort(np.concatenate([p - shape.half_extents, -p - shape.half_extents]))
-            return bool(excess[-1] < 0 and excess[-1] - excess[-2] <= near)
-        case Cylinder():
-            side = np.hypot(p[0], p[1]) - shape.radius
-            caps = np.array([p[2], -p[2]]) - shape.half_length
-            excess = np.sort([side, *caps])
-            return bool(excess[-1] < 0 and excess[-1] - excess[-2] <= near)
-        case Cone():
-            slant = np.hypot(shape.radius, 2 * shape.half_length)
-            r = np.hypot(p[0], p[1])
-            side = (
-                (r - shape.radius) * 2 * shape.half_length
-                + (p[2] + shape.half_length) * shape.radius
-            ) / slant
-            base = -shape.half_length - p[2]
-            return bool(max(side, base) < 0 and abs(side - base) <= near)
-        case Ellipsoid():
-            return _on_medial_plane(shape, p, near)
-        case ConvexMesh():
-            flat = polytope(shape)
-            assert flat is not None
-            level = np.sort(flat.normals @ p - flat.offsets)
-            return bool(level[-1] < 0 and level[-1] - level[-2] <= near)
-        case _:
-            return False
+    if isinstance(shape, Ellipsoid):
+        return _on_medial_plane(shape, p, near)
+    heights, normals = shape.faces(p[None])
+    if way is not None:
+        heights = np.where(normals @ way >= TURNED, heights, -np.inf)
+    if not -np.inf < heights.max(initial=-np.inf) < 0:
+        return False
+    return bool(faces_apart(heights, normals, near)[1].any())
 
 
 def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:

@@ -14,7 +14,7 @@ from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import TIED, UNIQUE
+from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
 
 
 class Kink(NamedTuple):
@@ -57,6 +57,8 @@ def kinks(
         Whether the friction cone is the same after a quarter turn about n.
     """
     for j, couple in enumerate(couples):
+        if couple.phi >= FILLED:
+            continue  # it stands for nothing
         blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
             says = "is on a rim that is level: no point of it is lowest"

@@ -45,8 +45,8 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
     every = with_corners(a, b, one)
     level = every.phi <= one.phi + REPEATED
-    first = a.shape.corner_count
-    counts = int(level[:first].sum()), int(level[first:-1].sum())
+    of_alpha, of_beta = every.point < a.shape.corner_count, every.point < pair.corners
+    counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
     for body, way, count in ((a, one.n[0], counts[0]), (b, -one.n[0], counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
         if whole and count >= len(face(body, way).corners):

@@ -95,6 +95,33 @@ static double distance(int64_t kind, const double *size, const double *x, double
     return along(size, x[0], x[1], x[2]) - size[3];
 }
 
+/* contact/patch: whether two faces of a solid are as high, within twice what counts there, where a
+   point touches or is inside. NumPy then says which one the normal is of. */
+static int faces_tie(int64_t kind, const double *size, const double *x, double phi, double places)
+{
+    double within = 4e-12 * (size[0] + size[1] + size[2] + places), height[6];
+    int faces = 0;
+    if (phi > within || kind == HALF_SPACE || (kind == ROUNDED_BOX && size[3] > 0.0))
+        return 0;
+    if (kind == ROUNDED_BOX)
+        for (int i = 0; i < 3; i++) {
+            height[faces++] = x[i] - size[i];
+            height[faces++] = -x[i] - size[i];
+        }
+    else {
+        height[faces++] = sqrt(x[0] * x[0] + x[1] * x[1]) - size[0];
+        height[faces++] = x[2] - size[1];
+        height[faces++] = -x[2] - size[1];
+    }
+    double most = -INFINITY;
+    for (int i = 0; i < faces; i++)
+        most = larger(most, height[i]);
+    int level = 0;
+    for (int i = 0; i < faces; i++)
+        level += height[i] >= most - within;
+    return level > 1;
+}
+
 /* contact/batch: below which signed distances no point outside the list can have come. Its rounding
    is in the bounds' room, so that any order of its sum will do. */
 static double limit(const Scene *s, int64_t pair, const double *pose)
@@ -140,14 +167,19 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
     return kept == count;
 }
 
-/* contact/cloud_tracker: the points and normal of one contact in the world. */
-static void witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
+/* contact/cloud_tracker: the points and normal of one contact in the world; 0 if faces tie. */
+static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
 {
     const double *solid = s->world + 24 * pair, *cloud = solid + 12;
     double at[3], normal[3];
     in_solid(pose, s->x[p], s->y[p], s->z[p], at);
     s->phi[c] = distance(s->kind[pair], s->size + 4 * pair, at, normal);
     s->point[c] = s->index[p];
+    double places = 0.0;
+    for (int i = 0; i < 3; i++)
+        places += fabs(solid[4 * i + 3]) + fabs(cloud[4 * i + 3]);
+    if (faces_tie(s->kind[pair], s->size + 4 * pair, at, s->phi[c], places))
+        return 0;
     for (int i = 0; i < 3; i++) {
         double n = turned(solid + 4 * i, normal[0], normal[1], normal[2]);
         double centre = turned(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
@@ -157,9 +189,10 @@ static void witness(const Scene *s, int64_t pair, const double *pose, int64_t c,
         s->alpha[3 * c + i] = swapped ? centre : foot;
         s->beta[3 * c + i] = swapped ? foot : centre;
     }
+    return 1;
 }
 
-/* The closest points of all pairs; 0 where the lists do not prove them. */
+/* The closest points of all pairs; 0 where the lists do not prove them, or a normal is tied. */
 int closest_points(Scene *s)
 {
     for (int64_t pair = 0; pair < s->pairs; pair++) {
@@ -171,7 +204,8 @@ int closest_points(Scene *s)
         if (!selected(s, pair, pose) || !(s->nearest[s->count[pair] - 1] < limit(s, pair, pose)))
             return 0;
         for (int64_t j = 0; j < s->count[pair]; j++)
-            witness(s, pair, pose, s->start[pair] + j, s->rank[j]);
+            if (!witness(s, pair, pose, s->start[pair] + j, s->rank[j]))
+                return 0;
     }
     return 1;
 }

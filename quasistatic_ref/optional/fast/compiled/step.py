@@ -33,7 +33,8 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
-TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
+WRITTEN = ClosestPoints._fields[:-1]
+TAKEN = itemgetter(*WRITTEN, "d1", "d2", "J", "tau", "g")
 """The fields of a step among those that C has written."""
 
 SURELY = 1 - 2.0**-40
@@ -120,6 +121,7 @@ class CompiledStep:
         self.of_contacts = {
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
         }  # fmt: skip
+        self.tie = self.no_tie = np.zeros(len(layout.rows), dtype=np.int64)
         self.constant: Constants | None = None
         self.of_steps: dict[str, Any] = {}
         self.solver: Solver | None = None
@@ -171,11 +173,13 @@ class CompiledStep:
         scene.relist()
         if scene.clouds is not None and scene.listed and self.find(scene.address):
             scene.clouds.steps += 1
+            self.tie = self.no_tie
             return
         kinematics = simulator.system.kinematics(q)
         points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
-        for name, values in points._asdict().items():
-            scene[name][:] = values
+        for name in WRITTEN:
+            scene[name][:] = getattr(points, name)
+        self.tie = points.tie
 
     def step_data(
         self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
@@ -192,7 +196,7 @@ class CompiledStep:
         self.force[:] = force
         gap = self.form(scene.address)
         phi, alpha, beta, n, point, d1, d2, J, tau, g = TAKEN(scene.taken())
-        points = ClosestPoints(phi, alpha, beta, n, point)
+        points = ClosestPoints(phi, alpha, beta, n, point, self.tie)
         own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
         contacts = posed(PosedContacts, self.of_contacts, own)
         if constant is not self.constant:

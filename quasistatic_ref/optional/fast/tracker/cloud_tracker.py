@@ -13,6 +13,8 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.patch import OWN, cloud_surface
+from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
@@ -20,7 +22,8 @@ from quasistatic_ref.optional.fast.tracker.batch import Batch, Nearest
 from quasistatic_ref.optional.fast.tracker.solid_rows import kind_order
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.tolerances import TIED_FACES
 
 WIDTH = 32
 """Least length of a list, where the cloud has so many points."""
@@ -66,6 +69,8 @@ class CloudTracker:
         self.signs = np.array([sides[p][2] for p in self.pair])
         self.n_c, self.names = [pairs[p].n_c for p in self.pair], [pairs[p].name for p in self.pair]
         self.width = [max(WIDTH, 4 * n_c) for n_c in self.n_c]
+        extents = np.array([shape.extent for shape in self.solids])
+        self.largest = float(extents[np.isfinite(extents)].max(initial=0.0))
         self.lists: list[Shortlist] = []
         self.batches: list[Batch] = []
         self.lists_made = self.steps = 0
@@ -88,7 +93,7 @@ class CloudTracker:
         for attempt in range(ATTEMPTS):
             nearest = _joined([batch.nearest(poses) for batch in self.batches])
             if np.count_nonzero(nearest.proved) == len(nearest.proved):
-                return self._contacts(poses, nearest)
+                return self._contacts(poses, *self._decided(poses, nearest))
             check_finite(R, t)
             for i in np.flatnonzero(~nearest.proved).tolist():
                 row = int(self.rows[i])
@@ -131,6 +136,8 @@ class CloudTracker:
         row = owner[self.order]
         self.side, self.sign = np.concatenate([row, len(self.solids) + row]), self.signs[row, None]
         self.cloud_side = self.side[len(row) :]
+        several = [shape.faces(np.zeros((1, 3)))[0].size > 1 for shape in self.solids]
+        self.faced = np.array(several)[row]
         self.swaps = bool((self.sign < 0).any())
         n_c = np.array([self.n_c[row] for row in self.rows])
         self.last = np.cumsum(n_c) - 1
@@ -146,9 +153,33 @@ class CloudTracker:
         boxes, n_c = [self.trees[row].box for row in rows], [self.n_c[row] for row in rows]
         return Batch(rows, solids, lists, points, boxes, n_c)
 
-    def _contacts(self, poses: PairPoses, nearest: Nearest) -> ClosestPoints:
+    def _decided(self, poses: PairPoses, nearest: Nearest) -> tuple[Nearest, Indices]:
+        """The contacts in order, ties of their normals decided, and how."""
         if len(self.batches) > 1:
             nearest = nearest.chosen(self.order)
+        tie = np.full(len(nearest.phi), OWN)
+        far = max(self.largest, float(np.abs(poses.t).max()))
+        near = nearest.phi <= TIED_FACES * far
+        if not np.count_nonzero(near):
+            return nearest, tie
+        normal, row_of = nearest.normal.copy(), self.side[: len(tie)]
+        for row in np.unique(row_of[near & self.faced]).tolist():
+            own = np.flatnonzero(near & (row_of == row))
+            solid, cloud = (
+                Placed(shape, poses.R[side], poses.t[side])
+                for shape, side in (
+                    (self.solids[row], row),
+                    (self.clouds[row], len(self.solids) + row),
+                )
+            )
+            relative = poses.relative[row]
+            x = rotated(relative[:, :3], nearest.local[:, own].T) + relative[:, 3]
+            name, phi = self.names[row], nearest.phi[own]
+            found = cloud_surface(name, solid, cloud, relative, x, phi, normal[:, own].T)
+            normal[:, own], tie[own] = found.normal.T, found.tie
+        return nearest._replace(normal=normal), tie
+
+    def _contacts(self, poses: PairPoses, nearest: Nearest, tie: Indices) -> ClosestPoints:
         vectors = np.concatenate([nearest.normal, nearest.local], axis=1)
         turned = np.add.reduce(poses.R.T.take(self.side, axis=2) * vectors[:, None])
         count = len(self.order)
@@ -161,7 +192,7 @@ class CloudTracker:
         if self.swaps:
             n, swapped = self.sign * n, self.sign < 0
             foot, centre = np.where(swapped, centre, foot), np.where(swapped, foot, centre)
-        return ClosestPoints(phi, foot, centre, n, point)
+        return ClosestPoints(phi, foot, centre, n, point, tie)
 
 
 def _joined(found: list[Nearest]) -> Nearest:

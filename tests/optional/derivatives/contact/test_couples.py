@@ -83,14 +83,17 @@ def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
 
 
 def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
-    # Alpha's candidates are 0 to 4, beta's 5 to 9: of each cone the tip, then its rim.
-    system = body((0.01, 0.0, 0.2), (0.4, 0.3, 0.2))
+    # Alpha's candidates are 0 to 4, beta's 5 to 9: of each cone the tip, then its rim. On its base
+    # the rim of a larger one is over no face, and four contacts fill the number.
+    system = body((0.01, 0.0, -0.1001), (np.pi, 0.0, 0.0))
     _, found = kept(system, pair_of(system, Cone(0.05, 0.06), Cone(0.03, 0.04), "fixed", 11))
-    expected = {0: None, 5: None, 10: None}
-    expected |= {1 + quarter: Rim(0, quarter, 0.05) for quarter in range(4)}
+    expected = dict.fromkeys((0, 5, 10, 11, 12, 13, 14))
     expected |= {6 + quarter: Rim(1, quarter, 0.03) for quarter in range(4)}
     points = kept(system, found[0].pair)[0].point
     assert {int(k): c.rim for k, c in zip(points, found, strict=True)} == expected
+    _, found = kept(system, pair_of(system, Cone(0.03, 0.06), Cone(0.05, 0.04), "fixed", 11))
+    rims = {c.rim for c in found if c.rim is not None}
+    assert rims == {Rim(0, quarter, 0.03) for quarter in range(4)}
 
 
 def test_the_ball_about_a_capsule_s_corner_is_its_own():

@@ -80,6 +80,10 @@ NO_TIES = {
 """A solid and a point with one nearest point, or with none below the surface."""
 
 
+NEAR = 0.1 * TIED
+"""Share of the size that is a tie of depths, and no tie that only a rule could decide."""
+
+
 def couple_of(alpha, beta, a, b):
     """The contact of two shapes at poses (R, t), at their closest points."""
     p = pair(placed(alpha, 1), placed(beta, 2))
@@ -107,7 +111,7 @@ def inside(solid, p, body, pose):
 def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name, body) -> None:
     solid, p, way = TIES[name]
     pose = TURNED, AT
-    assert inside(solid, p, body, pose)
+    assert inside(solid, p + NEAR * solid.extent * np.array(way), body, pose)
     for sign in (1, -1):
         assert not inside(solid, p + sign * AWAY * np.array(way), body, pose)
     # Equal is what differs by at most TIED * size. The sizes are below 1 m: this is more than that,
@@ -142,7 +146,8 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
     size = max(a.extent, b.extent)
     ways = np.eye(3) if t[2] < 0.2 else np.eye(3)[[0, 2]]
     between = (TIED / size + TIED * size) / 2  # more than TIED * size, which is equal
-    assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ np.array(t) + AT))
+    near = np.array(t) + NEAR * size * ways[0]
+    assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
     for way in ways[:2]:
         for off in (AWAY, -AWAY, between, -between):
             moved = TURNED @ (np.array(t) + off * way) + AT
@@ -154,9 +159,10 @@ def test_capsules_are_tied_where_their_axes_cross() -> None:
     # at most TIED * extent; the extent is 0.5.
     a, b = Capsule(0.05, 0.2), Capsule(0.03, 0.2)
     across = TURNED @ Rotation.from_euler("x", 1.0).as_matrix()
-    for off in (0.0, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
+    near = NEAR * a.extent
+    for off in (near, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
         found = tied(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off))
-        assert found == (off == 0.0)
+        assert found == (off == near)
 
 
 def test_solids_that_touch_along_an_edge_are_not_in_penetration() -> None:
