@@ -12,7 +12,10 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.compiled import compiled, why_not
-from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.patch import OWN, SAYS
+from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
@@ -98,6 +101,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record |= {"engine": scenario.engine, "cone": scenario.cone, "steps_by": steps_by(scenario)}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
+    record["tied"] = tied_at_start(scenario)
     record["fields"] = named_fields(scenario.path)
     return record
 
@@ -106,6 +110,21 @@ def steps_by(scenario: Scenario) -> str:
     """What takes the steps of a scenario, in words."""
     fast = compiled("step")
     return f"NumPy: {why_not()}" if fast is None else fast.taken_by(scenario.simulator())
+
+
+def tied_at_start(scenario: Scenario) -> list[str]:
+    """Sentences on the contacts that have several normals where the scenario starts."""
+    system = scenario.system
+    try:
+        points = closest_points(scenario.pairs, system.kinematics(system.q_start))
+    except ContactError as error:
+        return [str(error)]
+    names = contact_layout(scenario.pairs).contact_names(points.point)
+    return [
+        f"{name}: {SAYS[tie]}"
+        for name, tie in zip(names, points.tie.tolist(), strict=True)
+        if tie != OWN
+    ]
 
 
 def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
@@ -154,6 +173,10 @@ def _print(record: dict[str, Any]) -> None:
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
         print(f"solved by {record['backend']}, engine {record['engine']}")
         shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
+    if record.get("tied"):
+        print("\nnormals that are one of several at the start:")
+    for sentence in record.get("tied", []):
+        shared.print_wrapped(sentence, "  ", "- ")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         shared.print_wrapped(sentence, "  ", "- ")

@@ -31,6 +31,13 @@ from quasistatic_ref.tolerances import (
 OWN, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
 """How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""
 
+SAYS = {
+    OF_PAIR: "another face is as near: the pair's normal",
+    BISECTOR: "touches with two faces or edges at once: the normal between theirs",
+    OF_CLOUD: "two faces are as near: the one along which the whole cloud is farthest out",
+}
+"""Each tie in words."""
+
 TURNED = float(np.cos(FACING))
 
 
@@ -100,33 +107,34 @@ def corner_surface(solid: Placed, x: Array, n: Array, within: float) -> Surface:
     tie = np.full(len(x), OWN)
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)
-    open_ = np.flatnonzero(phi <= OVER_FACE * shape.extent + within)  # others have one normal
-    if not len(open_):
-        return Surface(phi, normal, tie)
+    # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
+    near = OVER_FACE * shape.extent + within
+    open_ = np.flatnonzero((phi <= near) | (normal @ n < TURNED))
     phi, normal, at, before = phi.copy(), normal.copy(), x[open_], normal[open_]
-    over = np.zeros(len(open_), dtype=bool)
     heights, normals = shape.faces(at)
-    if heights.shape[1]:
+    over = np.zeros(len(open_), dtype=bool)
+    if heights.size:
         heights = np.where(normals @ n >= TURNED, heights, -np.inf)
         face, rivals = faces_apart(heights, normals, within)
         chosen = np.arange(len(at)), face
-        found = np.isfinite(heights[chosen]) & ~rivals.any(axis=1)
-        over = found & _holds(
-            shape, at, np.where(found, heights[chosen], 0.0), normals[chosen], within
-        )
-        phi[open_[over]], normal[open_[over]] = heights[chosen][over], normals[chosen][over]
+        height, own = heights[chosen], normals[chosen]
+        over[:] = _over(shape, at, height, own, near) & ~rivals.any(axis=1)
+        phi[open_[over]], normal[open_[over]] = height[over], own[over]
     gap = at @ n - shape.support_value(n[None])
-    edge = ~over & _holds(shape, at, gap, n, within)
+    edge = ~over & _over(shape, at, gap, np.broadcast_to(n, at.shape), near)
     phi[open_[edge]], normal[open_[edge]] = gap[edge], n
     changed = np.sum(before * normal[open_], axis=1) < 1 - SAME_NORMAL
     tie[open_[changed]] = OF_PAIR
     return Surface(phi, normal, tie)
 
 
-def _holds(shape: Shape, x: Array, height: Array, normal: Array, within: float) -> Mask:
-    """Whether the feet of points on a plane are on the shape."""
-    depth = shape.signed_distance(x - height[:, None] * normal)[0]
-    return np.asarray(depth <= OVER_FACE * shape.extent + within)
+def _over(shape: Shape, x: Array, height: Array, normal: Array, near: float) -> Mask:
+    """Whether points are not above a plane, and their feet on it are on the shape."""
+    over = (height <= near) & np.isfinite(height)
+    if over.any():
+        foot = x[over] - height[over, None] * normal[over]
+        over[over] = shape.signed_distance(foot)[0] <= near
+    return over
 
 
 def cloud_surface(

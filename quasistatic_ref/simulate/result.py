@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.patch import OWN, SAYS
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.show.show import shown
 from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, result_page
@@ -33,6 +34,12 @@ class StepResult(Plain):
     solution: StepSolution
     points: ClosestPoints
     seconds: dict[str, float] = field(compare=False)
+
+    @property
+    def tied(self) -> dict[str, str]:
+        """The contacts whose normal was one of several, and how it was chosen, by their names."""
+        chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
+        return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
 
     __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
 
