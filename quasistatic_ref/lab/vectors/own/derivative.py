@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -10,7 +11,10 @@ from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
 
 def own_derivative(case_input: Json) -> Json:
     """The answer of the layer `derivative`; reasons, which have other names here, are left out."""
-    posed = posed_case(case_input)
+    try:
+        posed = posed_case(case_input)
+    except ContactError:  # a step is refused whose normal is one of several
+        return {"differentiable": False}
     mine, n_a = posed.mine, posed.step.n_a
     found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
     # With mu = 0 the layer leaves that derivative out: mu cannot be smaller.

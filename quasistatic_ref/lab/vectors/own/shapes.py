@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
+from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
 from quasistatic_ref.step.data import Array
 
 
@@ -54,24 +54,26 @@ def own_rotation(quaternion: Sequence[float]) -> Array:
 
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
-    poses = [case["pose_alpha"], case["pose_beta"]]
-    solids = [own_shape(case["alpha"]), own_shape(case["beta"])]
-    clouds = [shape for shape in solids if isinstance(shape, PointCloud)]
-    alpha, beta = (
-        PlacedShape(name, link, np.eye(3), np.zeros(3), shape)
-        for link, (name, shape) in enumerate(zip(("alpha", "beta"), solids, strict=True))
+    a, b = (
+        Placed(own_shape(case[side]), own_rotation(pose["quaternion"]), np.array(pose["xyz"]))
+        for side, pose in (("alpha", case["pose_alpha"]), ("beta", case["pose_beta"]))
     )
-    k = len(clouds[0].points) if clouds else 1
-    pair = ContactPair("pair", alpha, beta, 0.0, 0.0, 4, k)
-    kinematics = Kinematics(
-        np.stack([own_rotation(pose["quaternion"]) for pose in poses]),
-        np.array([pose["xyz"] for pose in poses], dtype=np.float64),
-        np.zeros((2, 6, 0)),
-    )
-    found = closest_points([pair], kinematics)
-    # A pair sorts its contacts by distance; here they are in the order of the points.
-    order = np.argsort(found.point) if clouds else np.array([0])
-    answer = {
-        key: (getattr(found, key)[order] + 0.0).tolist() for key in ("phi", "alpha", "beta", "n")
-    }
-    return answer if clouds else {key: value[0] for key, value in answer.items()}
+    if isinstance(b.shape, PointCloud):
+        phi, foot, point, n = _points_on_solid(a, b, b.shape.points)
+        found = {"phi": phi, "alpha": foot, "beta": point, "n": n}
+    elif isinstance(a.shape, PointCloud):
+        phi, foot, point, n = _points_on_solid(b, a, a.shape.points)
+        found = {"phi": phi, "alpha": point, "beta": foot, "n": -n}
+    else:
+        found = {key: np.asarray(x) for key, x in solid_pair("pair", a, b)._asdict().items()}
+    return {key: (value + 0.0).tolist() for key, value in found.items()}
+
+
+def _points_on_solid(
+    solid: Placed, cloud: Placed, points: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Distances, closest points of the solid, the points themselves and normals, world frame."""
+    world = points @ cloud.R.T + cloud.t
+    phi, normal = signed_distance(solid.shape, (world - solid.t) @ solid.R)
+    n = normal @ solid.R.T
+    return phi, world - phi[:, None] * n, world, n
