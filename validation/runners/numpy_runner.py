@@ -29,9 +29,16 @@ def jacobian(case):
 
 
 def selection(case):
-    """Layer 2: a stable sort is a tie broken by index."""
-    k = case["k"]
-    return {"indices": [np.argsort(phi, kind="stable")[:k].tolist() for phi in case["phi"]]}
+    """Layer 2: a stable sort is a tie broken by index; of two solids those about one normal."""
+    found = []
+    for g, phi in enumerate(case["phi"]):
+        order = np.argsort(phi, kind="stable")
+        if "normals" in case:
+            n = np.array(case["normals"][g])
+            order = order[n[order] @ n[-1] >= np.cos(0.25)]
+        filling = range(len(phi), 2 * len(phi) - len(order))
+        found.append([*order.tolist(), *filling][: case["k"]])
+    return {"indices": found}
 
 
 def cone_table(cone, rows):

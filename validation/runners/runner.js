@@ -128,7 +128,13 @@ function jacobian(input) {
 }
 
 function selection(input) {
-  const chosen = (phi) => range(phi.length).sort((i, j) => phi[i] - phi[j] || i - j).slice(0, input.k);
+  // Of two solids only candidates about the closest pair's normal, which is the last; others fill the number.
+  const bears = (n) => n === undefined ? () => true : (i) => dot(n[i], n[n.length - 1]) >= Math.cos(0.25);
+  const chosen = (phi, g) => {
+    const left = range(phi.length).filter(bears(input.normals && input.normals[g]));
+    const filling = range(phi.length - left.length).map((i) => phi.length + i);
+    return left.sort((i, j) => phi[i] - phi[j] || i - j).concat(filling).slice(0, input.k);
+  };
   return { indices: input.phi.map(chosen) };
 }
 
