@@ -24,6 +24,7 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
+from validation.make.aligned_poses import tries
 
 H, G, MASS = 0.01, 9.81, 1.0
 SIDE = 0.1
@@ -220,3 +221,9 @@ def test_turned_moved_and_swapped_a_body_moves_the_same() -> None:
             np.testing.assert_allclose(result.solution.delta_q, 0.0, atol=1e-15)
             force = result.solution.wrench[:, 2].sum()
             np.testing.assert_allclose(force, MASS * G, rtol=CLOSED_FORM)
+
+
+def test_a_sample_of_the_aligned_poses() -> None:
+    tried, wrong = tries(63)
+    assert wrong == []
+    assert len(tried) == 5

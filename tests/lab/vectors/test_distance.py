@@ -47,7 +47,8 @@ NOT_UNIQUE = {
     *("capsule_through_box", "convex_cube", "cylinder_standing", "cylinder_lying"),
     *("cylinder_ball_on_axis", "cylinder_points", "cylinder_on_box", "cylinder_beside_box"),
     *("cylinders_parallel", "cylinders_stacked", "cone_standing", "cone_points"),
-    *("ellipsoid_centre", "ellipsoid_points"),
+    *("ellipsoid_centre", "ellipsoid_points", "patch_equal", "patch_inset", "patch_brick"),
+    *("patch_beside", "patch_edge", "patch_as_deep", "patch_points"),
 }
 
 
