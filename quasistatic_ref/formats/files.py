@@ -1,8 +1,11 @@
 """Files, written whole or not at all, and read with plain errors."""
 
+import io
 import json
 import os
+import re
 import stat
+import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +20,9 @@ LARGEST = 512 * 2**20
 LARGEST_TEXT = 64 * 2**20
 """Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
 
+STREAM = re.compile(r"/(dev|proc/\d+(/task/\d+)?)/fd/\d+")
+"""Names of open streams: of this process (macOS has /dev/fd), and of others."""
+
 
 def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Path:
     """Write a file under a temporary name in the same folder, then rename it.
@@ -24,8 +30,9 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
     Parameters
     ----------
     path : str or Path
-        Missing folders are made. Something that is no file, such as ``/dev/null``, is
-        written into and never replaced; behind a symbolic link, the file that it leads to is.
+        Missing folders are made. What is no regular file, such as a pipe, a device or an open
+        stream of this process (``/dev/stdout``, ``/dev/fd/3``), is written into at once, behind
+        what it holds, and never replaced; behind a symbolic link, the file that it leads to is.
     write : callable
         Receives the open binary file.
 
@@ -39,27 +46,63 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
         If the folder cannot be written to; nothing is left behind.
     """
     path = Path(path)
-    temporary = ""
     try:
-        target = _resolved(path)
-        if target.exists() and not target.is_file() and not target.is_dir():
-            with target.open("wb") as file:
-                write(file)
+        if _is_stream(path):
+            content = io.BytesIO()
+            write(content)
+            with _opened(path) as stream:
+                stream.write(content.getbuffer())
+        else:
+            _replaced(_resolved(path), write)
+    except OSError as error:
+        raise _unwritable(error, path) from None
+    return path
+
+
+def _is_stream(path: Path) -> bool:
+    """Whether something that is no regular file stands there."""
+    target = _resolved(path)
+    is_special = target.exists() and not target.is_file() and not target.is_dir()
+    return is_special or _descriptor(path) is not None
+
+
+def _opened(path: Path) -> IO[bytes]:
+    """What is no regular file, open for writing behind what it holds."""
+    descriptor = _descriptor(path)
+    if descriptor is None or descriptor.parts[2] not in ("fd", str(os.getpid())):
+        return path.open("ab")
+    if sys.stdout is not None:
+        sys.stdout.flush()  # what was printed before comes before
+    # A stream that is opened a second time, by its name, has a position of its own.
+    return os.fdopen(os.dup(int(descriptor.name)), "wb")
+
+
+def _descriptor(path: Path) -> Path | None:
+    """Where an open stream has its name, if this path, such as /dev/stdout, leads to one."""
+    if not path.exists():
+        return None
+    while True:
+        path = path.parent.resolve() / path.name
+        if STREAM.fullmatch(str(path)):
             return path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+        if not path.is_symlink():
+            return None
+        path = path.parent / path.readlink()
+
+
+def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
+    """Write a regular file whole."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
         with os.fdopen(descriptor, "wb") as file:
             write(file)
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(temporary, 0o666 & ~umask)
         os.replace(temporary, target)
-    except OSError as error:
-        raise _unwritable(error, path) from None
     finally:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-    return path
+        Path(temporary).unlink(missing_ok=True)
 
 
 def _resolved(path: Path) -> Path:
