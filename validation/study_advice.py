@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
 from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
@@ -20,7 +21,7 @@ from quasistatic_ref.lab.study.environment import UNKNOWN
 from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
 from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
 from quasistatic_ref.lab.study.report_words import old_times
-from quasistatic_ref.lab.study.spec import solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.spec import solver_study, study_path
 from quasistatic_ref.lab.study.statistics import success
 from quasistatic_ref.lab.study.store import rows_read, study_read
 
@@ -61,7 +62,7 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
     ]
     yield f"Solvers: {', '.join(counts)}; {len(comparison.settings)} settings; {size(own):,} calls."
     path = study_path("default")
-    if solver_study(path, study_tables(path)).problems.families != problems["families"]:
+    if solver_study(path, toml_read(path)).problems.families != problems["families"]:
         yield "The problems of these rows are an earlier selection than that of today's study file."
     yield from old_times(study)
 

@@ -1,12 +1,11 @@
 """The fields of a scenario's file by the names that ``--set`` takes."""
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.files import json_text, toml_read
 
 BARE: Final = re.compile(r"[A-Za-z0-9_-]+")
 """What TOML takes as a key without quotes."""
@@ -19,7 +18,7 @@ def named_fields(path: Path) -> dict[str, Any]:
 
     A list, of numbers or of tables, is one field: ``--set`` replaces all of it.
     """
-    return dict(_flat(tomllib.loads(path.read_text("utf-8")), ""))
+    return dict(_flat(toml_read(path), ""))
 
 
 def _flat(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:

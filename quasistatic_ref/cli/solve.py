@@ -12,8 +12,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import CVXPY, solver_for
-from quasistatic_ref.solve.solve import CERTIFY, solve_step
+from quasistatic_ref.solve.engines import CERTIFY, CVXPY, solver_for
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution

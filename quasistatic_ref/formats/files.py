@@ -7,6 +7,7 @@ import re
 import stat
 import sys
 import tempfile
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, Any
@@ -19,6 +20,14 @@ LARGEST = 512 * 2**20
 """Largest file that is read [bytes]."""
 LARGEST_TEXT = 64 * 2**20
 """Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
+LARGEST_TOML = 2**20
+"""Largest TOML file [bytes]."""
+MOST_PARTS = 32
+"""Most parts of a dotted key."""
+# Possessive, and from the start of a word only: its own time is linear.
+_DEEP_KEY = re.compile(
+    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
+)
 
 STREAM = re.compile(r"/(dev|proc/\d+(/task/\d+)?)/fd/\d+")
 """Names of open streams: of this process (macOS has /dev/fd), and of others."""
@@ -210,6 +219,48 @@ def _check_characters(text: str, value: Any) -> None:
             json.dumps(value, ensure_ascii=False).encode()
         except UnicodeEncodeError:
             raise InputError("is not usable JSON: a string holds half of a character") from None
+
+
+def toml_read(
+    path: str | Path, error: type[InputError] = InputError, what: str = "TOML"
+) -> dict[str, Any]:
+    """The tables of a TOML file.
+
+    Parameters
+    ----------
+    path : str or Path
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
+    what : str
+        What a file of another ending should have been.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is something else.
+    """
+    with about_file(path):
+        try:
+            return toml_tables(text_of(bytes_read(path, error, LARGEST_TOML), path, error), error)
+        except tomllib.TOMLDecodeError as failure:
+            wanted = "TOML" if Path(path).suffix == ".toml" else what
+            raise error(f"is not {wanted}: {failure}") from None
+        except (RecursionError, ValueError):
+            raise error("is nested too deeply, or holds an unusable number") from None
+
+
+def toml_tables(text: str, error: type[InputError] = InputError) -> dict[str, Any]:
+    """The tables of a TOML text.
+
+    Raises
+    ------
+    InputError
+        If a key has too many parts: tomllib's time is quadratic in their number.
+    """
+    if deep := _DEEP_KEY.search(text):
+        line = text[: deep.start()].count("\n") + 1
+        raise error(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
+    return tomllib.loads(text)
 
 
 def unique_fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -1,36 +1,14 @@
 """Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
 
-import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.files import plain
+from quasistatic_ref.formats.files import MOST_PARTS, plain, toml_tables
 from quasistatic_ref.scenario.paths import OwnWord
 
 Settings = Sequence[str] | Mapping[str, Any]
-MOST_PARTS = 32
-"""Most parts of a dotted key."""
-# Possessive, and from the start of a word only: its own time is linear.
-_DEEP_KEY = re.compile(
-    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
-)
-
-
-def toml_tables(text: str) -> dict[str, Any]:
-    """The tables of a TOML text.
-
-    Raises
-    ------
-    ScenarioError
-        If a key has too many parts: tomllib's time is quadratic in their number.
-    """
-    if deep := _DEEP_KEY.search(text):
-        line = text[: deep.start()].count("\n") + 1
-        raise ScenarioError(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
-    return tomllib.loads(text)
 
 
 def apply_settings(
@@ -99,7 +77,7 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
 def parsed(text: str) -> Any:
     """The value of a setting that is given as text: TOML, or else a plain word."""
     try:
-        tables = toml_tables(f"value = {text}")
+        tables = toml_tables(f"value = {text}", ScenarioError)
     except (ValueError, RecursionError):
         tables = {}
     # Anything but one value, such as a second line, is taken as a word.

@@ -1,6 +1,5 @@
 """A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
 
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +10,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, ScenarioError, about_file
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.model.system import System
@@ -20,7 +19,7 @@ from quasistatic_ref.optional.show.simulate_words import scenario_page
 from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.scenario.checks import check_motion, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.scenario.overrides import Settings, apply_settings, toml_tables
+from quasistatic_ref.scenario.overrides import Settings, apply_settings
 from quasistatic_ref.scenario.scenario_table import (
     FORMAT,
     LIMITS,
@@ -36,16 +35,12 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS, NONE
-from quasistatic_ref.solve.engines import check_solver, default_backend, default_engine
-from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS
+from quasistatic_ref.solve.engines import CERTIFY, check_solver, default_backend, default_engine
 from quasistatic_ref.step.arrays import Array, keep
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import ACCURACY
-
-LARGEST = 2**20
-"""Largest scenario file [bytes]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,13 +172,7 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
     """
     path = scenario_path(name)
     with about_file(path):
-        try:
-            tables = toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
-        except tomllib.TOMLDecodeError as error:
-            what = "TOML" if path.suffix == ".toml" else "a scenario, which is TOML"
-            raise ScenarioError(f"is not {what}: {error}") from None
-        except (RecursionError, ValueError):
-            raise ScenarioError("is nested too deeply, or holds an unusable number") from None
+        tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
         check_made(apply_settings(tables, settings, fields), tables)
         check_sizes(tables)
         return _scenario(path, Fields(tables, error=ScenarioError))
@@ -258,11 +247,8 @@ def _backend_and_engine(
     default = default_backend(named, cone_name, certify, entries)
     name = value(solver, SOLVER, "backend", default)
     engine = named or default_engine(name, cone_name)
-    if name == NONE and certify != CERTIFY[0]:
-        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
-        raise solver.fail("backend", problem, name)
     try:
-        check_solver(name, engine, cone_name)
+        check_solver(name, engine, cone_name, certify)
     except BackendError as error:
         raise solver.fail(error.field or "backend", error.problem, error.value) from None
     return name, engine

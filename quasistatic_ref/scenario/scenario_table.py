@@ -14,8 +14,7 @@ from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
-from quasistatic_ref.solve.engines import ENGINES
-from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.solve.engines import CERTIFY, ENGINES
 from quasistatic_ref.step.cones import CONES, PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 

@@ -127,7 +127,7 @@ class Simulator:
         default = default_backend(engine, cone, certify, entries)
         self.backend = default if solver is None else solver
         self.engine = default_engine(self.backend, cone) if engine is None else engine
-        check_solver(self.backend, self.engine, cone)
+        check_solver(self.backend, self.engine, cone, certify)
         self.solver: Solver | None = None
         self.spare = Spare(default, self.engine, accuracy, certify)
         self.tracker = ContactTracker(self.pairs)

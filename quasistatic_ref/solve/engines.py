@@ -2,7 +2,7 @@
 
 import math
 
-from quasistatic_ref.errors import BackendError
+from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.solve.backends import (
     BACKENDS,
@@ -12,6 +12,7 @@ from quasistatic_ref.solve.backends import (
     NONE,
     QPSOLVERS,
     backend,
+    cone_backend,
 )
 from quasistatic_ref.solve.native import NativeSolver, check_native, native_backends
 from quasistatic_ref.solve.solver import NoSolver, Solver
@@ -21,22 +22,47 @@ from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
 
 CVXPY, NATIVE = "cvxpy", "native"
 ENGINES = (CVXPY, NATIVE)
+CERTIFY = ("full", "residual", "off")
 
 
-def check_solver(name: str, engine: str, cone_name: str) -> None:
-    """Refuse an engine that does not exist, or does not reach a backend and a cone.
+def check_solver(name: str, engine: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
+    """Refuse what no step can be solved with: before a run, rather than in its first step.
+
+    Parameters
+    ----------
+    name : str
+        Of a backend, or ``"none"``.
+    engine : str
+    cone_name : str
+    certify : str
 
     Raises
     ------
     BackendError
+        If the engine does not exist, or does not reach the backend; if that does not take the cone,
+        or gives no answer that could be certified so.
+    InputError
+        If there is no such way to certify.
     """
     if engine not in ENGINES:
         words = f"must be one of {', '.join(ENGINES)}{suggestion(str(engine), ENGINES)}"
         raise BackendError(words, field="engine", value=engine)
+    check_certify(name, certify)
     if engine == NATIVE:
         check_native(name, cone_name)
     elif name != NONE:
         backend(name)
+        if not cone(cone_name).polyhedral:
+            cone_backend(name, f"the {cone_name}")
+
+
+def check_certify(name: str, certify: str) -> None:
+    """Refuse a way to certify that does not exist, or not without a backend; errors as above."""
+    if certify not in CERTIFY:
+        raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
+    if name == NONE and certify != CERTIFY[0]:
+        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+        raise BackendError(problem, field="backend", value=NONE)
 
 
 def default_backend(engine: str | None, cone_name: str, certify: str, entries: int = 0) -> str:

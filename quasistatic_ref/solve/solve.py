@@ -20,7 +20,7 @@ from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
 from quasistatic_ref.optional.large.uncertified import uncertified_solution
 from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.engines import check_certify, solver_for
 from quasistatic_ref.solve.scaled import DenseStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
 from quasistatic_ref.solve.units import Units, from_natural
@@ -37,7 +37,6 @@ from quasistatic_ref.step.solution import (
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED
 
-CERTIFY = ("full", "residual", "off")
 LARGE = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
 
@@ -99,8 +98,7 @@ def solve_step(
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
-    if certify not in CERTIFY:
-        raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
+    check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:
         from quasistatic_ref.optional.extensions import (
             extended,  # needs CVXPY, which takes its time
@@ -149,8 +147,6 @@ def solved(
     if certify == "full" and not solver.certifies:
         problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
-    if certify != "full" and solver.name == NONE:
-        raise BackendError("gives no answer of its own; use certify = 'full'", value=NONE)
     solution = QUIET.copy().run(_solved, step, solver, accuracy, certify, form, units)
     if solution is None:
         raise out_of_range(step)

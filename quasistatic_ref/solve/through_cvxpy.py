@@ -10,11 +10,10 @@ import numpy as np
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend, cone_backend
+from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
-from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import StandardForm
@@ -40,7 +39,7 @@ class CvxpySolver(Solver):
     Raises
     ------
     BackendError
-        If CVXPY does not reach the backend here, or that does not take the cone.
+        If CVXPY does not reach the backend here.
     """
 
     engine = "cvxpy"
@@ -50,8 +49,6 @@ class CvxpySolver(Solver):
         if backend(name).name != name:
             problem = f"is not reached through CVXPY; leave out {QPSOLVERS!r}"
             raise BackendError(problem, field="backend", value=name)
-        if like.cone == ELLIPSOID:
-            cone_backend(name, "the ellipsoid")
         super().__init__(like, name)
         self.problem = cone_problem(like)
 

@@ -9,11 +9,10 @@ import qpsolvers
 
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend, cone_backend
+from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -31,7 +30,7 @@ class QpsolversSolver(Solver):
     Raises
     ------
     BackendError
-        If qpsolvers does not reach the backend here, or the cone is not polyhedral.
+        If qpsolvers does not reach the backend here.
     """
 
     engine = "qpsolvers"
@@ -41,8 +40,6 @@ class QpsolversSolver(Solver):
         if backend(name).name == name:
             problem = f"is reached through qpsolvers as {QPSOLVERS + name!r}"
             raise BackendError(problem, field="backend", value=name)
-        if not cone(like.cone).polyhedral:
-            cone_backend(name, f"the {like.cone}")
         super().__init__(like, name)
 
     def write(self, scaled: DenseStep) -> Mask:

@@ -13,12 +13,12 @@ import numpy as np
 
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.files import json_text, toml_read
 from quasistatic_ref.formats.resources import models_folder, vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problem_set, problems_read
 from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet, solver_study, study_kind, study_tables
+from quasistatic_ref.lab.study.spec import FAMILIES, TestSet, solver_study, study_kind
 from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
@@ -257,7 +257,7 @@ def _stores(folder: Path) -> dict[str, Reader]:
 
 def _studies() -> dict[str, Reader]:
     def study(path: Path) -> None:
-        tables = study_tables(path)
+        tables = toml_read(path)
         (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
 
     kinds = {"solvers": texts.SOLVERS, "sweep": texts.SWEEP}

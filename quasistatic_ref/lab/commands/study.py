@@ -10,6 +10,7 @@ from typing import Any
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.grade import OUTCOMES
@@ -85,10 +86,10 @@ def _run(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("must be at least 1", field="--jobs", value=options.jobs)
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
-    from quasistatic_ref.lab.study.spec import study_kind, study_path, study_tables
+    from quasistatic_ref.lab.study.spec import study_kind, study_path
 
     path = study_path(options.study)
-    tables = study_tables(path)
+    tables = toml_read(path)
     try:
         kind = study_kind(tables)
     except InputError as error:

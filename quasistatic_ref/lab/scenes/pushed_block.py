@@ -16,7 +16,7 @@ from quasistatic_ref.lab.scenes.systems import (
 )
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.solve.engines import CERTIFY
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
 

@@ -1,6 +1,5 @@
 """STUDY.toml: what is compared on what, read field by field; a mistake is one sentence."""
 
-import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -8,7 +7,6 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.study.qp import UNITS
@@ -25,15 +23,12 @@ from quasistatic_ref.lab.study.spec_table import (
     TABLES,
     VERSION,
 )
-from quasistatic_ref.scenario.overrides import toml_tables
 
 KINDS = ("solvers", "sweep")
 FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
 """Families that are made for a study; a set has more."""
 TURNED = ("contacts", "mass_ratio", "bodies")
 """Those of them whose dial a study file may end elsewhere."""
-LARGEST = 2**20
-"""Largest study file [bytes]."""
 GB = 1e9
 """[bytes]"""
 QUICK = 20
@@ -152,24 +147,6 @@ def study_path(name: str | Path) -> Path:
         hint = suggestion(str(name), known)
         raise InputError(f"is neither a file nor a study that comes along{hint}", file=name)
     return known[str(name)]
-
-
-def study_tables(path: Path) -> dict[str, Any]:
-    """The tables of a study file as they stand in it.
-
-    Raises
-    ------
-    InputError
-        If it is missing or not TOML.
-    """
-    try:
-        return toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
-    except InputError as error:
-        raise error.in_file(path) from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"is not TOML: {error}", file=path) from None
-    except (RecursionError, ValueError):
-        raise InputError("is nested too deeply, or holds an unusable number", file=path) from None
 
 
 def study_kind(tables: dict[str, Any]) -> str:

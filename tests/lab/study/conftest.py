@@ -4,11 +4,12 @@ import os
 
 import pytest
 
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.study.problems import problem_of
 from quasistatic_ref.lab.study.run import run_study
 from quasistatic_ref.lab.study.sets.folder import set_read
-from quasistatic_ref.lab.study.spec import solver_study, study_tables
+from quasistatic_ref.lab.study.spec import solver_study
 from tests.lab.study import made_store
 from tests.lab.study.planted import FAKES, slab
 
@@ -21,7 +22,7 @@ def study(tmp_path):
     def written(text, **changes):
         path = tmp_path / "study.toml"
         path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + text)
-        return solver_study(path, study_tables(path), **changes)
+        return solver_study(path, toml_read(path), **changes)
 
     return written
 

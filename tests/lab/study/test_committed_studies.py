@@ -5,12 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.qp import Truth
 from quasistatic_ref.lab.study.report import study_report
 from quasistatic_ref.lab.study.sets.selection import problems_taken
 from quasistatic_ref.lab.study.solver_report import solver_report
-from quasistatic_ref.lab.study.spec import solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.spec import solver_study, study_path
 from quasistatic_ref.lab.study.store import rows_read, study_read
 
 STUDIES = Path(__file__).parents[3] / "validation" / "studies"
@@ -56,7 +57,7 @@ def test_the_committed_study_has_eight_solvers_and_300_problems(rows, facts):
 def test_the_default_study_selects_from_every_family_with_dense_rows(members):
     """310 of contact-qp-1: 15 of its 17 families; those with cones and sparse ones are left out."""
     path = study_path("default")
-    study = solver_study(path, study_tables(path))
+    study = solver_study(path, toml_read(path))
     problems = problems_taken(study.problems)
     families = {one.facts["family"] for one in members} - {"ellipsoid", "sparse"}
     assert {problem.facts.family for problem in problems} == families

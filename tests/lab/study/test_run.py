@@ -16,8 +16,9 @@ import distributed
 import pytest
 
 import quasistatic_ref
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.spec import solver_study, study_tables
+from quasistatic_ref.lab.study.spec import solver_study
 from quasistatic_ref.lab.study.store import ROWS, rows_read, study_read, table
 
 SMALL = """
@@ -39,7 +40,7 @@ def whole(tmp_path_factory):
     folder = tmp_path_factory.mktemp("whole")
     path = folder / "study.toml"
     path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + SMALL)
-    run_study(solver_study(path, study_tables(path)), folder / "store", progress=False)
+    run_study(solver_study(path, toml_read(path)), folder / "store", progress=False)
     return folder / "store"
 
 

@@ -4,8 +4,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.plan import plan
-from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'
@@ -89,7 +90,7 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
 
 def test_the_default_study_is_as_large_as_it_is_said_to_be():
     path = study_path("default")
-    full, quick = (solver_study(path, study_tables(path), q) for q in (False, True))
+    full, quick = (solver_study(path, toml_read(path), q) for q in (False, True))
     assert 300 <= sum(full.problems.families.values()) <= 320
     assert len({s.target for s in full.solvers}) >= 8
     ratio = sum(full.problems.families.values()) / sum(quick.problems.families.values())

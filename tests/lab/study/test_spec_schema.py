@@ -9,7 +9,8 @@ from jsonschema import Draft4Validator
 from docs.fields_page import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_names, study_tables
+from quasistatic_ref.formats.files import toml_read
+from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_names
 from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.study.spec_table import TABLES, study_schema
 
@@ -71,7 +72,7 @@ def validator():
 
 
 def loaded(path):
-    tables = study_tables(path)
+    tables = toml_read(path)
     (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.spec import study_tables
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.spec_sweep import sweep_study
 from quasistatic_ref.lab.study.store import rows_read, table
 from quasistatic_ref.lab.study.sweep import sweep_row
@@ -30,7 +30,7 @@ def sweeps(tmp_path):
     def read(text, **changes):
         path = tmp_path / "study.toml"
         path.write_text(HEAD + text)
-        return sweep_study(path, study_tables(path), **changes)
+        return sweep_study(path, toml_read(path), **changes)
 
     return read
 

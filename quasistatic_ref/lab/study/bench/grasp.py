@@ -16,9 +16,8 @@ from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import installed, installed_backends
-from quasistatic_ref.solve.engines import CVXPY, NATIVE
+from quasistatic_ref.solve.engines import CERTIFY, CVXPY, NATIVE
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 

@@ -7,8 +7,7 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.study.bench.timing import in_turn
-from quasistatic_ref.solve.engines import CVXPY, NATIVE
-from quasistatic_ref.solve.solve import CERTIFY
+from quasistatic_ref.solve.engines import CERTIFY, CVXPY, NATIVE
 
 TAIL = 0.99
 """The share of steps that take no longer than the second number of a row."""
