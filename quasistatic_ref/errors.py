@@ -219,10 +219,18 @@ class RunFailed(QuasistaticError):
         The steps that were completed, marked with the reason.
     step : StepData, optional
         The step that failed.
+    file : Path, optional
+        Where the trajectory was written.
     """
 
-    def __init__(self, reason: str, trajectory: Any, step: StepData | None = None) -> None:
-        self.reason, self.trajectory, self.step = reason, trajectory, step
+    def __init__(
+        self,
+        reason: str,
+        trajectory: Any,
+        step: StepData | None = None,
+        file: Path | None = None,
+    ) -> None:
+        self.reason, self.trajectory, self.step, self.file = reason, trajectory, step, file
         super().__init__(reason)
 
 

@@ -150,11 +150,11 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 
 def failed_run(failure: RunFailed, path: Path) -> int:
-    """Say what a failed run left in its trajectory's file; write its failing step; its status."""
+    """Say where the steps of a failed run are; write its failing step; its status."""
     from quasistatic_ref.optional.runs.saved import saved_steps
 
     trajectory: Trajectory = failure.trajectory
-    kept = f"the first {trajectory.steps} steps are in {path}"
+    kept = f"the first {trajectory.steps} steps are in {failure.file or path}"
     if failure.step is not None:
         step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"

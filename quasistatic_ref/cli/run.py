@@ -11,7 +11,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.optional.runs.saved import saved_steps
+from quasistatic_ref.optional.runs.saved import first_step
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
@@ -58,14 +58,14 @@ def run(options: argparse.Namespace) -> int:
     With ``--strict`` a run that warns of something ends with status 1.
     """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
+    path = options.out / f"{scenario.path.stem}.npz"
+    first = first_step(path, scenario.steps, options.resume)
     writable_folder(options.out)  # known before the work, not after it
     if options.view:
         from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_script
 
         viewer_script()  # so that a missing extra is known before the work, too
-    path = options.out / f"{scenario.path.stem}.npz"
     if options.resume:
-        first = saved_steps(path)
         said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
         shared.progress_line(options, said)
     saving = {"save": path, "save_every": options.save_every, "resume": options.resume}

@@ -56,7 +56,7 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
     """
     path = Path(path)
     try:
-        if _is_stream(path):
+        if is_stream(path):
             content = io.BytesIO()
             write(content)
             with _opened(path) as stream:
@@ -68,8 +68,8 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
     return path
 
 
-def _is_stream(path: Path) -> bool:
-    """Whether something that is no regular file stands there."""
+def is_stream(path: Path) -> bool:
+    """Whether what stands there is no regular file and no folder; InputError if it has no name."""
     target = _resolved(path)
     is_special = target.exists() and not target.is_file() and not target.is_dir()
     return is_special or _descriptor(path) is not None

@@ -40,7 +40,7 @@ UNREADABLE: tuple[type[Exception], ...] = (
 """What zipfile and NumPy raise at a file that is something else, or spoilt."""
 
 
-def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
+def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray[Any]]:
     """Every array of the file by name, each of the shape and type that it has there.
 
     Parameters
@@ -48,6 +48,8 @@ def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
     path : str or Path
     what : str
         What the file must be, for the sentence on one that is something else.
+    only : str, optional
+        The one array that is unpacked.
 
     Raises
     ------
@@ -57,8 +59,12 @@ def npz_arrays(path: str | Path, what: str) -> dict[str, NDArray[Any]]:
     content = bytes_read(path)
     problem = f"is not {what}"
     with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
-        members = _checked_sizes(archive)
-        return {_name(one, problem): _array(archive.read(one), one.filename) for one in members}
+        members = {_name(one, problem): one for one in _checked_sizes(archive)}
+        return {
+            name: _array(archive.read(one), one.filename)
+            for name, one in members.items()
+            if only in ("", name)
+        }
 
 
 def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
@@ -76,13 +82,21 @@ def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]
         If the file cannot be read, or has no such header.
     """
     arrays = npz_arrays(path, what)
-    header = arrays.pop("header", None)
+    return _header(path, what, arrays.pop("header", None)), arrays
+
+
+def npz_header(path: str | Path, what: str) -> Any:
+    """The header alone, as :func:`npz_record` reads it."""
+    return _header(path, what, npz_arrays(path, what, only="header").get("header"))
+
+
+def _header(path: str | Path, what: str, header: NDArray[Any] | None) -> Any:
     with about_file(path):
         if header is None or header.dtype != np.uint8:
             raise InputError(f"is not {what}: it has no header")
         try:
             text = text_of(header.tobytes(), path)
-            return json.loads(text, object_pairs_hook=unique_fields), arrays
+            return json.loads(text, object_pairs_hook=unique_fields)
         except (ValueError, RecursionError):
             raise InputError(f"is not {what}: its header is not JSON") from None
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.optional.runs.resume import resumed, start_cold
-from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
+from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, first_step, run_settings
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.progress import progress_bar
@@ -59,9 +59,9 @@ def rollout(
         there, at the end of a run, what it warns of
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
     save : str or Path, optional
-        The trajectory's file, written when the run ends, also when it ends early. While the run
-        goes on, its steps are saved in a folder next to that file; see
-        :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
+        The trajectory's file, written when the run ends, also when it ends early: then next to it,
+        as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
+        in a folder next to that file; see :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
     save_every : float
         Time between two saves [s].
     resume : bool
@@ -76,7 +76,8 @@ def rollout(
     ------
     InputError
         If the target or the force takes other arguments than these, or q is no configuration; if
-        the saved steps are of another run, or there are some and `resume` is false.
+        the saved steps are of another run; or if steps that are there would be lost, see
+        :func:`~quasistatic_ref.optional.runs.saved.first_step`.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
@@ -87,10 +88,8 @@ def rollout(
     saved = None
     if save is not None:
         saved = SavedRun(save, run_settings(simulator, recorder.start, record), save_every)
-        if resume:
-            resumed(saved, recorder, simulator, q_bar_a, pushed, steps, STRETCH)
-        else:
-            saved.check_none()
+        if first_step(save, steps, resume):
+            resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
     left = range(recorder.steps, steps)
     bar: Iterable[int] = progress_bar(
         left, unit="step", total=steps, done=left.start, shown=progress
@@ -108,12 +107,13 @@ def rollout(
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
-                trajectory = _ended(recorder, saved, progress, reason, interrupted)
-                raise RunFailed(reason, trajectory, step) from failure
+                trajectory, file = _ended(recorder, saved, progress, reason, interrupted)
+                raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(goal, result)
             if saved is not None:
                 saved.save_in_time(recorder)
-    return _ended(recorder, saved, progress)
+    trajectory, _ = _ended(recorder, saved, progress)
+    return trajectory
 
 
 def _ended(
@@ -122,16 +122,11 @@ def _ended(
     printed: bool,
     failed: str | None = None,
     interrupted: bool = False,
-) -> Trajectory:
-    """The trajectory, written where it is to be saved, and its warnings printed."""
+) -> tuple[Trajectory, Path | None]:
+    """The trajectory, its warnings printed, and where it was written."""
     trajectory = recorder.trajectory(failed)
     if printed:
         for sentence in trajectory.warnings:
             print(f"quasistatic-ref: {sentence}", file=sys.stderr)
-    if saved is not None:
-        if interrupted:
-            saved.save_last(recorder)
-        trajectory.save(saved.path)
-        if not interrupted:
-            saved.remove()
-    return trajectory
+    file = None if saved is None else saved.end(recorder, trajectory, interrupted)
+    return trajectory, file

@@ -197,8 +197,8 @@ def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, s
         ran(load_scenario(scene), path, resume=True)
 
 
-@pytest.mark.parametrize("steps", [2, 4, STEPS])
-def test_a_resumed_run_may_be_shorter_or_longer(tmp_path, scene, steps):
+@pytest.mark.parametrize("steps", [4, STEPS])
+def test_a_resumed_run_may_end_where_it_was_saved_or_later(tmp_path, scene, steps):
     path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
     ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
     other = load_scenario(scene, {"steps": steps})
@@ -207,13 +207,62 @@ def test_a_resumed_run_may_be_shorter_or_longer(tmp_path, scene, steps):
     assert path.read_bytes() == plain.read_bytes()
 
 
-def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, scene):
+def test_a_resumed_run_that_is_shorter_is_refused_and_nothing_is_removed(tmp_path, scene, capsys):
+    path = tmp_path / "scene.npz"
+    ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
+    before = contents(tmp_path)
+    command = ["run", str(scene), "--set", "steps=3", "--out", str(tmp_path), "--resume"]
+    assert main(command) == 2
+    said = capsys.readouterr().err
+    assert "scene.npz.part: holds the first 4 steps of a run, and this one has 3; go on" in said
+    assert contents(tmp_path) == before
+
+
+def contents(folder):
+    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
+LOST = {
+    # name: (changes of the scene, arguments, exit status, what is said)
+    "a shorter run": ((), ["--set", "steps=2"], 2, "scene.npz: holds a run of 3 steps, which one"),
+    "a cone that the backend does not take": (
+        (), ["--cone", "ellipsoid", "--backend", "daqp"], 2, "takes linear rows only",
+    ),
+    "a run that fails": ((SUNK,), [], 3, "the first 0 steps are in {}/scene_failed.npz"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("cause", LOST)
+def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cause):
+    changes, more, status, says = LOST[cause]
+    out = tmp_path / "out"
+    command = ["run", str(scene_written(tmp_path)), "--out", str(out), "--quiet"]
+    assert main(command) == 0
+    before = contents(out)
+    scene_written(tmp_path, changed(SCENE, *changes))
+    capsys.readouterr()
+    assert main([*command, *more]) == status
+    assert says.format(out) in capsys.readouterr().err
+    assert before.items() <= contents(out).items()
+    assert status == 3 or contents(out) == before
+
+
+def test_what_is_no_trajectory_is_not_replaced_by_one(tmp_path, scene, capsys):
+    points = tmp_path / "scene.npz"
+    np.savez(points, points=np.zeros((4, 3)))
+    before = points.read_bytes()
+    assert main(["run", str(scene), "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert "is not a trajectory written by this program: it has no header; it is not rep" in said
+    assert points.read_bytes() == before
+
+
+@pytest.mark.parametrize("changes", [(), (SUNK,)])
+def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, changes):
     path = tmp_path / "out" / "run.npz"
-    ran(load_scenario(scene), path)
-    assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
-    sunk = scene_written(tmp_path, changed(SCENE, ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])))
-    with pytest.raises(RunFailed):
-        ran(load_scenario(sunk), path)
+    with pytest.raises(RunFailed) if changes else contextlib.nullcontext():
+        ran(load_scenario(scene_written(tmp_path, changed(SCENE, *changes))), path)
     assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
 
 

@@ -28,7 +28,6 @@ def resumed(
     simulator: Simulator,
     target: Checked,
     force: Checked,
-    steps: int,
     stretch: int,
 ) -> None:
     """Hand the saved steps to the recorder, and to the solver those since it last started cold.
@@ -41,8 +40,6 @@ def resumed(
     simulator : Simulator
     target, force : callable
         Of (t, q), shapes (n_q_a,) and (n_v,) of their results.
-    steps : int
-        Of the whole run; no more are taken over.
     stretch : int
         Steps after which the solver starts cold.
 
@@ -51,12 +48,8 @@ def resumed(
     InputError
         If the saved steps are of another run.
     """
-    parts, taken = [], 0
-    for part, extra in saved.parts():
-        kept = {key: array[: steps - taken] for key, array in part.items()}
-        if len(kept["t"]):
-            parts.append((kept, extra))
-            taken += len(kept["t"])
+    parts = list(saved.parts())
+    taken = sum(len(part["t"]) for part, _ in parts)
     start_cold(simulator)
     for part, extra in parts:
         again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)

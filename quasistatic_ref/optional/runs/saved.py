@@ -7,6 +7,7 @@ it: it is a function of q, and made again. docs/guides/file_formats.md describes
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 import time
@@ -21,9 +22,10 @@ from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import written_whole
-from quasistatic_ref.formats.npz import json_array, npz_record
+from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
 from quasistatic_ref.formats.plain import fingerprint
 from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
+from quasistatic_ref.simulate.trajectory import Trajectory, steps_in
 from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
 
@@ -116,20 +118,7 @@ class SavedRun:
         self._saved = 0  # parts of the recorder that are on disk
         self._begun = self._latest = time.monotonic()
         self._failing = False
-
-    def check_none(self) -> None:
-        """Refuse to begin a run where another one left its steps.
-
-        Raises
-        ------
-        InputError
-        """
-        if steps := saved_steps(self.path):
-            problem = (
-                f"holds the first {steps} steps of a run that did not end; go on from there with "
-                "--resume (in Python: resume=True), or remove that folder"
-            )
-            raise InputError(problem, file=self.folder)
+        self._there = steps_in(path)
 
     def parts(self) -> Iterator[tuple[Part, tuple[str, ...]]]:
         """The saved steps in order, each part with the names of an extension's rows.
@@ -210,11 +199,70 @@ class SavedRun:
                 self._failing = True
         self._latest = time.monotonic()
 
+    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Path:
+        """Write the trajectory, and remove the saved steps unless the run was interrupted.
+
+        Returns
+        -------
+        Path
+            Where it is: next to its place, if the run ended before it had as many steps as the one
+            there.
+        """
+        path = self.path
+        if trajectory.steps < self._there:
+            path = path.with_name(f"{path.stem}_failed{path.suffix}")
+        if interrupted:
+            self.save_last(recorder)
+        trajectory.save(path)
+        if not interrupted:
+            self.remove()
+        return path
+
     def remove(self) -> None:
         """Remove the saved steps, the last ones first: what is left is whole at any time."""
         for path in reversed(_files(self.folder)):
             path.unlink(missing_ok=True)
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def first_step(path: str | Path, steps: int, resume: bool) -> int:
+    """The step that a run begins with: 0, or that after the saved ones.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of its trajectory.
+    steps : int
+        Of the whole run.
+    resume : bool
+        Whether it goes on from the saved steps.
+
+    Raises
+    ------
+    InputError
+        If the run would lose steps that are there: a longer trajectory, or saved steps that it does
+        not go on from; or if the file holds something else.
+    """
+    there, saved = steps_in(path), saved_steps(path)
+    if there > steps:
+        problem = (
+            f"holds a run of {there} steps, which one of {steps} steps does not replace; choose "
+            "another folder, or remove it"
+        )
+        raise InputError(problem, file=path)
+    if saved and not resume:
+        problem = (
+            f"holds the first {saved} steps of a run that did not end; go on from there with "
+            "--resume (in Python: resume=True), or remove that folder"
+        )
+        raise InputError(problem, file=saved_folder(path))
+    if saved > steps:
+        problem = (
+            f"holds the first {saved} steps of a run, and this one has {steps}; go on with at "
+            "least as many, or remove that folder"
+        )
+        raise InputError(problem, file=saved_folder(path))
+    return saved
 
 
 def saved_folder(path: str | Path) -> Path:
@@ -233,11 +281,11 @@ def saved_steps(path: str | Path) -> int:
     files = _files(saved_folder(path))
     if not files:
         return 0
-    header, _ = npz_record(files[-1], WHAT)
+    header = npz_header(files[-1], WHAT)
     with about_file(files[-1]):
         top = Fields(header)
         return top.integer("first", least=0) + top.integer("steps", least=0)
 
 
 def _files(folder: Path) -> list[Path]:
-    return sorted(folder.glob("[0-9]*.npz"))
+    return sorted(folder.glob("[0-9]*.npz")) if os.path.isdir(folder) else []
