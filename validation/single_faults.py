@@ -47,7 +47,7 @@ def fault(step: StepData, record: Any, reason: str) -> Fault:
 
 def solved(step: StepData) -> Any:
     """The solution file of a step, which is right."""
-    return json.loads(solution_text(step, solve_step(step)))
+    return json.loads(solution_text(solve_step(step)))
 
 
 def in_the_files() -> Iterator[Fault]:

@@ -71,7 +71,7 @@ class Cases:
     def solved(self, family: str, step: StepData) -> Iterator[Case]:
         """A step with its exact solution, or with the proof that it has none."""
         try:
-            yield self.case(family, self.text(step), solution_text(step, solve_step(step)))
+            yield self.case(family, self.text(step), solution_text(solve_step(step)))
         except StepInfeasible as proof:
             if proof.farkas is not None and proof.farkas.exact is not None:
                 text = infeasible_text(step, proof.farkas.exact)
@@ -188,7 +188,7 @@ def written_otherwise(cases: Cases) -> Iterator[Case]:
             try:
                 cases.step.write_text(text)
                 posed = step_read(cases.step)
-                solution = solution_text(posed, solve_step(posed))
+                solution = solution_text(solve_step(posed))
             except (InputError, StepInfeasible, StepIllPosed, StepNotSolved):
                 continue
             yield cases.case(f"written otherwise, {name}", text, solution)

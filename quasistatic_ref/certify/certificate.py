@@ -52,11 +52,12 @@ def exact_certificate(
         smallest_inactive_slack=optimum.smallest_inactive_slack,
         smallest_active_multiplier=optimum.smallest_active_multiplier,
         error_bound=0.0,
+        step=step,
     )
 
 
-def in_words(step: StepData, certificate: Certificate) -> str:
-    """What a certificate claims, in a sentence or two."""
+def in_words(certificate: Certificate) -> str:
+    """What a certificate claims of its step, in a sentence or two."""
     if certificate.kind == "residual":
         known = certificate.error_bound is not None
         bound = _error_in_words(certificate) if known else "no error bound"
@@ -68,6 +69,8 @@ def in_words(step: StepData, certificate: Certificate) -> str:
         return f"enclosed: {_error_in_words(certificate)}, proved in ball arithmetic"
     if certificate.kind != "exact":
         return "nothing is certified"
+    step = certificate.step
+    assert step is not None
     if step.cone == ELLIPSOID:
         return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
     m = int(step.offsets[-1]) + len(step.extra.names)
@@ -111,13 +114,16 @@ def verify(
     lam : ndarray, shape (m,), optional
         The claimed multipliers on that working set, the user's own rows last.
     claims : Certificate, optional
-        All fields but the residuals, which are float64's, are checked. Kind
-        ``"none"`` claims nothing and is refused, and so is ``"residual"`` without a bound.
+        All fields but the residuals, which are float64's, are checked. One of another step is
+        refused, and so are kind ``"none"``, which claims nothing, and ``"residual"`` without a
+        bound.
 
     Returns
     -------
     Verdict
     """
+    if claims is not None and claims.kind != "none" and not claims.is_of(step):
+        return Verdict(False, "the certificate is of another step")
     if claims is not None and claims.kind == "residual":
         return bound_verdict(step, delta_q, lam, claims.error_bound)
     if step.cone == ELLIPSOID:

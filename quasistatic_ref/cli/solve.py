@@ -57,12 +57,12 @@ def run(options: argparse.Namespace) -> int:
         _write(options.output, infeasible_text(step, proof.farkas.exact))
         raise
     if options.digits is not None:
-        shared.print_rows(decimals(step, solution, options.digits))
+        shared.print_rows(decimals(solution, options.digits))
     if options.digits is None or options.output is not None:
-        _write(options.output, solution_text(step, solution))
+        _write(options.output, solution_text(solution))
     digits = solution.statistics.digits
     own_digits = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
-    print(f"{in_words(step, solution.certificate)}{own_digits}", file=sys.stderr)
+    print(f"{in_words(solution.certificate)}{own_digits}", file=sys.stderr)
     return 0
 
 
@@ -78,8 +78,9 @@ def _check_digits(digits: int, certify: str, step: StepData) -> None:
     raise InputError(problem, field="--digits", value=digits)
 
 
-def decimals(step: StepData, solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
+def decimals(solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
     """Each delta_q in decimal digits [m, rad], correctly rounded from the exact optimum."""
+    step = solution.step
     working = flat_rows(step, solution.certificate.active)
     names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
     names += [f"delta_q_u[{i}]" for i in range(step.n_u)]

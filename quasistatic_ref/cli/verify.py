@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         proved = "the step has no solution; the Farkas vector proves it"
         if solution.certificate is not None:
-            proved = in_words(step, solution.certificate)
+            proved = in_words(solution.certificate)
         left = ", ".join(solution.unchecked)
         print(f"verified: {proved}{f'; not checked: {left}' if left else ''}")
     return 0 if reason is None else 1

@@ -88,7 +88,7 @@ class Recorder:
         result : StepResult
         """
         step, solution, points = result.step, result.solution, result.points
-        gap = gap_after(step, solution)
+        gap = gap_after(solution)
         row: dict[str, Any] = {
             "t": self.t,
             "delta_q": solution.delta_q,
@@ -109,7 +109,7 @@ class Recorder:
             "tau": np.concatenate([step.tau_a, step.tau_u]),
             "gap": gap,
             "Pi": _or_nan(quasi_dynamic_number(self.system, step, solution.delta_q, self.g)),
-            "drag": _or_nan(drag_share(self.system, step, solution, self.g)),
+            "drag": _or_nan(drag_share(self.system, solution, self.g)),
             "layer": boundary_layer(gap, solution),
         }
         row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}

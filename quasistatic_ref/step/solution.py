@@ -10,6 +10,7 @@ from quasistatic_ref.optional.show.show import shown
 from quasistatic_ref.optional.show.step_words import certificate_page, solution_page
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
 
 
@@ -45,6 +46,8 @@ class Certificate(Plain):
         error is the correct rounding of each entry.
     gap : float or None
         In the ellipsoid: bound of f(delta_q*) - d(lam), the duality gap of lam [N m s].
+    step : StepData or None
+        What it is about. Only kind ``"none"``, which claims nothing, is about no step.
     """
 
     kind: str
@@ -56,8 +59,18 @@ class Certificate(Plain):
     smallest_active_multiplier: float | None = None
     error_bound: float | None = None
     gap: float | None = None
+    step: StepData | None = None
 
     __repr__, _repr_html_ = shown(certificate_page)
+
+    @property
+    def step_sha256(self) -> str | None:
+        """SHA-256 of the step that it is about, as in a solution file; formed when it is read."""
+        return None if self.step is None else step_sha256(self.step)
+
+    def is_of(self, step: StepData) -> bool:
+        """Whether it is about this step: the same object, or one with the same SHA-256."""
+        return self.step is step or self.step_sha256 == step_sha256(step)
 
 
 class SolverStatistics(NamedTuple):

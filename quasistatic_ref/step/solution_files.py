@@ -85,13 +85,14 @@ def claims_in(cone: str) -> dict[str, tuple[str, ...]]:
     return ELLIPSOID_CLAIMS if cone == ELLIPSOID else CLAIMS
 
 
-def solution_text(step: StepData, solution: StepSolution) -> str:
+def solution_text(solution: StepSolution) -> str:
     """The solution of a step as one line of JSON.
 
     Where a backend's own answer has an error bound, negative multipliers are written as 0.0,
     because the bound was computed with 0.0 in their place.
     """
-    certificate, lam, lam_extra = solution.certificate, solution.lam, solution.lam_extra
+    step, certificate = solution.step, solution.certificate
+    lam, lam_extra = solution.lam, solution.lam_extra
     kind = certificate.kind
     if kind == "residual" and certificate.error_bound is not None:
         lam, lam_extra = np.maximum(lam, 0.0), np.maximum(lam_extra, 0.0)
@@ -156,7 +157,7 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
         delta_q=top.array("delta_q", (step.n_v,)),
         lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
         wrench=top.array("wrench", (step.contacts.n_c, 4)),
-        certificate=_first_certificate(claims) if first else _certificate(claims, step.cone),
+        certificate=(_first_certificate if first else _certificate)(claims, step),
         unchecked=(*VERSION_1_UNCHECKED, *more) if first else (),
     )
     top.close()
@@ -172,8 +173,8 @@ def _nested(top: Fields, step: StepData) -> Array:
     return np.concatenate([np.zeros(0), *parts])
 
 
-def _certificate(table: Fields, cone: str) -> Certificate:
-    known = claims_in(cone)
+def _certificate(table: Fields, step: StepData) -> Certificate:
+    known = claims_in(step.cone)
     kind = table.text("kind", choices=tuple(known))
     claims: dict[str, Any] = {
         name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]
@@ -182,10 +183,10 @@ def _certificate(table: Fields, cone: str) -> Certificate:
     active = claims.get("active", ())
     if active != tuple(sorted(set(active))):
         raise table.fail("active", "must be in increasing order", active)
-    return Certificate(kind, **claims)
+    return Certificate(kind, **claims, step=None if kind == "none" else step)
 
 
-def _first_certificate(table: Fields) -> Certificate:
+def _first_certificate(table: Fields, step: StepData) -> Certificate:
     """Version 1: any claim may be missing; its residuals are read and not used."""
     kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
     residuals = table.table("residuals", {})
@@ -193,7 +194,7 @@ def _first_certificate(table: Fields) -> Certificate:
         residuals.number(name)
     claims = {name: _claim(table, name, True) for name in CLAIMS["exact"] if name in table}
     table.close()
-    return Certificate(kind, **claims)
+    return Certificate(kind, **claims, step=None if kind == "none" else step)
 
 
 def _claim(table: Fields, name: str, may_be_null: bool) -> Any:

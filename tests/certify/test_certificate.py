@@ -1,5 +1,7 @@
 """Certificates are data, and verification believes nothing in them."""
 
+import json
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +11,10 @@ from quasistatic_ref.certify.certificate import exact_certificate, in_words, ver
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import Certificate
+from quasistatic_ref.step.solution_files import solution_text
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor
 
@@ -42,27 +46,27 @@ def test_certificate_is_what_the_optimum_says(step, optimum):
 def test_words_count_all_rows_and_name_the_margins(step, optimum):
     """10 contacts of six rows, 5 of four, and two of the user's own: 82."""
     claims = exact_certificate(step, optimum)
-    words = in_words(step, claims)
+    words = in_words(claims)
     assert words.startswith("exact: the optimum of the step, correctly rounded; ")
     assert f"{len(claims.active)} of 82 rows; " in words
     assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in words
     assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in words
     bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
-    assert "smallest" not in in_words(step, bare)
+    assert "smallest" not in in_words(bare)
 
 
 def test_words_for_what_is_not_exact(step):
     known = Certificate("residual", {"primal": 2e-9, "dual": 1e-9}, error_bound=3e-8)
-    words = in_words(step, known)
+    words = in_words(known)
     assert words.startswith("not exact: worst residual 2.0e-09 in natural units")
     assert words.endswith("error of delta_q in the norm of H is at most 3.0e-08")
-    assert in_words(step, replace(known, error_bound=None)).endswith("no error bound")
+    assert in_words(replace(known, error_bound=None)).endswith("no error bound")
     read = Certificate("residual", error_bound=3e-8)
     assert (
-        in_words(step, read)
+        in_words(read)
         == "not exact: the relative error of delta_q in the norm of H is at most 3.0e-08"
     )
-    assert in_words(step, Certificate("none")) == "nothing is certified"
+    assert in_words(Certificate("none")) == "nothing is certified"
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):
@@ -177,3 +181,17 @@ def test_claims_of_a_sticking_body_are_checked(phi, contacts):
     for name in ("multipliers_unique", "differentiable"):
         false = replace(claims, **{name: not getattr(claims, name)})
         assert name in verify(step, optimum.delta_q, claims.active, optimum.lam, false).reason
+
+
+@pytest.mark.parametrize("certify", ["full", "residual"])
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
+def test_a_certificate_says_which_step_it_is_about(cone, certify):
+    step = point_on_floor(force=(0.1, 0.0, -1.0)).replace(cone=cone)
+    other = step.replace(tau_u=[0.1, 0.0, -1.0 - 2**-52])
+    solution = solve_step(step, certify=certify)
+    claims = solution.certificate
+    assert claims.step_sha256 == json.loads(solution_text(solution))["step_sha256"]
+    for same in (step, step.replace(), pickle.loads(pickle.dumps(step))):
+        assert pickle.loads(pickle.dumps(claims)).is_of(same)
+    verdict = verify(other, solution.delta_q, claims.active, solution.lam, claims)
+    assert verdict.reason == "the certificate is of another step"

@@ -164,7 +164,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     step = run.step_data(0)
     text = step_text(step).encode()
     solutions = (
-        solution_text(step, solve_step(step, NONE)),
+        solution_text(solve_step(step, NONE)),
         infeasible_text(step, ["1/2"] * 6),
     )
 

@@ -6,7 +6,6 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.many import TABLE, simulate_many, swept_values
 from quasistatic_ref.lab.study.sweep import DONE
-from quasistatic_ref.scenario.overrides import parsed
 
 MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
 """What is printed of each run; the rest is in the table."""
@@ -23,13 +22,16 @@ def run(options: argparse.Namespace) -> int:
     if options.view or options.strict:
         other = "--view" if options.view else "--strict"
         raise InputError("is of one run; leave out --sweep", field=other)
-    fixed = (setting.partition("=") for setting in shared.scenario_settings(options))
-    variations = {key: [parsed(value)] for key, _, value in fixed}
-    variations |= dict(map(swept_values, options.sweeps))
+    variations = dict(map(swept_values, options.sweeps))
     rows = simulate_many(
-        options.scenario, variations, options.out,
-        workers=options.jobs, scheduler=options.scheduler, progress=not options.quiet,
-    )  # fmt: skip
+        options.scenario,
+        variations,
+        options.out,
+        settings=shared.scenario_settings(options),
+        workers=options.jobs,
+        scheduler=options.scheduler,
+        progress=not options.quiet,
+    )
     failed = sum(row["outcome"] != DONE for row in rows)
     if options.json:
         shared.print_json({"runs": len(rows), "failed": failed, "store": str(options.out)})

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ def simulate_many(
     variations: Mapping[str, Iterable[float | str]],
     folder: str | Path,
     *,
+    settings: Sequence[str] = (),
     workers: int | None = None,
     scheduler: str | None = None,
     link: str | None = None,
@@ -42,6 +44,8 @@ def simulate_many(
     folder : str or Path
         For ``runs.csv``, one line a run; ``runs/*.npz``, one light trajectory a run; and
         ``rows.jsonl``, from which the same call goes on after an interruption.
+    settings : sequence of str
+        Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
         Processes on this machine; by default as many as there are cores.
     scheduler : str, optional
@@ -58,7 +62,8 @@ def simulate_many(
     Raises
     ------
     InputError
-        If a field, a value or the scenario is unusable, or the folder holds other runs.
+        If a field, a value or any of the scenarios is unusable, or the folder holds other runs:
+        before anything is written.
     """
     axes = tuple(_axis(name, values) for name, values in variations.items())
     count = math.prod(len(axis.values) for axis in axes)
@@ -68,9 +73,9 @@ def simulate_many(
     if workers is not None and workers < 1:
         raise InputError("must be at least 1", field="workers", value=workers)
     path = str(Path(scenario).resolve()) if str(scenario).endswith(".toml") else str(scenario)
-    sweep = Sweep(Path(path).stem, path, link or "", None, 0.0, axes)
+    sweep = Sweep(Path(path).stem, path, link or "", None, 0.0, axes, tuple(settings))
     system = sweep_scenario(sweep, sweep.points()[0]).system
-    sweep = Sweep(sweep.name, path, link or _followed(system), None, 0.0, axes)
+    sweep = replace(sweep, link=link or _followed(system))
     system.link(sweep.link)
     rows = run_sweep([sweep], folder, jobs=workers, scheduler=scheduler, progress=progress,
                      keep_runs=True)  # fmt: skip
@@ -124,11 +129,15 @@ def _followed(system: System) -> str:
 
 
 def _table(rows: Sequence[Row]) -> str:
-    """Return one line a run: its file, its values, what became of it."""
+    """Return one line a run: its file, its values, what became of it.
+
+    The steps that were taken are named so, because `steps` may be a value.
+    """
     measures = list(dict.fromkeys(name for row in rows for name in row["measures"]))
+    named = ["steps_taken" if name == "steps" else name for name in measures]
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
-    lines.writerow(["run", *rows[0]["values"], "outcome", "reason", *measures])
+    lines.writerow(["run", *rows[0]["values"], "outcome", "reason", *named])
     for row in rows:
         found: list[Any] = [row["measures"].get(name) for name in measures]
         lines.writerow([run_file(row), *row["values"].values(), row["outcome"], row["reason"],

@@ -51,6 +51,8 @@ class Sweep:
     since : float
         From when on rotation and rise are measured [s].
     axes : tuple of Axis
+    fixed : tuple of str
+        Changes of the scenario that all runs have, ``dotted.key=value``.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Sweep:
     duration: float | None
     since: float
     axes: tuple[Axis, ...]
+    fixed: tuple[str, ...] = ()
 
     def points(self) -> list[dict[str, Any]]:
         """Every combination of values, by the names of the axes."""
@@ -76,9 +79,9 @@ class Sweep:
         InputError
             If the study's duration makes too many steps.
         """
-        changes = [
-            f"{field}={json_text(point[axis.name])}" for axis in self.axes for field in axis.fields
-        ]
+        changes = list(self.fixed)
+        for axis in self.axes:
+            changes += [f"{field}={json_text(point[axis.name])}" for field in axis.fields]
         if self.duration is not None:
             h = load_scenario(self.scenario, changes).h
             if not self.duration / h <= LARGE:

@@ -6,8 +6,9 @@ Every combination of the values is one run, each step exact; a row is what the r
 import hashlib
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import asdict
 from multiprocessing import get_context
 from pathlib import Path
@@ -15,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import QuasistaticError, RunFailed
+from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.study.environment import machine, versions
 from quasistatic_ref.lab.study.spec_sweep import Sweep, sweep_scenario
@@ -27,7 +28,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 RUNS = "runs"
 """Folder of trajectories in that of a store."""
-DONE, ENDED_EARLY, REFUSED = "done", "ended_early", "refused"
+DONE, ENDED_EARLY = "done", "ended_early"
 
 
 def run_sweep(
@@ -39,7 +40,7 @@ def run_sweep(
     progress: bool = True,
     keep_runs: bool = False,
 ) -> list[Row]:
-    """Run sweeps, or what is left of them.
+    """Run sweeps, or what is left of them. What cannot be run is refused before any is.
 
     Parameters
     ----------
@@ -58,23 +59,42 @@ def run_sweep(
     -------
     list of dict
         All rows of the store, sorted.
-    """
-    folder = writable_folder(folder)
-    kept = writable_folder(folder / RUNS).parent if keep_runs else None
-    with Store(folder, sweep_record(sweeps)) as store:
-        done = store.keys
-        every = [(sweep, point) for sweep in sweeps for point in sweep.points()]
-        todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
-        if scheduler is not None:
-            from quasistatic_ref.lab.study.cluster import executor_of
 
-            with executor_of(scheduler) as (executor, slots):
-                _conduct(store, todo, executor, slots, progress, kept)
-        else:
-            jobs = jobs or os.cpu_count() or 1
-            with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-                _conduct(store, todo, pool, jobs, progress, kept)
-        return sorted(store.rows, key=key_of)
+    Raises
+    ------
+    InputError
+        If any of the scenarios is unusable, or the folder is or holds something else.
+    """
+    every = [(sweep, point) for sweep in sweeps for point in sweep.points()]
+    with _workers(jobs, scheduler) as (executor, slots):
+        for _ in executor.map(check_point, *zip(*every, strict=True)):
+            pass  # an error of any of them is raised here
+        folder = writable_folder(folder)
+        kept = writable_folder(folder / RUNS).parent if keep_runs else None
+        with Store(folder, sweep_record(sweeps)) as store:
+            done = store.keys
+            todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
+            _conduct(store, todo, executor, slots, progress, kept)
+            return sorted(store.rows, key=key_of)
+
+
+@contextmanager
+def _workers(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor, int]]:
+    """What runs several scenarios at once, and how many."""
+    if scheduler is not None:
+        from quasistatic_ref.lab.study.cluster import executor_of
+
+        with executor_of(scheduler) as workers:
+            yield workers
+    else:
+        jobs = jobs or os.cpu_count() or 1
+        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+            yield pool, jobs
+
+
+def check_point(sweep: Sweep, point: dict[str, Any]) -> None:
+    """Refuse a point whose scenario cannot be run; InputError as :func:`.load_scenario` has it."""
+    sweep_scenario(sweep, point).simulator()
 
 
 def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
@@ -99,20 +119,16 @@ def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
     return sweep_run(sweep, point)[0]
 
 
-def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory | None]:
-    """The same with its trajectory; a scenario that is refused has none."""
+def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
+    """The same with its trajectory."""
     begin = time.perf_counter()
-    outcome, reason, measures = DONE, None, {}
-    trajectory: Trajectory | None = None
+    scenario = sweep_scenario(sweep, point)
+    outcome, reason = DONE, None
     try:
-        scenario = sweep_scenario(sweep, point)
-        try:
-            trajectory = scenario.run(progress=False)
-        except RunFailed as failure:
-            outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
-        measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
-    except QuasistaticError as error:
-        outcome, reason = REFUSED, str(error)
+        trajectory = scenario.run(progress=False)
+    except RunFailed as failure:
+        outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
+    measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
     row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
     return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
 
@@ -137,8 +153,7 @@ def _conduct(
                 row = future.result()
                 if kept is not None:
                     row, trajectory = row
-                    if trajectory is not None:  # before the row, which says that it is there
-                        trajectory.save(kept / run_file(row))
+                    trajectory.save(kept / run_file(row))  # before the row, which names it
                 store.add(row)
                 bar.update()
 

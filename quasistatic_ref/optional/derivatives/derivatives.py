@@ -68,7 +68,7 @@ def derivatives(
     q = np.asarray(q, dtype=np.float64)
     result = _certified(simulator, q, q_bar_a, force)
     rates = StepRates(simulator, q, result)
-    touching = touching_rows(result.step, result.solution, rates.far)
+    touching = touching_rows(result.solution, rates.far)
     equations = Equations(touching)
     if towards is not None:
         widths = {name: stop - start for name, (start, stop) in rates.places.items()}

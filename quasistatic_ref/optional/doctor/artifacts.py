@@ -14,7 +14,7 @@ from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import BEARS, SLOW
 
 
-def drag_share(system: System, step: StepData, solution: StepSolution, g: float) -> float | None:
+def drag_share(system: System, solution: StepSolution, g: float) -> float | None:
     """Spurious drag on a free body over the friction that its contacts can bear, (R13).
 
     Of a floating base that is not actuated, the drag is the force ||M_u delta_q_u / h^2|| on its
@@ -24,7 +24,6 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
     Parameters
     ----------
     system : System
-    step : StepData
     solution : StepSolution
     g : float
         Length of gravity [m/s^2].
@@ -35,8 +34,8 @@ def drag_share(system: System, step: StepData, solution: StepSolution, g: float)
         Of the body that has the largest share; None where no body floats, or none that floats rubs
         or weighs anything, or where float64 has no number for it.
     """
+    step, friction = solution.step, _friction(solution)
     momentum = step.momentum(solution.delta_q)
-    friction = _friction(step, solution)
     shares = []
     for base in _free_bases(system):
         x = base.v.start
@@ -64,13 +63,13 @@ def _free_bases(system: System) -> list[Joint]:
     return [j for j in system.joints if j.kind == "floating" and not j.actuated]
 
 
-def _friction(step: StepData, solution: StepSolution) -> Array:
+def _friction(solution: StepSolution) -> Array:
     """For each coordinate that translates a base: sum of mu_v f_n [N] over its body's contacts.
 
     Shape (n_v,), or (n_v + 1,) in blocks; other entries mean nothing. A coordinate that translates
     a base moves the points of its body's contacts by one metre per metre, and others not at all.
     """
-    contacts, f_n = step.contacts, solution.wrench[:, 2]
+    contacts, f_n = solution.step.contacts, solution.wrench[:, 2]
     bears = contacts.mu_v * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
     blocks = contacts.blocks
     J = contacts.J if blocks is None else blocks.J
@@ -111,10 +110,11 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     return None if v is None else _quotient(v, float(rough.min()) * g * step.h)
 
 
-def gap_after(step: StepData, solution: StepSolution) -> Array:
+def gap_after(solution: StepSolution) -> Array:
     """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,)."""
-    motion = step.contacts.motion(solution.delta_q)[:, :3]
-    return np.asarray(step.contacts.phi + np.sum(step.contacts.n * motion, axis=1))
+    contacts = solution.step.contacts
+    motion = contacts.motion(solution.delta_q)[:, :3]
+    return np.asarray(contacts.phi + np.sum(contacts.n * motion, axis=1))
 
 
 def boundary_layer(gap: Array, solution: StepSolution) -> float:

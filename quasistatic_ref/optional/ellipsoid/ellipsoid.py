@@ -54,6 +54,7 @@ def enclosure_certificate(
         active=contact_rows(step, found.working_set or ()),
         error_bound=found.error,
         gap=found.gap,
+        step=step,
     )
 
 

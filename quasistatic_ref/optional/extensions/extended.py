@@ -209,7 +209,7 @@ def _solved(
         raise StepNotSolved(name, said, step, accuracy, residuals)
     stats = problem.problem.solver_stats
     statistics = SolverStatistics(name, status, stats.num_iters, stats.solve_time, accuracy)
-    return Certificate("residual", asdict(residuals)), statistics
+    return Certificate("residual", asdict(residuals), step=step), statistics
 
 
 def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Array:

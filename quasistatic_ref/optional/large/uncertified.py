@@ -48,9 +48,8 @@ def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
-    return Certificate(
-        "residual", dict(vars(residuals)), error_bound=_bound(scaled, solver, answer)
-    )
+    bound = _bound(scaled, solver, answer)
+    return Certificate("residual", dict(vars(residuals)), error_bound=bound, step=scaled.step)
 
 
 def _bound(scaled: NaturalStep, solver: Solver, answer: Answer) -> float | None:

@@ -44,13 +44,34 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]
 
 
-def test_a_run_that_is_refused_is_a_line_without_a_trajectory(tmp_path):
-    variations = {"steps": [1], "contacts.rough.mu_v": np.array([0.5, -1.0])}
-    rows = simulate_many("block_incline", variations, tmp_path, workers=1, progress=False)
-    assert {row["values"]["contacts.rough.mu_v"]: row["outcome"] for row in rows} == {
-        0.5: "done", -1.0: "refused",
-    }  # fmt: skip
-    assert len(list((tmp_path / "runs").iterdir())) == 1
+IMPOSSIBLE = {
+    "a value": ({"contacts.rough.mu_v": np.array([0.5, -1.0])}, "mu_v: must be at least 0"),
+    "a cone that the backend does not take": (
+        {"solver.backend": ["daqp"], "cone": ["pyramid", "ellipsoid"]}, "takes linear rows only",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("variations", "says"), IMPOSSIBLE.values(), ids=IMPOSSIBLE)
+def test_a_grid_with_a_run_that_cannot_be_is_refused_before_any(tmp_path, variations, says):
+    folder = tmp_path / "map"
+    with pytest.raises(InputError, match=says):
+        simulate_many("block_incline", variations, folder, workers=1, progress=False)
+    assert not folder.exists()
+
+
+def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path):
+    sideways = "gravity=[0.0, 0.5, -9.81]"
+    argv = ["run", "block_incline", "--set", sideways, "--sweep", "steps=1,2", "--jobs", "1"]
+    assert main([*argv, "--quiet", "--out", str(tmp_path)]) == 0
+    header = (tmp_path / TABLE).read_text().splitlines()[0].split(",")
+    assert len(set(header)) == len(header)
+    lines = table(tmp_path)
+    assert [(line["steps"], line["steps_taken"]) for line in lines] == [("1", "1.0"), ("2", "2.0")]
+    for line in lines:
+        alone = load_scenario("block_incline", [sideways], steps=int(line["steps"]))
+        found = trajectory_read(tmp_path / line["run"])
+        np.testing.assert_array_equal(found["q"], alone.run(progress=False)["q"])
 
 
 @pytest.mark.parametrize(

@@ -153,7 +153,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
         if "farkas" in output:
             refused[case.id] = farkas_refutation(step, output["certificate"]["farkas"])
             continue
-        claims = claimed(case.input, output)
+        claims = claimed(case.input, output, step)
         lam, delta_q = np.array(output["lam"]), np.array(output["delta_q"])
         refused[case.id] = verify(step, delta_q, claims.active, lam, claims).reason
     assert {name: reason for name, reason in refused.items() if reason} == {}

@@ -101,7 +101,7 @@ def test_multipliers_below_zero_are_written_as_the_bound_takes_them(bound, writt
     claims = Certificate("residual", dict.fromkeys(("stationarity", "primal", "dual",
                          "complementarity"), 0.0), error_bound=bound)  # fmt: skip
     solution = step_solution(STEP, np.zeros(7), lam, claims, SAID)
-    assert json.loads(solution_text(STEP, solution))["lam"][0][1] == written
+    assert json.loads(solution_text(solution))["lam"][0][1] == written
 
 
 def test_arrays_are_the_same_if_all_of_their_numbers_are():

@@ -109,7 +109,7 @@ def test_a_certificate_and_its_file_are_those_of_whole_matrices(monkeypatch):
     assert one.solution.certificate.error_bound > 0
     assert one == two
     assert step_text(one.step) == step_text(two.step)
-    said = [solution_text(some.step, some.solution) for some in (one, two)]
+    said = [solution_text(some.solution) for some in (one, two)]
     assert said[0] == said[1]
 
 

@@ -171,9 +171,10 @@ def certificate_problem(case: Json, answer: Json) -> str | None:
     if "second_order" in case:
         return "in second-order cones only the expected one is known"
     try:
-        certificate = claimed(case, answer)
+        step = step_of(case)
+        certificate = claimed(case, answer, step)
         delta_q, lam = (np.array(answer[name], dtype=np.float64) for name in ("delta_q", "lam"))
-        verdict = verify(step_of(case), delta_q, certificate.active, lam, certificate)
+        verdict = verify(step, delta_q, certificate.active, lam, certificate)
     except (InputError, KeyError, TypeError, ValueError, IndexError) as error:
         return f"it cannot be read: {error}"
     return None if verdict else str(verdict.reason)

@@ -118,14 +118,14 @@ def cone_step(case_input: Json) -> StepData:
     return _step(case_input, contacts, cone="ellipsoid")
 
 
-def claimed(case_input: Json, output: Json) -> Certificate:
-    """The certificate of an output, as `verify` takes it."""
+def claimed(case_input: Json, output: Json, step: StepData) -> Certificate:
+    """The certificate of an output about a step, as `verify` takes it."""
     written = output["certificate"]
     if "second_order" in case_input:
-        return Certificate(kind="enclosure", error_bound=written["error_bound"])
+        return Certificate(kind="enclosure", error_bound=written["error_bound"], step=step)
     active = tuple((0, i) for i in written["working_set"])  # of the step's own rows
     facts = {name: written[name] for name in (*FACTS, "error_bound")}
-    return Certificate(kind=written["kind"], active=active, **facts)
+    return Certificate(kind=written["kind"], active=active, **facts, step=step)
 
 
 def tolerances(bound: Bounds) -> dict[str, Tolerance]:

@@ -90,7 +90,7 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
     step : StepData
         SI units.
     certificate : Certificate
-        Of kind ``"exact"``; its working set is what is believed of it.
+        Of this step and of kind ``"exact"``; its working set is what is believed of it.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
     Raises
     ------
     InputError
-        If the certificate is of another kind, or the cone no polyhedron.
+        If the certificate is of another step or kind, or the cone no polyhedron.
     """
     if certificate.kind != "exact" or not cone(step.cone).polyhedral:
         raise InputError(
@@ -107,6 +107,9 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
             field="certificate",
             value=f"{certificate.kind}, {step.cone}",
         )
+    if not certificate.is_of(step):
+        problem = "is of another step; take that of the step's own solution"
+        raise InputError(problem, field="certificate", value=certificate.step_sha256)
     form = exact_form(step)
     active = _active(form, flat_rows(step, certificate.active))
     changes = parameter_changes(step)

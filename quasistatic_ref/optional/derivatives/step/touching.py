@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
-from quasistatic_ref.step.data import Array, Indices, Mask, StepData
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import cone_matrix, frame_jacobian
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import load
@@ -55,12 +55,11 @@ class Touching:
         )
 
 
-def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touching:
+def touching_rows(solution: StepSolution, places: Array) -> Touching:
     """The rows that touch at the certified optimum of a step in a polyhedral cone.
 
     Parameters
     ----------
-    step : StepData
     solution : StepSolution
     places : ndarray, shape (n_c,)
         How far the closest points are from the world's origin [m]: how large the numbers are whose
@@ -70,6 +69,7 @@ def touching_rows(step: StepData, solution: StepSolution, places: Array) -> Touc
     -------
     Touching
     """
+    step = solution.step
     contacts, table = step.contacts, cone_matrix(step.cone)
     mu_v, _, mu_omega = contacts.mu.T[:, :, None]
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)

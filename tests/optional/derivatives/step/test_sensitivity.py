@@ -280,3 +280,9 @@ def test_without_an_exact_certificate_in_a_polyhedral_cone_it_refuses():
     for other, certify in ((step, "residual"), (step.replace(cone="ellipsoid"), "full")):
         with pytest.raises(InputError, match="needs an exact certificate in a polyhedral cone"):
             sensitivity(other, solve_step(other, certify=certify).certificate)
+
+
+def test_it_refuses_the_certificate_of_another_step():
+    step, other = (pinch(grip=grip, offset=0.2) for grip in (5.0, 6.0))
+    with pytest.raises(InputError, match="certificate: is of another step; take that of the step"):
+        sensitivity(step, solve_step(other).certificate)

@@ -38,6 +38,11 @@ def test_rows_that_face_each_other_bear_load_in_some_optimal_lam():
     assert bearing(rows, lam, size).tolist() == [True, True, True, False]
 
 
+def answer(step, lam):
+    """An answer that stands still."""
+    return SimpleNamespace(step=step, delta_q=np.zeros(3), lam=lam)
+
+
 @pytest.mark.parametrize("unit", [1.0, 2.0**100, 2.0**-100])
 def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
     """A point at the limit of friction: the row against the push bears all load, and all touch.
@@ -47,7 +52,7 @@ def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
     W, mu, h = 3.0 * unit, 0.5, 0.01
     step = point_on_floor(0.3 * unit, mu, force=(mu * W, 0.0, -W), h=h)
     lam = h * W * np.array([BEARING / 1000, 0.0, 1.0, 0.0])  # of +d1, +d2, -d1, -d2
-    found = touching_rows(step, SimpleNamespace(delta_q=np.zeros(3), lam=lam), np.zeros(1))
+    found = touching_rows(answer(step, lam), np.zeros(1))
     assert found.strict.tolist() == [[0, 2]]
     assert found.idle.tolist() == [[0, 0], [0, 1], [0, 3]]
     assert Equations(found).s.tolist() == pytest.approx([1.0])
@@ -56,19 +61,19 @@ def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
 def test_rows_touch_within_the_rounding_of_their_place_or_under_load():
     gap = TOUCHING / 2
     step = point_on_floor(phi=gap, force=(0.0, 0.0, -1.0))
-    still = SimpleNamespace(delta_q=np.zeros(3), lam=np.zeros(4))
-    assert len(touching_rows(step, still, np.ones(1)).idle) == 4
-    assert not touching_rows(step, still, np.zeros(1)).contacts
-    pressed = SimpleNamespace(delta_q=np.zeros(3), lam=np.array([0.0, 1.0, 0.0, 0.0]))
-    assert touching_rows(step, pressed, np.zeros(1)).strict.tolist() == [[0, 1]]
+    still = answer(step, np.zeros(4))
+    assert len(touching_rows(still, np.ones(1)).idle) == 4
+    assert not touching_rows(still, np.zeros(1)).contacts
+    pressed = answer(step, np.array([0.0, 1.0, 0.0, 0.0]))
+    assert touching_rows(pressed, np.zeros(1)).strict.tolist() == [[0, 1]]
 
 
 def test_where_nothing_moves_a_contact_that_is_away_does_not_touch():
     """One of its contacts moves with no coordinate: its rows are zero."""
     step = point_on_floor(phi=1e-3)
-    still = SimpleNamespace(delta_q=np.zeros(3), lam=np.zeros(4))
     for J in (step.contacts.J, 0 * step.contacts.J):
-        found = touching_rows(step.replace(contacts=changed(step.contacts, J=J)), still, np.ones(1))
+        moved = step.replace(contacts=changed(step.contacts, J=J))
+        found = touching_rows(answer(moved, np.zeros(4)), np.ones(1))
         assert not found.contacts
 
 
