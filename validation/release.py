@@ -106,6 +106,7 @@ RESULTS = (
          "--out", "{temporary}", "--table", "validation/results/hostile_steps.md"),
         ("validation/results/hostile_steps.md",),
     ),
+    Result("outputs", ("validation.make.outputs",), ("validation/results/outputs.md",)),
     Result(
         "mutations",
         ("validation.mutations", "--stale"),

@@ -1,6 +1,7 @@
 """The command line, in this process: exit statuses, plain sentences on failure, JSON."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -212,6 +213,18 @@ def test_inspect_shows_a_scenario(scene, capsys):
     assert "each step: 8 variables, 10 rows; h = 0.01 s" in text
     assert "500 N/m" in text
     assert "2.5 N m/rad" in text
+
+
+def test_inspect_passes_over_a_byte_order_mark_as_run_does(scene, capsys):
+    path = Path(scene)
+    assert main(["inspect", scene]) == 0
+    plain = capsys.readouterr().out
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert main(["inspect", scene]) == 0
+    assert capsys.readouterr().out == plain
+    path.write_bytes(b"\xff" + path.read_bytes())
+    assert main(["inspect", scene]) == 2
+    assert capsys.readouterr().err.endswith("scene.toml: line 1: is not UTF-8 text\n")
 
 
 def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):

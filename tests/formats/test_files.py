@@ -86,6 +86,46 @@ def test_a_folder_in_the_way_is_a_plain_error(tmp_path):
     assert os.listdir(tmp_path) == ["t.txt"]
 
 
+def test_an_open_stream_is_written_into_behind_what_it_holds(tmp_path):
+    """As by the shell's ``-o /dev/stdout >> log``: the name leads to a regular file."""
+    log, link = tmp_path / "log", tmp_path / "link"
+    log.write_text("before\n")
+    with log.open("a") as stream:
+        link.symlink_to(f"/dev/fd/{stream.fileno()}")
+        for name in (f"/dev/fd/{stream.fileno()}", f"/proc/self/fd/{stream.fileno()}", link):
+            text_written(name, "text\n")
+        stream.write("after\n")
+    assert log.read_text() == "before\n" + 3 * "text\n" + "after\n"
+    assert link.is_symlink()
+
+
+def test_a_pipe_and_a_fifo_are_written_into(tmp_path):
+    fifo = tmp_path / "fifo"
+    os.mkfifo(fifo)
+    reader = os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)
+    one, other = os.pipe()
+    for name, end in ((fifo, reader), (f"/dev/fd/{other}", one)):
+        text_written(name, "text")
+        assert os.read(end, 100) == b"text"
+    assert stat.S_ISFIFO(fifo.stat().st_mode)
+    for descriptor in (reader, one, other):
+        os.close(descriptor)
+
+
+@pytest.mark.parametrize("error", [RuntimeError, OSError(28, "No space left on device")])
+def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
+    def write(file):
+        file.write(b"half of it")
+        raise error
+
+    one, other = os.pipe()
+    with pytest.raises((RuntimeError, InputError)):
+        whole(f"/dev/fd/{other}", write)
+    os.close(other)
+    assert os.read(one, 100) == b""
+    os.close(one)
+
+
 READS = {
     "missing": (lambda folder: folder / "none", "no such file"),
     "a folder": (lambda folder: folder, "cannot be read"),

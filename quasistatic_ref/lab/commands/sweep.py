@@ -22,7 +22,12 @@ def run(options: argparse.Namespace) -> int:
     if options.view or options.strict:
         other = "--view" if options.view else "--strict"
         raise InputError("is of one run; leave out --sweep", field=other)
-    variations = dict(map(swept_values, options.sweeps))
+    variations: dict[str, list[float | str]] = {}
+    for text in options.sweeps:
+        field, values = swept_values(text)
+        if field in variations:
+            raise InputError("is swept twice; give all of its values at once", field=field)
+        variations[field] = values
     rows = simulate_many(
         options.scenario,
         variations,

@@ -112,3 +112,5 @@ def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
 def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, capsys):
     assert main(["run", *SLOPE, "--view", "--out", str(tmp_path)]) == 2
     assert "--view: is of one run" in capsys.readouterr().err
+    assert main(["run", *SLOPE, "--sweep", "contacts.rough.mu_v=1", "--out", str(tmp_path)]) == 2
+    assert "contacts.rough.mu_v: is swept twice" in capsys.readouterr().err
