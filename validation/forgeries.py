@@ -56,7 +56,7 @@ def good_file(step: StepData, kind: str) -> Json:
     """
     certify = {"residual": "residual", "none": "off"}.get(kind.split()[0], "full")
     try:
-        good = json.loads(text_of(step, solve_step(step, certify=certify)))
+        good = json.loads(text_of(solve_step(step, certify=certify)))
     except StepInfeasible as proof:
         return json.loads(infeasible_text(step, proof.farkas.exact))
     if kind == "residual":

@@ -55,6 +55,8 @@ SCENE: dict[str, Any] = {
     },
 }  # fmt: skip
 """A plate pushes a ball over the floor: n_a = 1, n_u = 6, 10 rows."""
+SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
+"""A change that makes the first step fail: 0.08 m deep, where 0.05 m is the limit."""
 
 
 def toml_text(table: dict[str, Any]) -> str:
@@ -122,3 +124,8 @@ def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
     written(folder, RAIL, "rail.urdf")
     written(folder, CLOUD, "cloud.xyz")
     return written(folder, toml_text(scene), "scene.toml")
+
+
+def contents(folder: Path) -> dict[Path, bytes]:
+    """Every file of a folder."""
+    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}

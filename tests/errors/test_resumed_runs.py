@@ -18,7 +18,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate import rollout as module
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.step.extension import Extension
-from tests.errors.scene import SCENE, changed, scene_written
+from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
 STEPS, STRETCH = 9, 4
 PATIENCE = 120.0
@@ -211,51 +211,9 @@ def test_a_resumed_run_that_is_shorter_is_refused_and_nothing_is_removed(tmp_pat
     path = tmp_path / "scene.npz"
     ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
     before = contents(tmp_path)
-    command = ["run", str(scene), "--set", "steps=3", "--out", str(tmp_path), "--resume"]
-    assert main(command) == 2
-    said = capsys.readouterr().err
-    assert "scene.npz.part: holds the first 4 steps of a run, and this one has 3; go on" in said
+    assert main(["run", str(scene), "--set", "steps=3", "--out", str(tmp_path), "--resume"]) == 2
+    assert "holds the first 4 steps of a run, and this one has 3;" in capsys.readouterr().err
     assert contents(tmp_path) == before
-
-
-def contents(folder):
-    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
-
-
-SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
-LOST = {
-    # name: (changes of the scene, arguments, exit status, what is said)
-    "a shorter run": ((), ["--set", "steps=2"], 2, "scene.npz: holds a run of 3 steps, which one"),
-    "a cone that the backend does not take": (
-        (), ["--cone", "ellipsoid", "--backend", "daqp"], 2, "takes linear rows only",
-    ),
-    "a run that fails": ((SUNK,), [], 3, "the first 0 steps are in {}/scene_failed.npz"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("cause", LOST)
-def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cause):
-    changes, more, status, says = LOST[cause]
-    out = tmp_path / "out"
-    command = ["run", str(scene_written(tmp_path)), "--out", str(out), "--quiet"]
-    assert main(command) == 0
-    before = contents(out)
-    scene_written(tmp_path, changed(SCENE, *changes))
-    capsys.readouterr()
-    assert main([*command, *more]) == status
-    assert says.format(out) in capsys.readouterr().err
-    assert before.items() <= contents(out).items()
-    assert status == 3 or contents(out) == before
-
-
-def test_what_is_no_trajectory_is_not_replaced_by_one(tmp_path, scene, capsys):
-    points = tmp_path / "scene.npz"
-    np.savez(points, points=np.zeros((4, 3)))
-    before = points.read_bytes()
-    assert main(["run", str(scene), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "is not a trajectory written by this program: it has no header; it is not rep" in said
-    assert points.read_bytes() == before
 
 
 @pytest.mark.parametrize("changes", [(), (SUNK,)])

@@ -12,7 +12,7 @@ from validation.make.outputs import (
 )
 
 
-def test_the_committed_page_is_of_everything_that_is_tried_and_nothing_was_lost():
+def test_the_committed_page_says_that_nothing_was_lost():
     kinds = {
         "pipes, devices, logs that are appended to": len(STREAMS),
         "full disks": len(FULL),

@@ -74,7 +74,7 @@ def test_every_kind_and_every_claim_of_a_certificate_is_forged():
             short = kind in ("none", "enclosure")
             assert any(kind + label * (not short) == scene for scene, _ in SCENES), (kind, cone)
             in_files |= set(names)
-    in_memory = {"residuals"}
+    in_memory = {"residuals", "step"}
     assert in_files | in_memory == {field.name for field in fields(Certificate)}
 
 

@@ -241,10 +241,8 @@ def choices(folder: Path, count: int) -> Iterator[Found]:
     )  # fmt: skip
 
     def status(*arguments: str) -> int:
-        assert server.stdin is not None
-        assert server.stdout is not None
         print(json.dumps(arguments), file=server.stdin, flush=True)
-        said = next(line for line in server.stdout if line.startswith("STATUS "))
+        said = next(line for line in server.stdout or () if line.startswith("STATUS "))
         return int(said.removeprefix("STATUS "))
 
     for name, engine, cone, certify in random.Random(0).sample(CHOICES, count):
@@ -263,8 +261,7 @@ def choices(folder: Path, count: int) -> Iterator[Found]:
         elif ran == 3 and after["out/scene.npz"] != before["out/scene.npz"]:
             lost = "the result"
         yield "backend, engine, cone, certificate", " ".join(sets), lost
-    server.stdin.close()
-    server.wait()
+    server.communicate()
 
 
 def found(count: int) -> Iterator[Found]:
@@ -293,11 +290,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=len(CHOICES), help="of the last kind but one")
     count = parser.parse_args().count
-    tried = []
-    for one in found(count):
-        tried.append(one)
-        if one[2]:
-            print(*one, sep=" | ", flush=True)
+    tried = list(found(count))
     RESULT.write_text(page(tried, count), encoding="utf-8")
     return int(any(lost for _, _, lost in tried))
 
