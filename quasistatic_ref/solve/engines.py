@@ -57,7 +57,7 @@ def check_solver(name: str, engine: str, cone_name: str, certify: str = CERTIFY[
 
 
 def check_certify(name: str, certify: str) -> None:
-    """Refuse a way to certify that does not exist, or not without a backend; errors as above."""
+    """Refuse no way to certify (InputError), and one that needs a backend (BackendError)."""
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if name == NONE and certify != CERTIFY[0]:
