@@ -121,6 +121,11 @@ def verify(
     Returns
     -------
     Verdict
+
+    Raises
+    ------
+    InputError
+        If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
     """
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")

@@ -20,6 +20,7 @@ import numpy as np
 from flint import fmpq, fmpz, fmpz_mat
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.errors import StepDataError
@@ -92,7 +93,13 @@ def exact_form(step: StepData, rows: Sequence[int] | None = None) -> ExactForm:
     Returns
     -------
     ExactForm
+
+    Raises
+    ------
+    InputError
+        If nothing can be proved in this thread.
     """
+    check_arithmetic()
     h = dyadic(step.h)
     tau_k = dyadic(step.K_q) @ dyadic(step.delta_q_bar_a)  # Eq. (1)
     # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
@@ -160,7 +167,10 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
     ------
     StepDataError
         If H is not symmetric, or a number is not finite.
+    InputError
+        If nothing can be proved in this thread.
     """
+    check_arithmetic()
     for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
         if not np.isfinite(array).all():
             raise StepDataError("must hold finite numbers only", field=name, value=array)

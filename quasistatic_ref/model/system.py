@@ -7,6 +7,7 @@ base has x, y and the angle of the same twist, in the plane.
 """
 
 from collections.abc import Sequence
+from threading import RLock
 
 import numpy as np
 import pinocchio as pin
@@ -35,8 +36,9 @@ class System:
     """Bodies in one world.
 
     Methods that take q do not check it; :meth:`checked` checks a q that comes from outside. They
-    share a workspace: one System must not be used from two threads at once, but a copy may. Copies
-    and pickles hold the URDFs' texts, and read no file. Equal systems have equal bodies and files.
+    share a workspace: one System must not be used from two threads at once, but a copy may; what
+    takes a step holds its lock. Copies and pickles hold the URDFs' texts, and read no file. Equal
+    systems have equal bodies and files.
 
     Parameters
     ----------
@@ -60,6 +62,8 @@ class System:
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
+    lock : threading.RLock
+        Held by a thread while it takes a step.
     motion : Motion
         How links move with the coordinates.
     constant_mass_matrix : bool
@@ -105,6 +109,7 @@ class System:
         self.bodies, self._world = world.bodies, world
         self._model, parts, frames = world.models
         self._workspace = Workspace(parts, frames)
+        self.lock = RLock()
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
         self._roots = world.roots

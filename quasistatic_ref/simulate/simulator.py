@@ -18,6 +18,7 @@ from quasistatic_ref.optional.large.sparse_jacobian import contact_geometry
 from quasistatic_ref.optional.show.show import shown
 from quasistatic_ref.optional.show.simulate_words import simulator_page
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.backends import DEFAULT
@@ -45,7 +46,8 @@ class Simulator:
 
     A simulator keeps what is slow to make and serves many steps: which points of the clouds may
     come among the closest, which coordinates move which contact, the solver. A copy is a new
-    simulator with the same settings.
+    simulator with the same settings. Simulators of one system are for one thread: a step that is
+    asked for while another thread takes one is refused. A deep copy has a system of its own.
 
     Parameters
     ----------
@@ -146,6 +148,7 @@ class Simulator:
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
         return partial(type(self), self.system, self.pairs, **settings), ()
 
+    @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
 
@@ -165,6 +168,8 @@ class Simulator:
         ------
         StepDataError
             If the force has another shape, or a number is not finite.
+        InputError
+            If another thread is taking a step of the same system.
         ModelError
             If q or q_bar_a has another shape.
         ContactError

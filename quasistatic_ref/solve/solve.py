@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.exact import ExactOptimum
@@ -93,8 +94,9 @@ def solve_step(
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
-        If a solver object does not fit the step, if `certify` is none of these words, or if
-        `accuracy` is not greater than 0.
+        If a solver object does not fit the step, if `certify` is none of these words, if
+        `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if nothing can
+        be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
@@ -144,6 +146,8 @@ def solved(
     BackendError
         If the solver does not support `certify`.
     """
+    if certify != "off":
+        check_arithmetic()
     if certify == "full" and not solver.certifies:
         problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
@@ -272,8 +276,11 @@ def _attempt(
     statistics = SolverStatistics(*said, engine=solver.engine)
     if solver.name == NONE:
         return None, statistics
+    answer = None
     try:
         answer = solver.answer(scaled, accuracy)
+        statistics = answer.statistics
     except StepNotSolved as failure:
-        return None, statistics._replace(status=f"failed: {failure.status}", digits=0.0)
-    return answer, answer.statistics
+        statistics = statistics._replace(status=f"failed: {failure.status}", digits=0.0)
+    check_arithmetic()  # a backend may have changed it
+    return answer, statistics

@@ -187,14 +187,15 @@ def _certificate(table: Fields, step: StepData) -> Certificate:
 
 
 def _first_certificate(table: Fields, step: StepData) -> Certificate:
-    """Version 1: any claim may be missing; its residuals are read and not used."""
+    """Version 1: any claim may be missing, or null; its residuals are read and not used."""
     kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
     residuals = table.table("residuals", {})
     for name in residuals.names():
         residuals.number(name)
     claims = {name: _claim(table, name, True) for name in CLAIMS["exact"] if name in table}
     table.close()
-    return Certificate(kind, **claims, step=None if kind == "none" else step)
+    made = {name: claim for name, claim in claims.items() if claim is not None}
+    return Certificate(kind, **made, step=None if kind == "none" else step)
 
 
 def _claim(table: Fields, name: str, may_be_null: bool) -> Any:

@@ -9,7 +9,6 @@ E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradie
 from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module
-from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -142,15 +141,15 @@ def _differentiable(
     """A function of (q, q_bar_a, force, kappa) for JAX; at kinks its derivatives are others."""
     check_derivable(simulator)
     jax = jax_package()
-    system, lock = simulator.system, Lock()
-    shaped, n_q = jax.ShapeDtypeStruct, system.n_q
+    system, shaped = simulator.system, jax.ShapeDtypeStruct
+    n_q = system.n_q
     ends = (shaped((n_q,), np.float64), shaped((len(KINDS),), bool))
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
 
     def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
         q, q_bar_a, force, kappa = map(np.asarray, given)
-        with lock:  # a system is for one thread, and JAX has several
+        with system.lock:  # a system is for one thread, and JAX has several
             return _rates(system, found, instead, names, q, q_bar_a, force, float(kappa))
 
     def called(names: tuple[str, ...], *given: Any) -> Any:

@@ -12,6 +12,7 @@ from functools import cache
 import cvxpy as cp
 import numpy as np
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
@@ -203,6 +204,7 @@ def _solved(
         second_order=[int(k) for k in dims.soc],
         exponential=int(dims.exp),
     )
+    check_arithmetic()
     residuals = conic_residuals(program, np.array(x), np.array(z))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         said = f"it said {status}, but its worst residual is {residuals.worst:.1e}"

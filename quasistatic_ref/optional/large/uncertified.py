@@ -2,6 +2,7 @@
 
 import math
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
@@ -42,6 +43,7 @@ def uncertified_solution(
 
 def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
     """The residuals of a solver's answer, which have to be small, and a bound of its error."""
+    check_arithmetic()
     residuals = scaled.residuals(answer.delta_q, answer.lam)
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"

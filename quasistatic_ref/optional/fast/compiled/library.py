@@ -4,6 +4,9 @@ A compiler is looked for in this order: the command that ``QUASISTATIC_REF_CC`` 
 for no compiled code at all), the system's ``cc``, ``gcc`` or ``clang``, and the Python package
 ``ziglang``, which the extra ``[fast]`` brings. The library is kept in the user's cache folder,
 ``XDG_CACHE_HOME`` or ``~/.cache``, under a name that follows from the source and the command.
+Before it comes there, its arithmetic is tested in a process of its own (``selftest.py``), because
+loading a library may already change the arithmetic of a process. Whatever goes wrong is said in a
+sentence, and steps are NumPy's.
 """
 
 import ctypes
@@ -12,25 +15,30 @@ import os
 import platform
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-from quasistatic_ref.optional.fast.compiled.products import FUSED, products
+from quasistatic_ref.formats.quoting import clipped, one_line
+from quasistatic_ref.optional.fast.compiled.products import APART, FUSED, products
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCES = (
     "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
-    "span.c", "rounding.c",
+    "span.c", "rounding.c", "arithmetic.c",
 )  # fmt: skip
 HEADERS = ("scene.h", "proof.h", "fixed_point.h")
+SELFTEST = "selftest.py"
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
 """The third: no compiler may join a product and a sum that the source keeps apart."""
-
+PATIENCE = 120.0
+"""Time that a compiler, or the self-test, is given [s]. Compilers take 0.4 to 4 s."""
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
@@ -73,15 +81,14 @@ def _found() -> ctypes.CDLL | str:
     if platform.system() == "Windows" or sys.maxsize < 2**32:
         return "it is made for 64-bit Linux and macOS only"
     try:
-        command = compiler()
-        found = ctypes.CDLL(str(_made(command)))
+        found = ctypes.CDLL(str(_made(compiler())))
+        for name, result in FUNCTIONS.items():
+            function = getattr(found, name)
+            function.argtypes, function.restype = [ctypes.c_void_p], result
     except CompileError as reason:
         return str(reason)
-    except OSError as failure:
-        return f"it could not be compiled: {failure}"
-    for name, result in FUNCTIONS.items():
-        function = getattr(found, name)
-        function.argtypes, function.restype = [ctypes.c_void_p], result
+    except (OSError, AttributeError) as failure:  # a symbol that is missing is the second
+        return f"it could not be compiled or loaded: {clipped(str(failure))}"
     return found
 
 
@@ -91,13 +98,16 @@ def compiler() -> list[str]:
     Raises
     ------
     CompileError
-        If there is none.
+        If there is none, or its command cannot be read.
     """
     fused = ["-mfma"] if platform.machine() in ("x86_64", "AMD64") else []
     named = os.environ.get(VARIABLE, "")
     if named == NONE:
         raise CompileError(f"{VARIABLE} says {NONE}")
-    command = shlex.split(named)
+    try:
+        command = shlex.split(named)
+    except ValueError as problem:
+        raise CompileError(f"{VARIABLE} cannot be read as a command: {problem}") from None
     for name in ("cc", "gcc", "clang"):
         command = command or [path for path in [shutil.which(name)] if path]
     if not command:
@@ -114,11 +124,11 @@ def compiler() -> list[str]:
 def _made(command: list[str]) -> Path:
     """The library's file, made if it is not there."""
     here = Path(__file__).parent
-    text = b"".join((here / name).read_bytes() for name in (*SOURCES, *HEADERS))
+    text = b"".join((here / name).read_bytes() for name in (*SOURCES, *HEADERS, SELFTEST))
     key = hashlib.sha256(
         text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
     ).hexdigest()
-    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "quasistatic_ref"
+    folder = _cache() / "quasistatic_ref"
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     if folder.stat().st_uid != os.getuid():
         raise CompileError(f"{folder} belongs to another user")
@@ -128,12 +138,43 @@ def _made(command: list[str]) -> Path:
         with tempfile.TemporaryDirectory(dir=folder) as made:
             out = Path(made) / file.name
             sources = [str(here / name) for name in SOURCES]
-            done = subprocess.run(
-                [*command, *FLAGS, "-o", str(out), *sources, "-lm"],
-                capture_output=True, text=True, check=False,
-            )  # fmt: skip
-            if done.returncode:
-                said = (done.stderr.strip().splitlines() or ["without a word"])[-1]
-                raise CompileError(f"{command[0]} could not compile it: {said}")
+            order = FUSED if "-DFUSED" in command else APART
+            compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
+            testing = [sys.executable, "-I", str(here / SELFTEST), str(out), order]
+            for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):
+                if said := _complaint(work):
+                    raise CompileError(f"{command[0]} {failed}: {said}")
             os.replace(out, file)
     return file
+
+
+def _cache() -> Path:
+    """The user's cache folder; CompileError if there is none."""
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:
+        problem = "there is no home folder to keep it in: set XDG_CACHE_HOME or HOME"
+        raise CompileError(problem) from None
+
+
+def _complaint(command: Sequence[str]) -> str:
+    """What a command says last if it fails, or that it does not end; empty if all is well."""
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    ) as process:
+        try:
+            _, said = process.communicate(timeout=PATIENCE)
+        except BaseException as ended:  # Ctrl-C as well: nothing goes on without us
+            os.killpg(process.pid, signal.SIGKILL)
+            if not isinstance(ended, subprocess.TimeoutExpired):
+                raise
+            return f"it did not end within {PATIENCE:g} s; {VARIABLE}={NONE} asks for no compiler"
+    if not process.returncode:
+        return ""
+    lines = said.decode("utf-8", "replace").strip().splitlines()
+    errors = [line for line in lines if "error" in line] or lines[-1:] or ["without a word"]
+    return one_line(clipped(errors[0]))
