@@ -19,6 +19,11 @@ REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
 
 RESULTS = (
     written("compilers", "validation/results/compilers.md"),
+    Result(
+        "environments",
+        ("validation.make.environments", "--out", "validation/results/environments.md"),
+        ("validation/results/environments.md",),
+    ),
     printed("memory_of_steps", "validation/results/memory_of_steps.md"),
     Result(
         "vectors",

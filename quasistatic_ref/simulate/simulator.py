@@ -41,6 +41,13 @@ from quasistatic_ref.tolerances import ACCURACY
 GRAVITY = (0.0, 0.0, -9.81)
 
 
+def _remade(
+    kind: type["Simulator"], system: System, pairs: Sequence[ContactPair], settings: dict[str, Any]
+) -> "Simulator":
+    """A simulator from what it was made of: the arguments that a deep copy copies."""
+    return kind(system, pairs, **settings)
+
+
 class Simulator:
     """A system, what may touch in it, and how each step is solved.
 
@@ -146,7 +153,7 @@ class Simulator:
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
         settings |= {"solver": self.requested_backend, "engine": self.requested_engine}
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
-        return partial(type(self), self.system, self.pairs, **settings), ()
+        return _remade, (type(self), self.system, self.pairs, settings)
 
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:

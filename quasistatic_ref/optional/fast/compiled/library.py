@@ -172,9 +172,11 @@ def _complaint(command: Sequence[str]) -> str:
             os.killpg(process.pid, signal.SIGKILL)
             if not isinstance(ended, subprocess.TimeoutExpired):
                 raise
-            return f"it did not end within {PATIENCE:g} s; {VARIABLE}={NONE} asks for no compiler"
+            return f"it did not end in {PATIENCE:g} s ({VARIABLE}={NONE} asks for no compiler)"
     if not process.returncode:
         return ""
     lines = said.decode("utf-8", "replace").strip().splitlines()
-    errors = [line for line in lines if "error" in line] or lines[-1:] or ["without a word"]
+    ended = f"it was ended by signal {-process.returncode}"
+    silent = ended if process.returncode < 0 else "without a word"
+    errors = [line for line in lines if "error" in line] or lines[-1:] or [silent]
     return one_line(clipped(errors[0]))
