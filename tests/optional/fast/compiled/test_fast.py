@@ -189,28 +189,45 @@ def test_the_bits_are_those_of_numpy_under_another_blas_kernel(kernel, order):
 
 NO_COMPILERS = {
     "none": "QUASISTATIC_REF_CC says none",
-    "/nowhere/cc": "it could not be compiled: [Errno 2] No such file or directory: '/nowhere/cc'",
+    "gcc '": "QUASISTATIC_REF_CC cannot be read as a command: No closing quotation",
+    "/nowhere/cc": "it could not be compiled or loaded: [Errno 2] No such file or directory: "
+    "'/nowhere/cc'",
     "false": "false could not compile it: without a word",
+    r"sh -c 'printf \"\\377 an error\n\" >&2; exit 1'": "sh could not compile it: \ufffd an error",
+    "sh -c 'kill -9 $$'": "sh could not compile it: it was ended by signal 9",
+    "sh -c 'sleep 60'": "sh could not compile it: it did not end in 0.5 s "
+    "(QUASISTATIC_REF_CC=none asks for no compiler)",
 }
 NOT_COMPILED = f"""
-import os
+import os, pathlib
 from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
-scenario = load_scenario("sphere_spin", ["record=light"])
-for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
+scenario, library.PATIENCE = load_scenario("sphere_spin", ["record=light"]), 0.5
+def taken():
     for cached in (compiled, why_not, library._found):
         cached.cache_clear()
     simulator = scenario.simulator()
     simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
     print(simulator.fast, compiled("step"), why_not())
+for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
+    taken()
+os.environ["QUASISTATIC_REF_CC"] = "true"
+taken()
+del os.environ["XDG_CACHE_HOME"]
+def unknown():
+    raise RuntimeError("Could not determine home directory.")
+pathlib.Path.home = unknown
+taken()
 """
 
 
-def test_without_a_compiler_numpy_takes_the_steps():
-    said, error = python(NOT_COMPILED)
-    expected = [f"None None {reason}" for reason in NO_COMPILERS.values()]
-    assert said.splitlines() == expected, error
+def test_without_a_compiler_numpy_takes_the_steps(tmp_path):
+    said, error = python(NOT_COMPILED, XDG_CACHE_HOME=str(tmp_path))
+    *lines, no_library, no_home = [line.removeprefix("None None ") for line in said.splitlines()]
+    assert lines == [*NO_COMPILERS.values()], error
+    assert no_library.startswith("true is not used: it cannot be loaded: ")
+    assert no_home == "there is no home folder to keep it in: set XDG_CACHE_HOME or HOME"
 
 
 @needs_compiler
