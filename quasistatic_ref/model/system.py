@@ -35,10 +35,9 @@ __all__ = ["Body", "Kinematics", "System"]
 class System:
     """Bodies in one world.
 
-    Methods that take q do not check it; :meth:`checked` checks a q that comes from outside. They
-    share a workspace: one System must not be used from two threads at once, but a copy may; what
-    takes a step holds its lock. Copies and pickles hold the URDFs' texts, and read no file. Equal
-    systems have equal bodies and files.
+    Methods that take q do not check it, as :meth:`checked` does. They share a workspace: a System
+    is for one thread (who takes a step holds `lock`), a copy for another. Copies and pickles hold
+    the URDFs' texts, and read no file. Equal systems have equal bodies and files.
 
     Parameters
     ----------
@@ -62,8 +61,6 @@ class System:
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
-    lock : threading.RLock
-        Held by a thread while it takes a step.
     motion : Motion
         How links move with the coordinates.
     constant_mass_matrix : bool
@@ -252,8 +249,7 @@ class System:
         down = gravity if isinstance(gravity, tuple) else tuple(np.asarray(gravity).tolist())
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
         force = self._workspace.gravity_torque(self._order.model_q(q), down)
-        tau: Array = 0.0 - self._order.paper_v(force)
-        return tau
+        return 0.0 - self._order.paper_v(force)
 
     def kinematics(self, q: Array) -> Kinematics:
         """Pose and Jacobian of every link at q.

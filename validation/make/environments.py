@@ -64,7 +64,7 @@ Otherwise they were NumPy's, with the same bits, for the reason that is quoted.
 |---|---|
 {compilers}
 """
-COUNT = 50
+COUNT = 20
 """Steps of each environment, or runs by two threads."""
 LONG = 20
 """Steps of such a run."""

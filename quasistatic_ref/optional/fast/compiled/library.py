@@ -176,7 +176,7 @@ def _complaint(command: Sequence[str]) -> str:
     if not process.returncode:
         return ""
     lines = said.decode("utf-8", "replace").strip().splitlines()
-    ended = f"it was ended by signal {-process.returncode}"
-    silent = ended if process.returncode < 0 else "without a word"
+    signalled = f"it was ended by signal {-process.returncode}"
+    silent = signalled if process.returncode < 0 else "without a word"
     errors = [line for line in lines if "error" in line] or lines[-1:] or [silent]
     return one_line(clipped(errors[0]))

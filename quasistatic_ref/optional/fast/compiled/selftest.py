@@ -28,13 +28,13 @@ SUMS = ("the sum of x", "the sum of x y")
 
 
 def operands() -> list[tuple[float, float, float]]:
-    """Triples of x, y and z: roots, z being -x y rounded, so that x y + z is a rounding error."""
+    """Numbers x, y and z without unit: roots, z being -x y rounded; then those of ``SPECIAL``."""
     signed = [(math.sqrt(i + 2) * (-1 if i % 3 else 1), math.sqrt(3 * i + 7)) for i in range(COUNT)]
     return [*((x, y, -x * y) for x, y in signed), *SPECIAL]
 
 
 def added(x: float, y: float, z: float, order: str) -> float:
-    """The sum z + x y, rounded once or twice."""
+    """The sum z + x y [-], rounded once or twice."""
     twice = z + x * y
     if order == "apart" or not math.isfinite(twice):
         return twice
