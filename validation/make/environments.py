@@ -173,9 +173,10 @@ def left_by_backend(name: str, count: int) -> Counter[str]:
 
 def reply_and_leave(reply: Callable[..., Any], name: str, *given: Any) -> Any:
     """A backend's reply, after which the thread is in a mode."""
-    said = reply(*given)
-    set_mode(set_mode(0) | MODES[name])
-    return said
+    try:
+        return reply(*given)
+    finally:
+        set_mode(set_mode(0) | MODES[name])
 
 
 def after_all_modes(count: int) -> Counter[str]:
@@ -284,10 +285,8 @@ def main() -> int:
     for name in TRIED:
         counts[name] = tried(name, options.count)
         print(name, dict(counts[name]), file=sys.stderr, flush=True)
-    lines = compiler_lines()
-    page = PAGE.format(
-        counts="\n".join(count_line(*one) for one in counts.items()), compilers="\n".join(lines)
-    )
+    lines = [count_line(*one) for one in counts.items()]
+    page = PAGE.format(counts="\n".join(lines), compilers="\n".join(compiler_lines()))
     if options.out:
         text_written(options.out, page)
     else:

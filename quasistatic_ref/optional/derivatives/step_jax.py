@@ -7,12 +7,14 @@ E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradie
 """
 
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, NotDifferentiable
 from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
@@ -147,9 +149,18 @@ def _differentiable(
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
 
+    # JAX's own threads flush subnormal numbers to zero; a thread has the arithmetic of the one that
+    # starts it, which is therefore done here.
+    thread = ThreadPoolExecutor(1)
+    thread.submit(check_arithmetic).result()
+
     def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
-        q, q_bar_a, force, kappa = map(np.asarray, given)
-        with system.lock:  # a system is for one thread, and JAX has several
+        return thread.submit(alone, names, *map(np.asarray, given)).result()
+
+    def alone(
+        names: tuple[str, ...], q: Array, q_bar_a: Array, force: Array, kappa: Array
+    ) -> tuple[Array, ...]:
+        with system.lock:  # a system is for one thread, and each function has its own
             return _rates(system, found, instead, names, q, q_bar_a, force, float(kappa))
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
