@@ -23,22 +23,19 @@ from quasistatic_ref.step.standard_form import standard_form
 
 ROOT = Path(__file__).parents[2]
 STEPS = 10
-PATIENCE = 60.0
+PATIENCE = 600.0
 """What a compiler is given [s]; one that hangs, 1 s."""
-LONGEST = 300.0
+LONGEST = 1200.0
 """A process that takes longer hangs [s]."""
 
 FLAGS = (
-    "", "-O0", "-Os", "-march=native", "-Ofast", "-frounding-math", "-mrecip", "-fassociative-math",
-    "-ffast-math", "-funsafe-math-optimizations", "-ffinite-math-only", "-fno-signed-zeros",
-    "-freciprocal-math", "-fassociative-math -fno-signed-zeros -fno-trapping-math",
-    "-fsingle-precision-constant", "-mfpmath=387", "-m32", "-fvisibility=hidden",
+    "", "-O0", "-march=native", "-Ofast", "-ffast-math", "-funsafe-math-optimizations",
+    "-ffinite-math-only", "-fno-signed-zeros", "-freciprocal-math",
+    "-fassociative-math -fno-signed-zeros -fno-trapping-math", "-fsingle-precision-constant",
+    "-mfpmath=387", "-fvisibility=hidden",
 )  # fmt: skip
 """Before the package's own."""
-LAST_FLAGS = (
-    "-ffp-contract=fast", "-Ofast", "-ffast-math", "-mno-fma", "-UFUSED", "-DFUSED", "-O0",
-    "-freciprocal-math", "-fassociative-math -fno-signed-zeros -fno-trapping-math",
-)  # fmt: skip
+LAST_FLAGS = ("-ffp-contract=fast", "-ffast-math", "-UFUSED", "-mno-fma", "-O0")
 """After them, by a wrapper."""
 OUT = 'while [ "$1" != -o ]; do shift; done; '
 ON_LOAD = (
@@ -119,7 +116,6 @@ CACHES: dict[str, Callable[[], None]] = {
     "no home and no passwd entry": no_passwd_entry,
     "a cache that cannot be written": read_only,
     "a file for the cache": file_for_folder,
-    "an empty library in the cache": lambda: kept(b""),
     "nonsense in the cache": lambda: kept(b"nonsense" * 1000),
     "another library in the cache": kept_without_symbols,
 }
