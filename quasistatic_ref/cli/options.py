@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.optional.show.show import aligned
+from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written

@@ -1,8 +1,11 @@
-"""What a sentence repeats of what was given: on one line, clipped, with the nearest known name."""
+"""What a sentence repeats of what was given: on one line, clipped, with the nearest known name.
+
+And tables in lines of text.
+"""
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 LONGEST = 200
@@ -78,3 +81,11 @@ def shown_value(value: Any, limit: int = 80) -> str:
     except (RecursionError, ValueError):  # nested without end; an integer of too many digits
         return f"of type {type(value).__name__}, too long to show"
     return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Rows of a table as lines, the first column to the left, the others to the right."""
+    first, *widths = (max(map(len, column)) for column in zip(*rows, strict=True))
+    for name, *others in rows:
+        right = [cell.rjust(width) for cell, width in zip(others, widths, strict=True)]
+        yield "  ".join([name.ljust(first), *right]).rstrip()

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
@@ -25,14 +26,12 @@ from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.optional.large.blocks import whole
-from quasistatic_ref.optional.show.model_words import system_page
-from quasistatic_ref.optional.show.show import shown
 from quasistatic_ref.step.arrays import Array, read_only
 
 __all__ = ["Body", "Kinematics", "System"]
 
 
-class System:
+class System(Shown):
     """Bodies in one world.
 
     Methods that take q do not check it, as :meth:`checked` does. They share a workspace: a System
@@ -82,8 +81,6 @@ class System:
     ModelError
         If a URDF is not usable, a name is unknown or taken, or M_u is singular.
     """
-
-    __repr__, _repr_html_ = shown(system_page)
 
     def __init__(self, bodies: Sequence[Body]) -> None:
         self._make(world_of(bodies))

@@ -13,9 +13,8 @@ from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.simulate_words import scenario_page
 from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.scenario.checks import check_motion, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
@@ -43,8 +42,8 @@ from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import ACCURACY
 
 
-@dataclass(frozen=True, eq=False)
-class Scenario(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class Scenario(Plain, Shown):
     """Everything that a scenario file says, checked and loaded.
 
     Parameters
@@ -91,8 +90,6 @@ class Scenario(Plain):
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     engine: str | None = None
-
-    __repr__, _repr_html_ = shown(scenario_page)
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")

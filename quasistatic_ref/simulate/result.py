@@ -6,14 +6,13 @@ from dataclasses import dataclass, field
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.patch import OWN, SAYS
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, result_page
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
 
 
-@dataclass(frozen=True, eq=False)
-class StepResult(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class StepResult(Plain, Shown):
     """Everything that one step came to.
 
     Parameters
@@ -40,8 +39,6 @@ class StepResult(Plain):
         """The contacts whose normal was one of several, and how it was chosen, by their names."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
-
-    __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
 
 
 CompiledStep = Callable[..., StepResult | None]

@@ -10,13 +10,12 @@ from quasistatic_ref.compiled import compiled
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.optional.large.sparse_jacobian import contact_geometry
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.simulate_words import simulator_page
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
@@ -48,7 +47,7 @@ def _remade(
     return kind(system, pairs, **settings)
 
 
-class Simulator:
+class Simulator(Shown):
     """A system, what may touch in it, and how each step is solved.
 
     A simulator keeps what is slow to make and serves many steps: which points of the clouds may
@@ -104,8 +103,6 @@ class Simulator:
     BackendError
         If the backend is unknown or not installed, or the engine does not reach it.
     """
-
-    __repr__, _repr_html_ = shown(simulator_page)
 
     def __init__(
         self,

@@ -17,9 +17,8 @@ from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.optional.show.show import html_page, text_page
-from quasistatic_ref.optional.show.simulate_words import NOT_IN_TEXT, trajectory_page
-from quasistatic_ref.optional.show.table import data_frame
+from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
@@ -34,8 +33,8 @@ VERSION = 1
 WHAT = "a trajectory written by this program"
 
 
-@dataclass(frozen=True, eq=False)
-class Trajectory(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Plain, Shown):
     """A run, or the part of it that succeeded.
 
     Parameters
@@ -97,12 +96,6 @@ class Trajectory(Plain):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Trajectory, (self.header, self.arrays, self.seconds)  # without the scene
-
-    def __repr__(self) -> str:
-        return text_page(trajectory_page(self, certified(self)), *NOT_IN_TEXT)
-
-    def _repr_html_(self) -> str:
-        return html_page(trajectory_page(self, certified(self)))
 
     @property
     def steps(self) -> int:
@@ -206,14 +199,17 @@ class Trajectory(Plain):
         return scene
 
     def to_pandas(self) -> DataFrame:
-        """One row a step, one column a number, for looking at; see :mod:`.table`.
+        """One row a step, one column a number, for looking at.
+
+        See :mod:`~quasistatic_ref.optional.show.table`.
 
         Raises
         ------
         InputError
-            If pandas is not installed.
+            If pandas is not installed, or that part is missing.
         """
-        return data_frame(self)
+        frame: DataFrame = needed_part("show.table", "to_pandas").data_frame(self)
+        return frame
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""

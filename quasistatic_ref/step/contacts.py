@@ -8,9 +8,8 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.step_words import contacts_page
 from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
 from quasistatic_ref.tolerances import ORTHONORMAL
 
@@ -18,7 +17,7 @@ AXES = np.eye(3)
 ROWS = {4, 6}
 
 
-class Points(Plain):
+class Points(Plain, Shown):
     """The fields of contacts other than J, which is kept dense or in blocks."""
 
     name: tuple[str, ...]
@@ -80,7 +79,7 @@ class Points(Plain):
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Contacts(Points):
     """The contact points of one step.
 
@@ -122,8 +121,6 @@ class Contacts(Points):
     rows: Indices
     blocks: ClassVar[Blocks | None] = None
 
-    __repr__, _repr_html_ = shown(contacts_page)
-
     def __post_init__(self) -> None:
         self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
 
@@ -146,7 +143,7 @@ def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     return read_only(np.column_stack([mu_v, mu_v, mu_omega * (rows == 6)]))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SparseContacts(Points):
     """The contact points of a step of many bodies: :class:`Contacts` that keep J without zeros.
 
@@ -167,8 +164,6 @@ class SparseContacts(Points):
     mu_v: Array
     mu_omega: Array
     rows: Indices
-
-    __repr__, _repr_html_ = shown(contacts_page)
 
     def __post_init__(self) -> None:
         self._check()

@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain, field_values
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.step_words import extra_page, step_page
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -34,8 +33,8 @@ from quasistatic_ref.step.contacts import Contacts, SparseContacts
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "SparseContacts", "StepData"]
 
 
-@dataclass(frozen=True, eq=False)
-class Extra(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class Extra(Plain, Shown):
     """Linear inequalities of the user's own, A delta_q >= b.
 
     Parameters
@@ -48,8 +47,6 @@ class Extra(Plain):
     names: tuple[str, ...]
     A: Array
     b: Array
-
-    __repr__, _repr_html_ = shown(extra_page)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", names(self.names, "extra.names"))
@@ -91,8 +88,8 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     return RowLayout(*map(read_only, (counts, mask, offsets)))
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class StepData(Plain):
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class StepData(Plain, Shown):
     """Everything that Eq. :eq:`eq-13` needs.
 
     Parameters
@@ -136,8 +133,6 @@ class StepData(Plain):
     contacts: Contacts  # or SparseContacts, which have the same fields
     cone: str
     extra: Extra
-
-    __repr__, _repr_html_ = shown(step_page)
 
     def __init__(
         self,

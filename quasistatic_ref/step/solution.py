@@ -6,16 +6,15 @@ from functools import cached_property
 from typing import NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.optional.show.show import shown
-from quasistatic_ref.optional.show.step_words import certificate_page, solution_page
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
 
 
-@dataclass(frozen=True, eq=False)
-class Certificate(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Plain, Shown):
     """What is known about an answer, and how.
 
     Parameters
@@ -61,8 +60,6 @@ class Certificate(Plain):
     gap: float | None = None
     step: StepData | None = None
 
-    __repr__, _repr_html_ = shown(certificate_page)
-
     @property
     def step_sha256(self) -> str | None:
         """SHA-256 of the step that it is about, as in a solution file; formed when it is read."""
@@ -102,8 +99,8 @@ class SolverStatistics(NamedTuple):
     engine: str = "cvxpy"
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class StepSolution(Plain):
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class StepSolution(Plain, Shown):
     """The optimum of Eq. :eq:`eq-13`.
 
     Parameters
@@ -134,8 +131,6 @@ class StepSolution(Plain):
     backend: str
     certificate: Certificate
     statistics: SolverStatistics = field(compare=False)
-
-    __repr__, _repr_html_ = shown(solution_page)
 
     def __init__(
         self,

@@ -1,11 +1,10 @@
 """Objects shown in a terminal and in a notebook: few lines, no line too long, names escaped."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 from numbers import Real
-from typing import Any
 
-from quasistatic_ref.formats.quoting import one_line
+from quasistatic_ref.formats.quoting import aligned, one_line
 
 WIDTH, LINES = 100, 20
 """Most columns and lines of a text."""
@@ -55,19 +54,6 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun if n == 1 else many}"
 
 
-def shown(page: Callable[[Any], Page], *hidden: str) -> tuple[Callable[[Any], str], ...]:
-    """``__repr__`` and ``_repr_html_`` of a class whose objects have a page.
-
-    Parameters
-    ----------
-    page : callable
-        An object -> its page.
-    hidden : str
-        Columns for which a line of text has no room.
-    """
-    return lambda it: text_page(page(it), *hidden), lambda it: html_page(page(it))
-
-
 def text_page(page: Page, *hidden: str) -> str:
     """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
     title, facts, header, rows = page
@@ -79,14 +65,6 @@ def text_page(page: Page, *hidden: str) -> str:
         if len(rows) > MOST:
             lines.append(f"  ... and {len(rows) - MOST} more")
     return "\n".join(clipped(line) for line in lines)
-
-
-def aligned(rows: Sequence[Row]) -> Iterator[str]:
-    """Rows of a table as lines, the first column to the left, the others to the right."""
-    first, *widths = (max(map(len, column)) for column in zip(*rows, strict=True))
-    for name, *others in rows:
-        right = [cell.rjust(width) for cell, width in zip(others, widths, strict=True)]
-        yield "  ".join([name.ljust(first), *right]).rstrip()
 
 
 def html_page(page: Page) -> str:

@@ -82,8 +82,10 @@ def _touching(pairs: Sequence[ContactPair]) -> str:
     return f"{counted(len(pairs), 'pair')} with {counted(n_c, 'contact')}"
 
 
-def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
+def trajectory_page(trajectory: Trajectory) -> Page:
     """A run: how far it went, what of it is proved, and its contacts in the last step."""
+    from quasistatic_ref.simulate.trajectory import certified  # which needs pinocchio
+
     header, steps = trajectory.header, trajectory.steps
     ended = "complete" if trajectory.failed is None else "ended early"
     title = (
@@ -93,8 +95,8 @@ def trajectory_page(trajectory: Trajectory, certified: str) -> Page:
     )
     facts = [] if trajectory.failed is None else [f"why it ended: {trajectory.failed}"]
     facts += [
-        f"{certified}; backend {header.get('backend')}, cone {header.get('cone')}, record "
-        f"{header['record']}",
+        f"{certified(trajectory)}; backend {header.get('backend')}, cone {header.get('cone')}, "
+        f"record {header['record']}",
         f"largest quasi-dynamic number {number(header.get('quasi_dynamic_number'))}, largest "
         f"boundary layer {number(header.get('largest_boundary_layer'))} m",
         f"arrays: {', '.join(trajectory.arrays)}",

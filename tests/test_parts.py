@@ -1,0 +1,55 @@
+"""Optional parts that are missing: one sentence for a word that needs one, all else as it was."""
+
+import importlib
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import parts
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.scenario.scenario import load_scenario
+from tests.helpers import random_step
+
+
+@pytest.fixture
+def without(monkeypatch):
+    """A function that hides the folder of a part."""
+
+    def hide(folder):
+        missing = f"quasistatic_ref.optional.{folder}"
+
+        def found(name):
+            if name.startswith(f"{missing}."):
+                raise ModuleNotFoundError(name=missing)
+            return importlib.import_module(name)
+
+        monkeypatch.setattr(parts, "import_module", found)
+        parts.part.cache_clear()
+
+    yield hide
+    parts.part.cache_clear()
+
+
+def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(without):
+    assert parts.part("show.table").__name__ == "quasistatic_ref.optional.show.table"
+    assert parts.part("nothing.at_all") is None
+    with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"):
+        parts.part("show.tabel")
+    without("show")
+    assert parts.part("show.table") is None
+    assert parts.part("doctor.watch") is not None
+
+
+def test_without_pages_a_dataclass_shows_its_fields_and_an_object_its_class(without):
+    without("show")
+    scenario = load_scenario("block_push", steps=1)
+    step = random_step(np.random.default_rng(0))
+    assert repr(step).startswith("StepData(h=0.01, K_q=array([[")
+    assert "phi=array([" in repr(step.contacts)
+    assert "System object at" in repr(scenario.system)
+    assert "Simulator object at" in repr(scenario.simulator())
+    run = scenario.run(progress=False)
+    assert repr(run).startswith("Trajectory(header={'format': 'quasistatic-ref/trajectory'")
+    assert run._repr_html_() is None
+    with pytest.raises(InputError, match=r"^to_pandas needs quasistatic_ref/optional/show$"):
+        run.to_pandas()
