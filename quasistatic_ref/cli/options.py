@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
+from quasistatic_ref.parts import part
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
@@ -78,17 +79,16 @@ def completed(
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
-    from quasistatic_ref.optional.runs.saved import EVERY
-
+    saved = part("runs.saved")
+    usual = "" if saved is None else f" ({saved.EVERY:g} by default)"
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
     )
     parser.add_argument(
         "--save-every",
         type=float,
-        default=EVERY,
         metavar="SECONDS",
-        help=f"time between two saves of the steps so far ({EVERY:g} by default)",
+        help=f"time between two saves of the steps so far{usual}",
     )
 
 
@@ -151,14 +151,13 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say where the steps of a failed run are; write its failing step; its status."""
-    from quasistatic_ref.optional.runs.saved import saved_steps
-
+    saved = part("runs.saved")
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {failure.file or path}"
     if failure.step is not None:
         step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
-    if saved_steps(path):
+    if saved is not None and saved.saved_steps(path):
         kept += "; --resume goes on from there"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
     return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

@@ -11,7 +11,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.optional.runs.saved import first_step
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
@@ -59,27 +59,36 @@ def run(options: argparse.Namespace) -> int:
     """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     path = options.out / f"{scenario.path.stem}.npz"
-    first = first_step(path, scenario.steps, options.resume)
+    saved = needed_part("runs.saved", "--resume") if options.resume else part("runs.saved")
+    first = 0 if saved is None else saved.first_step(path, scenario.steps, options.resume)
     writable_folder(options.out)  # known before the work, not after it
+    viewer = None
     if options.view:
-        from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_script
-
-        viewer_script()  # so that a missing extra is known before the work, too
+        viewer = needed_part("show.figures.viewer", "--view")
+        viewer.viewer_script()  # so that a missing extra is known before the work, too
+    if options.strict:
+        needed_part("doctor.warnings", "--strict")
     if options.resume:
         said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
         shared.progress_line(options, said)
     saving = {"save": path, "save_every": options.save_every, "resume": options.resume}
+    if saved is None:
+        saving = {}
     failure: RunFailed | None = None
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet, **saving)
     except RunFailed as error:
         failure, trajectory = error, error.trajectory
+    if not saving:
+        trajectory.save(path)
     if options.quiet:  # of progress; a warning is said all the same
         for sentence in trajectory.warnings:
             print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
-    view = view_written(scenario, trajectory, path.with_suffix(".html")) if options.view else None
+    view = None
+    if viewer is not None:
+        view = viewer.view_written(scenario, trajectory, path.with_suffix(".html"))
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
@@ -114,7 +123,8 @@ def run(options: argparse.Namespace) -> int:
     worst = "not computed" if x is None else f"{x:.1e} (natural units)"
     backend = f"{summary['backend']} ({summary['engine']})"
     print(f"{summary['certified']}; backend {backend}, worst residual {worst}")
-    print(_artifacts(trajectory.header))
+    if part("doctor.warnings") is not None:
+        print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())

@@ -1,20 +1,13 @@
 """Steps as they are taken, collected into a trajectory."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.doctor.artifacts import (
-    boundary_layer,
-    drag_share,
-    gap_after,
-    quasi_dynamic_number,
-    warning,
-)
-from quasistatic_ref.optional.doctor.watch import doubtful_units, watched
+from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.simulate.wrenches import Scene
@@ -45,9 +38,12 @@ class Recorder:
         Where the run starts; quaternions are normalised.
     record : str
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
+    observers : sequence of Observer, optional
+        What watches the run; by default what warns of it.
 
     Attributes
     ----------
+    observers : list of Observer
     steps : int
         Number of steps so far.
     start, q : ndarray, shape (n_q,)
@@ -61,13 +57,21 @@ class Recorder:
         If there is no such record, or q is no configuration.
     """
 
-    def __init__(self, simulator: "Simulator", q: Array, record: str = "full") -> None:
+    def __init__(
+        self,
+        simulator: "Simulator",
+        q: Array,
+        record: str = "full",
+        observers: Sequence[Observer] | None = None,
+    ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.scene = Scene(simulator.system, simulator.pairs)
         self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
         self.cone, self.layout, self.record = simulator.cone, simulator.layout, record
-        self.start, self.g = self.system.checked(q), float(np.linalg.norm(simulator.gravity))
+        self.gravity = float(np.linalg.norm(simulator.gravity))
+        self.observers = list(warnings_of_runs() if observers is None else observers)
+        self.start = self.system.checked(q)
         self.q, self.steps = self.start, 0
         self.extra: tuple[str, ...] = ()
         self.parts: list[Part] = []
@@ -88,7 +92,6 @@ class Recorder:
         result : StepResult
         """
         step, solution, points = result.step, result.solution, result.points
-        gap = gap_after(solution)
         row: dict[str, Any] = {
             "t": self.t,
             "delta_q": solution.delta_q,
@@ -107,11 +110,10 @@ class Recorder:
             "digits": _or_nan(solution.statistics.digits),
             "q": result.q,
             "tau": np.concatenate([step.tau_a, step.tau_u]),
-            "gap": gap,
-            "Pi": _or_nan(quasi_dynamic_number(self.system, step, solution.delta_q, self.g)),
-            "drag": _or_nan(drag_share(self.system, solution, self.g)),
-            "layer": boundary_layer(gap, solution),
         }
+        for observer in self.observers:
+            notes = observer.after(self, result)
+            row |= {name: _or_nan(value) for name, value in notes.items()}
         row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
         if self.record == "full":
             row |= program(step)
@@ -147,13 +149,31 @@ class Recorder:
         self.extra, self.q = extra, part["q"][-1]
         self.steps += len(part["q"])
 
-    def trajectory(self, failed: str | None = None) -> Trajectory:
-        """Everything recorded so far."""
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Names of what the observers keep of each step."""
+        return tuple(name for observer in self.observers for name in observer.notes)
+
+    def noted(self, name: str) -> NDArray[Any]:
+        """What an observer kept of each step so far, behind a first axis, the step [any unit]."""
         parts = self.packed()
-        all_of = {key: _joined(parts, key) for key in (parts[0] if parts else ())}
-        names: tuple[str, ...] = (*PER_STEP, *PROGRAM, *EXTRA)
-        arrays = {key: all_of[key] for key in names if key in all_of} or {
-            key: np.zeros(0) for key in ("t", "delta_q", "worst_residual")
+        return _joined(parts, name) if parts else np.zeros(0)
+
+    def trajectory(self, failed: str | None = None, interrupted: bool = False) -> Trajectory:
+        """Everything recorded so far, as the observers leave it.
+
+        Parameters
+        ----------
+        failed : str, optional
+            Why the run ended early.
+        interrupted : bool
+            Whether that was Ctrl-C.
+        """
+        parts = self.packed()
+        kept = parts[0] if parts else {}
+        names = [name for name in (*PER_STEP, *PROGRAM, *EXTRA) if name in kept]
+        arrays = {name: _joined(parts, name) for name in names} or {
+            name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
         full = self.steps and self.record == "full"
         header: dict[str, Any] = {
@@ -169,22 +189,21 @@ class Recorder:
             "coordinates": [c.name for c in self.system.coordinates],
             "steps": self.steps,
             "failed": failed,
-            "quasi_dynamic_number": _largest(all_of, "Pi"),
-            "largest_drag_share": _largest(all_of, "drag"),
-            "largest_boundary_layer": _largest(all_of, "layer") or 0.0,
+            "quasi_dynamic_number": None,  # the observers know
+            "largest_drag_share": None,
+            "largest_boundary_layer": None,
             "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
+            "warnings": [],
         }
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
-        q = np.concatenate([self.start[None], all_of.get("q", np.zeros((0, len(self.start))))])
+        q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}
-        drags = warning(header)
-        if self.steps:
-            header["warnings"] = watched(self.scene, arrays, all_of["gap"])
-        else:  # it failed in its first step, for which a unit may be the reason
-            header["warnings"] = list(doubtful_units(self.scene))
-        header["warnings"] += [] if drags is None else [drags]
-        seconds = {k.removeprefix(SECONDS): all_of[k] for k in all_of if k.startswith(SECONDS)}
-        return Trajectory(header, arrays, seconds, self.scene)
+        timed = [name for name in kept if name.startswith(SECONDS)]
+        seconds = {name.removeprefix(SECONDS): _joined(parts, name) for name in timed}
+        trajectory = Trajectory(header, arrays, seconds, self.scene)
+        for observer in self.observers:
+            trajectory = observer.end(self, trajectory, interrupted)
+        return trajectory
 
 
 def program(step: StepData) -> dict[str, Array]:
@@ -209,10 +228,5 @@ def _joined(parts: list[Part], key: str) -> NDArray[Any]:
     return array + 0.0 if array.dtype == np.float64 else array
 
 
-def _largest(arrays: Mapping[str, NDArray[Any]], key: str) -> float | None:
-    known = [x for x in arrays.get(key, np.zeros(0)).tolist() if not np.isnan(x)]
-    return max(known, default=None)
-
-
-def _or_nan(value: float | None) -> float:
+def _or_nan(value: Array | float | None) -> Array | float:
     return np.nan if value is None else value

@@ -1,15 +1,14 @@
 """Steps in sequence: where a step becomes a trajectory."""
 
-import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.optional.runs.resume import resumed, start_cold
-from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, first_step, run_settings
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -34,8 +33,9 @@ def rollout(
     record: str = "full",
     progress: bool = True,
     save: str | Path | None = None,
-    save_every: float = EVERY,
+    save_every: float | None = None,
     resume: bool = False,
+    observers: Sequence[Observer] = (),
 ) -> Trajectory:
     """Step after step, recorded.
 
@@ -63,10 +63,13 @@ def rollout(
         as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
         in a folder next to that file; see :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
     save_every : float
-        Time between two saves [s].
+        Time between two saves [s]; by default
+        :data:`~quasistatic_ref.optional.runs.saved.EVERY`.
     resume : bool
         Whether to go on from the steps that are saved there, if there are any. The result has the
         bits of a run that was never interrupted, if target and force are functions of (t, q) alone.
+    observers : sequence of Observer
+        What else watches the run: before each step, after it, and at the end.
 
     Returns
     -------
@@ -76,20 +79,24 @@ def rollout(
     ------
     InputError
         If the target or the force takes other arguments than these, or q is no configuration; if
-        the saved steps are of another run; or if steps that are there would be lost, see
-        :func:`~quasistatic_ref.optional.runs.saved.first_step`.
+        the saved steps are of another run; if steps that are there would be lost, see
+        :func:`~quasistatic_ref.optional.runs.saved.first_step`; if there is no ``optional/runs``
+        for `save`.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
     """
-    recorder = Recorder(simulator, q, record)
+    recorder = Recorder(simulator, q, record, [*warnings_of_runs(printed=progress), *observers])
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     pushed = force_function(simulator.system, force)
     saved = None
     if save is not None:
-        saved = SavedRun(save, run_settings(simulator, recorder.start, record), save_every)
-        if first_step(save, steps, resume):
-            resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
+        first = needed_part("runs.saved", "save").first_step(save, steps, resume)
+        runs = needed_part("runs.resume", "save")
+        saved = runs.saved_run(save, save_every, simulator, recorder)
+        recorder.observers.append(saved)
+        if first:
+            runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
     left = range(recorder.steps, steps)
     bar: Iterable[int] = progress_bar(
         left, unit="step", total=steps, done=left.start, shown=progress
@@ -101,32 +108,22 @@ def rollout(
                 start_cold(simulator)
             try:
                 interrupt.check()
+                for observer in recorder.observers:
+                    observer.before(recorder)
                 goal = q_bar_a(t, q)
                 result = simulator.step(q, goal, pushed(t, q))
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
-                trajectory, file = _ended(recorder, saved, progress, reason, interrupted)
+                trajectory = recorder.trajectory(reason, interrupted)
+                file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(goal, result)
-            if saved is not None:
-                saved.save_in_time(recorder)
-    trajectory, _ = _ended(recorder, saved, progress)
-    return trajectory
+    return recorder.trajectory()
 
 
-def _ended(
-    recorder: Recorder,
-    saved: SavedRun | None,
-    printed: bool,
-    failed: str | None = None,
-    interrupted: bool = False,
-) -> tuple[Trajectory, Path | None]:
-    """The trajectory, its warnings printed, and where it was written."""
-    trajectory = recorder.trajectory(failed)
-    if printed:
-        for sentence in trajectory.warnings:
-            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
-    file = None if saved is None else saved.end(recorder, trajectory, interrupted)
-    return trajectory, file
+def start_cold(simulator: "Simulator") -> None:
+    """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
+    if simulator.solver is not None and simulator.solver.remembers:
+        simulator.solver = None

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
+from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
@@ -17,9 +20,22 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
 
 if TYPE_CHECKING:
-    from quasistatic_ref.optional.runs.saved import SavedRun
     from quasistatic_ref.simulate.goals import Checked
     from quasistatic_ref.simulate.simulator import Simulator
+
+
+def saved_run(
+    path: str | Path, every: float | None, simulator: Simulator, recorder: Recorder
+) -> SavedRun:
+    """The observer that saves a run: its trajectory's path, the time between two saves [s].
+
+    Raises
+    ------
+    InputError
+        If the time is no number of seconds.
+    """
+    settings = run_settings(simulator, recorder.start, recorder.record)
+    return SavedRun(path, settings, recorder.notes, EVERY if every is None else every)
 
 
 def resumed(
@@ -54,12 +70,6 @@ def resumed(
     for part, extra in parts:
         again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)
         recorder.take(part | again.posed(part, recorder), extra)
-
-
-def start_cold(simulator: Simulator) -> None:
-    """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
-    if simulator.solver is not None and simulator.solver.remembers:
-        simulator.solver = None
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
 from quasistatic_ref.formats.plain import fingerprint
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
 from quasistatic_ref.simulate.trajectory import Trajectory, steps_in
 from quasistatic_ref.solve.backends import QPSOLVERS
@@ -88,8 +89,8 @@ def _version(package: str) -> str:
         return "unknown"
 
 
-class SavedRun:
-    """The saved steps of one run: begun, added to, read, removed.
+class SavedRun(Observer):
+    """The saved steps of one run: begun, added to, read, removed when its trajectory is written.
 
     The run itself is never ended by a save that fails, such as on a full disk: one sentence on
     standard error says so, and the next save tries again. Files guard against a process that ends,
@@ -101,6 +102,8 @@ class SavedRun:
         Of the trajectory; the folder is next to it.
     settings : mapping of str to str
         Of :func:`run_settings`.
+    kept : tuple of str
+        Names of what the run's other observers keep of each step.
     every : float
         Time between two saves [s], at least 0.
 
@@ -110,15 +113,23 @@ class SavedRun:
         If the time is no number of seconds.
     """
 
-    def __init__(self, path: str | Path, settings: Mapping[str, str], every: float = EVERY) -> None:
+    def __init__(
+        self,
+        path: str | Path,
+        settings: Mapping[str, str],
+        kept: tuple[str, ...] = (),
+        every: float = EVERY,
+    ) -> None:
         if not every >= 0:
             raise InputError("must be at least 0", field="save_every", value=every)
         self.path, self.settings, self.every = Path(path), dict(settings), every
+        self.kept = kept
         self.folder = saved_folder(path)
         self._saved = 0  # parts of the recorder that are on disk
         self._begun = self._latest = time.monotonic()
         self._failing = False
         self._there = steps_in(path)
+        self.written = self.path
 
     def parts(self) -> Iterator[tuple[Part, tuple[str, ...]]]:
         """The saved steps in order, each part with the names of an extension's rows.
@@ -143,7 +154,7 @@ class SavedRun:
         fits = top.integer("version") == VERSION and top.integer("first") == expected
         self._check_settings(top.take("settings"))
         steps = top.integer("steps", least=1)
-        missing = not {*PER_STEP, "q", "tau", "gap"} <= set(part)
+        missing = not {*PER_STEP, "q", "tau", *self.kept} <= set(part)
         if not fits or missing or any(a.ndim == 0 or len(a) != steps for a in part.values()):
             raise InputError(f"is not what follows step {expected}; remove it and later files")
         return tuple(top.words("extra"))
@@ -162,14 +173,9 @@ class SavedRun:
                 )
                 raise InputError(problem, file=self.folder)
 
-    def save_in_time(self, recorder: Recorder) -> None:
+    def before(self, recorder: Recorder) -> None:
         """Save what a recorder has, if it is time."""
         if time.monotonic() - self._latest >= self.every:
-            self.save(recorder)
-
-    def save_last(self, recorder: Recorder) -> None:
-        """Save what the recorder of an interrupted run has, if that was worth a save before."""
-        if time.monotonic() - self._begun >= self.every or self._saved:
             self.save(recorder)
 
     def save(self, recorder: Recorder) -> None:
@@ -199,24 +205,20 @@ class SavedRun:
                 self._failing = True
         self._latest = time.monotonic()
 
-    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Path:
-        """Write the trajectory, and remove the saved steps unless the run was interrupted.
+    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
+        """Write the trajectory; of an interrupted run that is worth it, keep the saved steps.
 
-        Returns
-        -------
-        Path
-            Where it is: next to its place, if the run ended before it had as many steps as the one
-            there.
+        It is written next to its place, and `written` says where, if the run ended before it had as
+        many steps as the one there.
         """
-        path = self.path
         if trajectory.steps < self._there:
-            path = path.with_name(f"{path.stem}_failed{path.suffix}")
-        if interrupted:
-            self.save_last(recorder)
-        trajectory.save(path)
+            self.written = self.path.with_name(f"{self.path.stem}_failed{self.path.suffix}")
+        if interrupted and (time.monotonic() - self._begun >= self.every or self._saved):
+            self.save(recorder)
+        trajectory.save(self.written)
         if not interrupted:
             self.remove()
-        return path
+        return trajectory
 
     def remove(self) -> None:
         """Remove the saved steps, the last ones first: what is left is whole at any time."""

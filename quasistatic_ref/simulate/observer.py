@@ -1,0 +1,51 @@
+"""What watches a run: before each step, after it, and at the end."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.parts import part
+from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.recorder import Recorder
+    from quasistatic_ref.simulate.result import StepResult
+    from quasistatic_ref.simulate.trajectory import Trajectory
+
+
+class Observer:
+    """An observer of a run, whose methods do nothing: a class of its own overrides some of them.
+
+    Attributes
+    ----------
+    notes : tuple of str
+        Names of what :meth:`after` returns.
+    """
+
+    notes: tuple[str, ...] = ()
+
+    def before(self, recorder: "Recorder") -> None:
+        """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""
+
+    def after(
+        self, recorder: "Recorder", result: "StepResult"
+    ) -> Mapping[str, Array | float | None]:
+        """After a step: numbers of any shape [any unit] that are kept with it, None for NaN.
+
+        They are no part of the trajectory; :meth:`Recorder.noted` gives them to :meth:`end`.
+        """
+        return {}
+
+    def end(
+        self, recorder: "Recorder", trajectory: "Trajectory", interrupted: bool
+    ) -> "Trajectory":
+        """At the end, also of a run that failed: its trajectory, perhaps with another header."""
+        return trajectory
+
+
+def warnings_of_runs(printed: bool = False) -> list[Observer]:
+    """What warns of a run at its end, in its header and perhaps on standard error.
+
+    Nothing does where ``optional/doctor`` is missing.
+    """
+    doctor = part("doctor.warnings")
+    return [] if doctor is None else [doctor.Warnings(printed)]
