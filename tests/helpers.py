@@ -8,8 +8,9 @@ from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.engines import sparse_from
-from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
+from quasistatic_ref.step.data import Contacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))

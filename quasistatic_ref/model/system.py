@@ -25,8 +25,7 @@ from quasistatic_ref.model.mass import MassMatrix, check_mass, constant_mass, re
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
-from quasistatic_ref.optional.large.blocks import whole
-from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.arrays import Array, read_only, whole
 
 __all__ = ["Body", "Kinematics", "System"]
 

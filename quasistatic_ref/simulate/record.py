@@ -47,7 +47,7 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     _unless_null(top, "failed", top.text)
     _unless_null(top, "quasi_dynamic_number", top.number)
     _unless_null(top, "largest_drag_share", top.number)
-    top.number("largest_boundary_layer")
+    _unless_null(top, "largest_boundary_layer", top.number)
     top.text("backend")
     with about_field("cone"):
         cone(top.text("cone"))

@@ -32,7 +32,8 @@ from quasistatic_ref.solve.engines import (
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, Contacts, SparseContacts, StepData
+from quasistatic_ref.step.contacts import Points
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -222,7 +223,7 @@ class Simulator(Shown):
         q: Array,
         force: Array | float,
         delta_q_bar_a: Array,
-        contacts: Contacts | SparseContacts,
+        contacts: Points,
     ) -> StepData:
         """The problem of a step with this target and these contacts; StepDataError as above."""
         system, n_a = self.system, self.system.n_a

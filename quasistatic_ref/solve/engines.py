@@ -17,7 +17,7 @@ from quasistatic_ref.solve.backends import (
 from quasistatic_ref.solve.native import NativeSolver, check_native, native_backends
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
 
 CVXPY, NATIVE = "cvxpy", "native"
@@ -116,7 +116,7 @@ def solver_for(step: StepData, name: str, engine: str = CVXPY) -> Solver:
             from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver
 
             return ConeSolver(step, name)
-        if step.contacts.blocks is None:
+        if isinstance(step.contacts, Contacts):
             return NativeSolver(step, name)
         from quasistatic_ref.optional.large.sparse import SparseSolver
 

@@ -153,3 +153,16 @@ def positive_definite(key: str, S: Array) -> Array:
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())
     return read_only(S)
+
+
+def whole(M: Array) -> Array:
+    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
+
+    An M that is whole is returned as it is.
+    """
+    if M.ndim == 2:
+        return M
+    k, size, _ = M.shape
+    wide = np.zeros((k, size, k, size))
+    wide[np.arange(k), :, np.arange(k)] = M
+    return read_only(wide.reshape(k * size, k * size))

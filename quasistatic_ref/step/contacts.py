@@ -1,15 +1,14 @@
 """The contact points of one step."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
 from quasistatic_ref.tolerances import ORTHONORMAL
 
@@ -17,8 +16,8 @@ AXES = np.eye(3)
 ROWS = {4, 6}
 
 
-class Points(Plain, Shown):
-    """The fields of contacts other than J, which is kept dense or in blocks."""
+class Points(Plain, Shown, ABC):
+    """The fields of contacts other than J, which a step of many bodies keeps in another form."""
 
     name: tuple[str, ...]
     phi: Array
@@ -39,6 +38,15 @@ class Points(Plain, Shown):
         self._check_rows(n_c)
         self._check_friction()
         self._check_frames(n_c)
+
+    @property
+    @abstractmethod
+    def n_v(self) -> int:
+        """Number of columns of J."""
+
+    @abstractmethod
+    def motion(self, delta_q: Array) -> Array:
+        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
 
     @property
     def n_c(self) -> int:
@@ -119,7 +127,6 @@ class Contacts(Points):
     mu_v: Array
     mu_omega: Array
     rows: Indices
-    blocks: ClassVar[Blocks | None] = None
 
     def __post_init__(self) -> None:
         self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
@@ -134,58 +141,10 @@ class Contacts(Points):
         return self.J @ delta_q
 
     def dense(self) -> "Contacts":
-        """These contacts themselves; :class:`SparseContacts` form all of J."""
+        """These contacts themselves; others form all of J."""
         return self
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
     return read_only(np.column_stack([mu_v, mu_v, mu_omega * (rows == 6)]))
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SparseContacts(Points):
-    """The contact points of a step of many bodies: :class:`Contacts` that keep J without zeros.
-
-    Parameters
-    ----------
-    name, phi, n, d1, d2, mu_v, mu_omega, rows
-        As in :class:`Contacts`.
-    blocks : Blocks
-        The columns of J that are not zero.
-    """
-
-    name: tuple[str, ...]
-    phi: Array
-    n: Array
-    d1: Array
-    d2: Array
-    blocks: Blocks
-    mu_v: Array
-    mu_omega: Array
-    rows: Indices
-
-    def __post_init__(self) -> None:
-        self._check()
-        if len(self.blocks.J) != self.n_c:
-            problem = f"must have {self.n_c} contacts"
-            raise StepDataError(problem, field="contacts.blocks", value=len(self.blocks.J))
-
-    @property
-    def J(self) -> Array:
-        """All of J, shape (n_c, 4, n_v): formed whenever it is read, and not kept."""
-        return read_only(self.blocks.dense())
-
-    @property
-    def n_v(self) -> int:
-        """Number of columns of J."""
-        return self.blocks.n_v
-
-    def motion(self, delta_q: Array) -> Array:
-        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-        return self.blocks.motion(delta_q)
-
-    def dense(self) -> Contacts:
-        """The same contacts with all of J."""
-        own = (self.name, self.phi, self.n, self.d1, self.d2, self.J)
-        return Contacts(*own, self.mu_v, self.mu_omega, self.rows)

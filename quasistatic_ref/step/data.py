@@ -28,9 +28,9 @@ from quasistatic_ref.step.arrays import (
 )
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
-from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.contacts import Contacts, Points
 
-__all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "SparseContacts", "StepData"]
+__all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -106,7 +106,7 @@ class StepData(Plain, Shown):
         Generalised force on the un-actuated coordinates [N, N m].
     delta_q_bar_a : ndarray, shape (n_a,)
         Desired change of the actuated coordinates: target (-) q_a [m, rad].
-    contacts : Contacts or SparseContacts
+    contacts : Contacts
         The contact points considered.
     cone : str
         Friction cone; ``"pyramid"`` is the paper's. See :mod:`~quasistatic_ref.step.cones`.
@@ -130,7 +130,7 @@ class StepData(Plain, Shown):
     tau_a: Array
     tau_u: Array
     delta_q_bar_a: Array
-    contacts: Contacts  # or SparseContacts, which have the same fields
+    contacts: Contacts  # or other Points
     cone: str
     extra: Extra
 
@@ -142,7 +142,7 @@ class StepData(Plain, Shown):
         tau_a: ArrayLike,
         tau_u: ArrayLike,
         delta_q_bar_a: ArrayLike,
-        contacts: Contacts | SparseContacts,
+        contacts: Points,
         cone: str = PYRAMID,
         extra: Extra | None = None,
     ) -> None:
@@ -161,7 +161,7 @@ class StepData(Plain, Shown):
             "cone": cone,
             "extra": extra,
         }
-        if not isinstance(contacts, Contacts | SparseContacts):
+        if not isinstance(contacts, Points):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
         if type(contacts) is not (checks := contacts.compared_as()):  # posed by a simulator
             checked["contacts"] = checks(**field_values(contacts))
@@ -171,12 +171,6 @@ class StepData(Plain, Shown):
                 raise StepDataError(problem, field=key, value=found)
         for key, value in checked.items():
             object.__setattr__(self, key, value)
-
-    @property
-    def kept_M_u(self) -> Array:
-        """M_u, or its diagonal blocks, shape (n_u / 6, 6, 6), if these are what the step keeps."""
-        kept: Array = vars(self)["M_u"]
-        return kept
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""

@@ -51,18 +51,7 @@ LAB = (
 REMAINING = {
     "certify/certificate.py": {"optional/ellipsoid", "optional/large"},
     "contact/jacobian.py": {"optional/fast"},
-    "model/system.py": {"optional/large", "optional/show"},
-    "scenario/scenario.py": {"optional/show"},
-    "simulate/recorder.py": {"optional/doctor"},
-    "simulate/result.py": {"optional/show"},
-    "simulate/rollout.py": {"optional/runs"},
-    "simulate/simulator.py": {
-        "optional/extensions",
-        "optional/fast",
-        "optional/large",
-        "optional/show",
-    },
-    "simulate/trajectory.py": {"optional/show"},
+    "simulate/simulator.py": {"optional/extensions", "optional/fast", "optional/large"},
     "solve/engines.py": {"optional/ellipsoid", "optional/large"},
     "solve/scaled.py": {"optional/large"},
     "solve/solve.py": {
@@ -74,14 +63,10 @@ REMAINING = {
     "solve/solver.py": {"optional/fast", "optional/large"},
     "solve/through_cvxpy.py": {"optional/ellipsoid"},
     "solve/units.py": {"optional/fast"},
-    "step/contacts.py": {"optional/large", "optional/show"},
-    "step/data.py": {"optional/show"},
-    "step/solution.py": {"optional/show"},
     "optional/derivatives/contact/couples.py": {"optional/fast"},
     "optional/derivatives/contact/point_ties.py": {"optional/fast"},
     "optional/extensions/extended.py": {"optional/ellipsoid"},
     "optional/fast/compiled/answer.py": {"optional/large"},
-    "optional/fast/posed.py": {"optional/large"},
     "optional/large/rounded_bound.py": {"optional/fast"},
 }
 

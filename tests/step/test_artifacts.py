@@ -17,10 +17,10 @@ from quasistatic_ref.optional.doctor.artifacts import (
     warning,
 )
 from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.contacts import SparseContacts
 from quasistatic_ref.step.solution import step_solution
 from quasistatic_ref.tolerances import SLOW
 from tests.helpers import changed, contacts_of, pinch, point_on_floor, sphere_on_floor

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.piles import Pile, pile
 from quasistatic_ref.solve.backends import DEFAULT_OF_LARGE
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Contacts
 
 CHAINS = (10, 20, 40, 80, 160)
 """Bodies in a row."""
@@ -83,7 +83,7 @@ def large_step(shape: tuple[int, int, int], k: int = 4, steps: int = STEPS) -> L
         contacts=some.contacts,
         coordinates=result.step.n_v,
         rows=int(result.step.offsets[-1]),
-        sparse=result.step.contacts.blocks is not None,
+        sparse=not isinstance(result.step.contacts, Contacts),
         seconds=float(np.median([sum(lap.values()) for lap in timed])),
         tail=float(np.quantile([sum(lap.values()) for lap in timed], 0.99)),
         parts=parts,

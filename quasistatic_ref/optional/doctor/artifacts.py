@@ -71,7 +71,7 @@ def _friction(solution: StepSolution) -> Array:
     """
     contacts, f_n = solution.step.contacts, solution.wrench[:, 2]
     bears = contacts.mu_v * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
-    blocks = contacts.blocks
+    blocks = getattr(contacts, "blocks", None)  # of many bodies
     J = contacts.J if blocks is None else blocks.J
     moved = np.linalg.norm(J[:, :3], axis=1) > 0.5  # it is 1 or 0, but for rounding
     if blocks is None:

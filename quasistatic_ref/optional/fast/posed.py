@@ -8,10 +8,16 @@ import math
 from typing import NamedTuple
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.optional.large.blocks import whole
-from quasistatic_ref.step.arrays import Array, Indices, definite, frozen, positive_definite
+from quasistatic_ref.step.arrays import (
+    Array,
+    Indices,
+    definite,
+    frozen,
+    positive_definite,
+    whole,
+)
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.contacts import Contacts, Points
 from quasistatic_ref.step.data import (
     Extra,
     RowLayout,
@@ -136,7 +142,7 @@ class PosedStep(StepData):
         tau_a: Array,
         tau_u: Array,
         delta_q_bar_a: Array,
-        contacts: Contacts | SparseContacts,
+        contacts: Points,
     ) -> None:
         for array in (tau_a, tau_u, delta_q_bar_a):
             array.setflags(write=False)
@@ -161,7 +167,7 @@ class BlockStep(PosedStep):
     @property
     def M_u(self) -> Array:
         """All of M_u, shape (n_u, n_u): formed whenever it is read, and not kept."""
-        return whole(self.kept_M_u)
+        return whole(vars(self)["M_u"])
 
     @property
     def H(self) -> Array:
@@ -170,8 +176,9 @@ class BlockStep(PosedStep):
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
-        blocks = self.kept_M_u
-        return (blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)).ravel()
+        blocks = vars(self)["M_u"]
+        momentum: Array = blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)
+        return momentum.ravel()
 
 
 NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")

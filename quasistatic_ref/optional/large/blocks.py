@@ -1,4 +1,4 @@
-"""J of Eq. :eq:`eq-3` and M_u without their zeros, for steps of many bodies."""
+"""J of Eq. :eq:`eq-3` without its zeros, for steps of many bodies."""
 
 from dataclasses import dataclass
 
@@ -6,20 +6,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices, freeze, read_only
-
-
-def whole(M: Array) -> Array:
-    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
-
-    An M that is whole is returned as it is.
-    """
-    if M.ndim == 2:
-        return M
-    k, size, _ = M.shape
-    wide = np.zeros((k, size, k, size))
-    wide[np.arange(k), :, np.arange(k)] = M
-    return read_only(wide.reshape(k * size, k * size))
+from quasistatic_ref.step.arrays import Array, Indices, freeze
 
 
 @dataclass(frozen=True, eq=False)

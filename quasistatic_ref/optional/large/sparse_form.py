@@ -9,6 +9,8 @@ from scipy.sparse import block_diag, bsr_matrix, csc_matrix
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.step.contacts import Points
 from quasistatic_ref.step.data import Array, StepData, hessian_blocks
 from quasistatic_ref.step.friction import row_gaps, rows_along
 
@@ -48,14 +50,17 @@ class Pattern:
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
-        like, blocks = self.like, step.contacts.blocks
-        if blocks is None or step.extra.names or (step.h, step.cone) != (like.h, like.cone):
+        like = self.like
+        contacts: Points = step.contacts
+        if not isinstance(contacts, SparseContacts) or step.extra.names:
+            return False
+        if (step.h, step.cone) != (like.h, like.cone):
             return False
         return (
-            _same(blocks.column, self.blocks.column)
+            _same(contacts.blocks.column, self.blocks.column)
             and _same(step.contacts.rows, like.contacts.rows)
             and _same(step.K_q, like.K_q)
-            and (_same(step.kept_M_u, like.kept_M_u) or _same(step.M_u, like.M_u))
+            and (_same(kept_M_u(step), kept_M_u(like)) or _same(step.M_u, like.M_u))
         )
 
 
@@ -91,16 +96,24 @@ def in_blocks(step: StepData) -> Blocks:
     StepDataError
         If its contacts are not in blocks, or it has rows of the user's own.
     """
-    if step.contacts.blocks is None or step.extra.names:
+    contacts: Points = step.contacts
+    if not isinstance(contacts, SparseContacts) or step.extra.names:
         raise StepDataError("must be in blocks, without rows of the user's own", field="contacts")
-    return step.contacts.blocks
+    return contacts.blocks
+
+
+def kept_M_u(step: StepData) -> Array:
+    """M_u as a step keeps it [kg, kg m]: whole, or in diagonal blocks, shape (n_u / 6, 6, 6)."""
+    kept: Array = vars(step)["M_u"]
+    return kept
 
 
 def upper_triangle(step: StepData) -> csc_matrix:
     """Of H of Eq. :eq:`eq-13`, shape (n_v, n_v), from M_u as the step keeps it."""
-    if step.kept_M_u.ndim == 2:
+    M_u = kept_M_u(step)
+    if M_u.ndim == 2:
         return csc_matrix(np.triu(step.H))
-    of_a, of_u = hessian_blocks(step.h, step.K_q, step.kept_M_u)
+    of_a, of_u = hessian_blocks(step.h, step.K_q, M_u)
     at = np.arange(len(of_u) + 1)
     diagonal = bsr_matrix((np.triu(of_u), at[:-1], at), shape=(step.n_u, step.n_u))
     P = block_diag([np.triu(of_a), diagonal], format="csc")

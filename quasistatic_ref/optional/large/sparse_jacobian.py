@@ -8,7 +8,8 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.data import Indices, Mask, SparseContacts
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.step.data import Indices, Mask
 
 
 class BlockGeometry:

@@ -10,9 +10,10 @@ from quasistatic_ref.errors import (
     StepDataError,
 )
 from quasistatic_ref.optional.fast.posed import PosedStep
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.contacts import Contacts, SparseContacts
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
 from tests.helpers import changed, pinch
 from tests.scenes import chain_scene

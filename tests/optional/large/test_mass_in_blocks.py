@@ -13,13 +13,13 @@ from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
 from quasistatic_ref.optional.fast import posed
 from quasistatic_ref.optional.fast.posed import BlockStep, PosedStep, constants
-from quasistatic_ref.optional.large.blocks import whole
-from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.optional.large.sparse_form import Pattern, kept_M_u, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import solution_text
@@ -72,7 +72,7 @@ def test_M_u_H_and_P_have_the_bits_of_the_whole_mass_matrix(name):
     P = csc_matrix(np.triu(H))
     found = Pattern(step).P
     assert type(step) is BlockStep
-    assert step.kept_M_u.shape == (step.n_u // 6, 6, 6)
+    assert kept_M_u(step).shape == (step.n_u // 6, 6, 6)
     for one, two in (
         (step.M_u, expected), (system.M_u(system.q_start), expected), (step.H, H),
         (found.data, P.data), (found.indices, P.indices), (found.indptr, P.indptr),
@@ -153,8 +153,8 @@ def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
 def test_a_copy_keeps_the_blocks_alone():
     step = step_of("pile")[1]
     again = pickle.loads(pickle.dumps(step))
-    assert again.kept_M_u.shape == (4, 6, 6)
-    assert not again.kept_M_u.flags.writeable
+    assert kept_M_u(again).shape == (4, 6, 6)
+    assert not kept_M_u(again).flags.writeable
     assert "H" not in vars(again)
     assert again.H.tobytes() == step.H.tobytes()
 

@@ -16,6 +16,7 @@ from quasistatic_ref.model import world
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -128,7 +129,7 @@ def test_size_and_certificate_decide_whether_a_step_is_sparse(monkeypatch):
         some = pile(BOXES, certify=certify)
         assert some.contacts == 24
         step = step_after(some, 1).step
-        assert (step.contacts.blocks is not None) == sparse
+        assert isinstance(step.contacts, SparseContacts) == sparse
 
 
 def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse, monkeypatch):
@@ -157,7 +158,7 @@ def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always
 
 def test_a_step_that_is_not_in_blocks_has_no_pattern():
     step = step_after(pile(BOXES, certify="full"), 1).step
-    assert step.contacts.blocks is None
+    assert type(step.contacts) is not SparseContacts
     with pytest.raises(StepDataError, match="must be in blocks"):
         Pattern(step)
 

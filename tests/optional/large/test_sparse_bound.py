@@ -17,6 +17,7 @@ from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.sparse import SparseSolver
 from quasistatic_ref.optional.large.sparse_bound import least_way
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import always_in_blocks, error, in_blocks, point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
@@ -84,7 +85,7 @@ def test_sparse_answers_have_a_bound_as_good_as_that_of_dense_ones(monkeypatch, 
         result = some.simulator.step(q, NO_TARGET, some.force)
         q = result.q
     step, answer = result.step, result.solution
-    assert step.contacts.blocks is not None
+    assert type(step.contacts) is SparseContacts
     bound, exact = answer.certificate.error_bound, exact_step(step)
     assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
     assert within(step, exact, answer.delta_q, bound, answer.lam)

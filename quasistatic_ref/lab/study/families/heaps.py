@@ -6,7 +6,7 @@ from quasistatic_ref.lab.scenes.at_random import Rng, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Y, frames_about, point_jacobian
 from quasistatic_ref.lab.study.families.short import OF_FRICTION, OF_J, H, shortened
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.contacts import SparseContacts
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Array, Indices, StepData
 
 LAYERS = 5
