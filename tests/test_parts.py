@@ -5,9 +5,12 @@ import importlib
 import numpy as np
 import pytest
 
+import quasistatic_ref
 from quasistatic_ref import parts
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
 from tests.helpers import random_step
 
 
@@ -38,6 +41,28 @@ def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(witho
     without("show")
     assert parts.part("show.table") is None
     assert parts.part("doctor.watch") is not None
+
+
+def test_a_name_of_the_front_door_needs_its_part(without):
+    without("derivatives")
+    with pytest.raises(InputError, match=r"^smoothed needs quasistatic_ref/optional/derivatives$"):
+        _ = quasistatic_ref.smoothed
+
+
+def test_a_run_is_recorded_without_warnings_and_saves_nothing_without_the_parts(without, tmp_path):
+    scenario = load_scenario("sphere_spin", steps=2)
+    whole = scenario.run(progress=False)
+    without("doctor")
+    run = scenario.run(progress=False)
+    unknown = ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer")
+    assert run.header == {**whole.header, **dict.fromkeys(unknown), "warnings": []}
+    assert run.arrays.keys() == whole.arrays.keys()
+    without("runs")
+    with pytest.raises(InputError, match=r"^save needs quasistatic_ref/optional/runs$"):
+        scenario.run(progress=False, save=tmp_path / "run.npz")
+    assert main(["run", "sphere_spin", "--set", "steps=2", "--out", str(tmp_path), "--quiet"]) == 0
+    assert trajectory_read(tmp_path / "sphere_spin.npz").steps == 2
+    assert main(["run", "sphere_spin", "--out", str(tmp_path), "--resume"]) == 2
 
 
 def test_without_pages_a_dataclass_shows_its_fields_and_an_object_its_class(without):

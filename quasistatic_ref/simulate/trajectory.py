@@ -43,7 +43,8 @@ class Trajectory(Plain, Shown):
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
         coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
-        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`;
+        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
+        without which all three are None;
         ``warnings``, see :attr:`warnings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the

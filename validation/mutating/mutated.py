@@ -254,6 +254,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/units.py": ("solve/test_units.py", *SOLVERS),
     "step/arrays.py": (*MASSES, *DATA),
     "optional/large/blocks.py": SPARSE,
+    "optional/large/sparse_contacts.py": SPARSE,
     "step/cones.py": ("step/test_cones.py", "cli/test_completion.py"),
     "step/contacts.py": ("step/test_artifacts.py", *DATA),
     "step/data.py": DATA,

@@ -1,0 +1,81 @@
+"""Observers of a run: when they are asked, what is kept of what they say, and how they end it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.recorder import PACKED, Recorder
+from quasistatic_ref.simulate.rollout import rollout
+
+STEPS = 3
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    return load_scenario("sphere_spin", steps=STEPS)
+
+
+class Witness(Observer):
+    """Keeps the z of each step's end, and notes when it was asked; perhaps it ends the run."""
+
+    notes = ("height", "unknown")
+
+    def __init__(self, ends_at=None):
+        self.ends_at, self.asked = ends_at, []
+
+    def before(self, recorder):
+        """Before a step."""
+        self.asked.append(("before", recorder.steps))
+        if recorder.steps == self.ends_at:
+            raise InputError("high enough")
+
+    def after(self, recorder, result):
+        """After it; the recorder counts it when all observers were asked."""
+        self.asked.append(("after", recorder.steps))
+        return {"height": result.q[2], "unknown": None}
+
+    def end(self, recorder, trajectory, interrupted):
+        """At the end."""
+        self.asked.append(("end", recorder.steps, trajectory.failed, interrupted))
+        heights = recorder.noted("height").tolist()
+        return replace(trajectory, header={**trajectory.header, "heights": heights})
+
+
+def ran(scenario, witness):
+    return rollout(
+        scenario.simulator(), scenario.system.q_start, scenario.targets, STEPS,
+        force=scenario.force, progress=False, observers=[witness],
+    )  # fmt: skip
+
+
+def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario):
+    witness, plain = Witness(), scenario.run(progress=False)
+    run = ran(scenario, witness)
+    steps = [(when, k) for k in range(STEPS) for when in ("before", "after")]
+    assert witness.asked == [*steps, ("end", STEPS, None, False)]
+    assert run.header == {**plain.header, "heights": run.q[1:, 2].tolist()}
+    assert run.arrays.keys() == plain.arrays.keys()
+    for name, array in plain.arrays.items():
+        np.testing.assert_array_equal(run[name], array)
+
+
+def test_an_observer_ends_a_run_as_any_failure_does(scenario):
+    witness = Witness(ends_at=2)
+    with pytest.raises(RunFailed, match="step 2: high enough") as caught:
+        ran(scenario, witness)
+    assert witness.asked[-2:] == [("before", 2), ("end", 2, "step 2: high enough", False)]
+    assert caught.value.trajectory.header["heights"] == caught.value.trajectory.q[1:, 2].tolist()
+
+
+def test_what_is_not_known_is_nan_and_notes_outlast_the_packing(scenario):
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    recorder, result = Recorder(simulator, q, "light", [Witness()]), simulator.step(q, np.zeros(0))
+    assert recorder.noted("height").shape == (0,)
+    for _ in range(PACKED + 1):
+        recorder.add(np.zeros(0), result)
+    assert recorder.noted("height").tolist() == [result.q[2]] * (PACKED + 1)
+    assert np.isnan(recorder.noted("unknown")).all()
