@@ -155,7 +155,7 @@ class Recorder:
         return tuple(name for observer in self.observers for name in observer.notes)
 
     def noted(self, name: str) -> NDArray[Any]:
-        """What an observer kept of each step so far, behind a first axis, the step [any unit]."""
+        """What an observer kept of each step so far, shape (steps, ...) [any unit]."""
         parts = self.packed()
         return _joined(parts, name) if parts else np.zeros(0)
 

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.optional.large.sparse_jacobian import contact_geometry
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import CompiledStep, StepResult
@@ -242,10 +243,7 @@ class Simulator(Shown):
         """
         if self.extension is None:
             return step, None
-        from quasistatic_ref.optional.extensions import (
-            extended,  # needs CVXPY, which takes its time
-        )
-
+        extended = needed_part("extensions.extended", "extension")  # it needs CVXPY
         own = self.extension(q)
         rows = extended.extension_rows(step, own)
         return (step, own) if rows is None else (extended.with_rows(step, rows), None)

@@ -51,7 +51,7 @@ LAB = (
 REMAINING = {
     "certify/certificate.py": {"optional/ellipsoid", "optional/large"},
     "contact/jacobian.py": {"optional/fast"},
-    "simulate/simulator.py": {"optional/extensions", "optional/fast", "optional/large"},
+    "simulate/simulator.py": {"optional/fast", "optional/large"},
     "solve/engines.py": {"optional/ellipsoid", "optional/large"},
     "solve/scaled.py": {"optional/large"},
     "solve/solve.py": {

@@ -35,7 +35,7 @@ class Warnings(Observer):
         self.printed = printed
 
     def after(self, recorder: Recorder, result: StepResult) -> dict[str, Array | float | None]:
-        """The gaps after the step [m], Pi, the share of drag [-] and the boundary layer [m]."""
+        """Gaps after the step, shape (n_c,) [m], Pi, share of drag [-] and boundary layer [m]."""
         step, solution = result.step, result.solution
         system, gravity = recorder.system, recorder.gravity
         gap = gap_after(solution)

@@ -27,7 +27,17 @@ if TYPE_CHECKING:
 def saved_run(
     path: str | Path, every: float | None, simulator: Simulator, recorder: Recorder
 ) -> SavedRun:
-    """The observer that saves a run: its trajectory's path, the time between two saves [s].
+    """The observer that saves a run.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of its trajectory.
+    every : float or None
+        Time between two saves [s].
+    simulator : Simulator
+    recorder : Recorder
+        With all other observers.
 
     Raises
     ------
