@@ -31,7 +31,7 @@ class Observer:
     ) -> Mapping[str, Array | float | None]:
         """After a step: numbers of any shape [any unit] that are kept with it, None for NaN.
 
-        They are no part of the trajectory; :meth:`Recorder.noted` gives them to :meth:`end`.
+        They are no part of the trajectory; `recorder.noted` gives them to :meth:`end`.
         """
         return {}
 

@@ -63,8 +63,7 @@ def rollout(
         as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
         in a folder next to that file; see :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
     save_every : float
-        Time between two saves [s]; by default
-        :data:`~quasistatic_ref.optional.runs.saved.EVERY`.
+        Time between two saves [s]; by default a minute.
     resume : bool
         Whether to go on from the steps that are saved there, if there are any. The result has the
         bits of a run that was never interrupted, if target and force are functions of (t, q) alone.

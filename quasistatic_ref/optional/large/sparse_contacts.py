@@ -10,12 +10,12 @@ from quasistatic_ref.step.contacts import Contacts, Points
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SparseContacts(Points):
-    """The contact points of a step of many bodies: :class:`Contacts` that keep J without zeros.
+    """The contact points of a step of many bodies, which keep J without its zeros.
 
     Parameters
     ----------
     name, phi, n, d1, d2, mu_v, mu_omega, rows
-        As in :class:`Contacts`.
+        As in :class:`~quasistatic_ref.step.contacts.Contacts`.
     blocks : Blocks
         The columns of J that are not zero.
     """
