@@ -49,7 +49,7 @@ def test_a_name_of_the_front_door_needs_its_part(without):
         _ = quasistatic_ref.smoothed
 
 
-def test_a_run_is_recorded_without_warnings_and_saves_nothing_without_the_parts(without, tmp_path):
+def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path):
     scenario = load_scenario("sphere_spin", steps=2)
     whole = scenario.run(progress=False)
     without("doctor")
@@ -65,7 +65,7 @@ def test_a_run_is_recorded_without_warnings_and_saves_nothing_without_the_parts(
     assert main(["run", "sphere_spin", "--out", str(tmp_path), "--resume"]) == 2
 
 
-def test_without_pages_a_dataclass_shows_its_fields_and_an_object_its_class(without):
+def test_without_pages_data_show_their_fields_and_objects_their_class(without):
     without("show")
     scenario = load_scenario("block_push", steps=1)
     step = random_step(np.random.default_rng(0))
