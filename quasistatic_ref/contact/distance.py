@@ -17,6 +17,7 @@ import numpy as np
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import (
+    BISECTOR,
     OWN,
     TURNED,
     Surface,
@@ -31,7 +32,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, UPRIGHT
+from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
 
 class ClosestPoints(NamedTuple):
@@ -141,6 +142,9 @@ def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
     on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
     on_a = on_a._replace(point=len(corners_a) + on_a.point)
     every = joined([on_b, on_a, nearest])
+    if nearest.tie[0] == BISECTOR:
+        alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
+        every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
     return every.chosen(np.flatnonzero(every.n @ n >= TURNED))
 
 

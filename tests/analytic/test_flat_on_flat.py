@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.patch import BISECTOR, OF_CLOUD, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -24,6 +26,7 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.model.urdf.urdf_texts import inertial, link, robot
 from validation.make.aligned_poses import tries
 
 H, G, MASS = 0.01, 9.81, 1.0
@@ -191,6 +194,7 @@ def test_a_brick_bond_and_a_flush_wall_stand() -> None:
 def test_where_gaps_of_zero_tie_the_normal_is_between_and_deeper_none_is_right() -> None:
     across = one_on_another(cube(), np.eye(3), cube(), 0.0, 4, (SIDE, 0.0))
     np.testing.assert_allclose(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 4, atol=1e-15)
+    assert across.tied == dict.fromkeys(across.step.contacts.name, SAYS[BISECTOR])
     with pytest.raises(
         ContactError, match=r"p0: the bodies are as deep .* along \[1., 0., 0.\] as"
     ):
@@ -207,6 +211,10 @@ def test_a_cloud_over_a_corner_takes_the_face_along_which_it_is_farthest_out() -
         near = result.points.phi < SIDE / 2
         assert near.sum() == 4
         np.testing.assert_allclose(result.points.n[near], [way] * 4, atol=CLOSED_FORM)
+        names = [
+            name for name, is_near in zip(result.step.contacts.name, near, strict=True) if is_near
+        ]
+        assert result.tied == dict.fromkeys(names, SAYS[OF_CLOUD])
 
 
 def test_turned_moved_and_swapped_a_body_moves_the_same() -> None:
@@ -227,3 +235,41 @@ def test_a_sample_of_the_aligned_poses() -> None:
     tried, wrong = tries(63)
     assert wrong == []
     assert len(tried) == 5
+
+
+SCENE = """
+format = "quasistatic-ref/scenario"
+version = 1
+h = 0.01
+steps = 1
+[bodies.top]
+urdf = "top.urdf"
+base = "floating"
+pose = { xyz = [X, 0, Z] }
+[shapes.low]
+box = { size = [0.1, 0.1, 0.1] }
+[contacts.c]
+alpha = "low"
+beta = "top"
+mu_v = 0.0
+rows = 4
+k = 4
+"""
+
+
+@pytest.mark.parametrize(
+    ("x", "z", "says"),
+    [
+        ("0", "0.1", "another face is as near: the pair's normal"),
+        ("0.1", "0.1", "touches with two faces or edges at once"),
+        ("0.09", "0.09", "the bodies are as deep in each other along"),
+    ],
+)
+def test_inspect_says_which_normals_are_tied(tmp_path, capsys, x, z, says) -> None:
+    text = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
+    (tmp_path / "top.urdf").write_text(robot(link("top", text, inertial("1", ("2e-3",) * 3))))
+    (tmp_path / "scene.toml").write_text(SCENE.replace("X", x).replace("Z", z))
+    assert main(["inspect", str(tmp_path / "scene.toml")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "normals that are one of several at the start: - " in said
+    assert says in said

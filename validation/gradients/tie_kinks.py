@@ -35,6 +35,10 @@ from validation.gradients.placing import (
     turned,
 )
 
+OFF: Final = 4e-12
+"""By how much depths differ that tie [m]: a derivative cannot tell, and a step that could not is
+refused."""
+
 
 def tied_points(rng: Rng) -> Kink:
     """Points of a cloud at the same height, fewer kept."""
@@ -78,7 +82,7 @@ def deep_in_a_box(rng: Rng) -> Kink:
     half = np.array([*rng.uniform(0.08, 0.12, 2), rng.uniform(0.04, 0.06)])
     solid, radius = Box(half), float(rng.choice([0.0, 0.02]))
     depth = rng.uniform(0.005, 0.03)
-    at = np.array([half[0] - depth, rng.uniform(-0.03, 0.03), half[2] - depth])
+    at = np.array([half[0] - depth, rng.uniform(-0.03, 0.03), half[2] - depth + OFF])
     shape = Sphere(radius) if radius else POINT
     scene = Scene(shape, any_turn(rng), at, [(either(rng, solid), *HERE)])
     return Kink(reason.SURFACES, "a point as deep below two faces", *anywhere(rng, scene))
@@ -90,13 +94,13 @@ def deep_in_a_round(rng: Rng) -> Kink:
     turn, depth = about_z(rng), rng.uniform(0.005, 0.02)
     if rng.integers(2):
         shape: Shape = Cylinder(radius, half)
-        at = turn @ np.array([radius - depth, 0.0, half - depth])
+        at = turn @ np.array([radius - depth, 0.0, half - depth + OFF])
     else:
         # d above the base, the distance to the slant is d too.
         shape = Cone(radius, half)
         slant = np.hypot(radius, 2 * half)
         r = radius - depth * (slant + radius) / (2 * half)
-        at = turn @ np.array([r, 0.0, -half + depth])
+        at = turn @ np.array([r, 0.0, -half + depth + OFF])
     scene = Scene(POINT, any_turn(rng), at, [(shape, *HERE)])
     return Kink(reason.SURFACES, "a point in a round solid", *anywhere(rng, scene))
 
@@ -116,7 +120,7 @@ def amid_a_plate(rng: Rng) -> Kink:
         Ellipsoid(np.array([0.01, 0.02, 0.03])), Box(np.array([0.01, 0.02, 0.03])),
         Capsule(0.01, 0.02), Cylinder(0.02, 0.02), Sphere(0.02),
     )[int(rng.integers(5))]  # fmt: skip
-    at = np.array([*rng.uniform(-0.05, 0.05, 2), 0.0])
+    at = np.array([*rng.uniform(-0.05, 0.05, 2), OFF])
     scene = Scene(shape, any_turn(rng), at, [(plate, *HERE)])
     return Kink(reason.SURFACES, f"a {type(shape).__name__} amid a plate", *anywhere(rng, scene))
 

@@ -243,5 +243,5 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
         )
     assert again.sum() >= 1 + on_rim
     kept = found(one, other, R, t, 2)
-    apart = np.abs(kept.alpha[:, None] - kept.alpha).max(axis=2) + np.eye(3)
+    apart = np.abs(kept.alpha[:, None] - kept.alpha).max(axis=2) + np.eye(2)
     assert apart.min() > 1e-3

@@ -159,15 +159,16 @@ KINKS = {
         reason.RIM,
         lambda: free(Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4),
     ),
+    # Depths that tie by more than a step is refused for.
     "a point as deep below two faces": (
         reason.SURFACES,
-        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04), (BOX, (0, 0, 0))),
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04 + 4e-12), (BOX, (0, 0, 0))),
     ),
     "an ellipsoid in the middle of a disc": (
         reason.SURFACES,
         lambda: free(
             Ellipsoid(np.array([0.01, 0.02, 0.03])),
-            (0, 0, 0),
+            (0, 0, 4e-12),
             (DISC, (0, 0, 0)),
             rpy=(0.3, 0.4, 0.2),
         ),
@@ -178,7 +179,7 @@ KINKS = {
     ),
     "a box whose middle is in the middle of a plate": (
         reason.SURFACES,
-        lambda: free(SMALL, (0, 0, 0), (PLATE, (0, 0, 0)), rpy=(0.3, 0.4, 0.2)),
+        lambda: free(SMALL, (0, 0, 4e-12), (PLATE, (0, 0, 0)), rpy=(0.3, 0.4, 0.2)),
     ),
 }
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.depth_ties import _differ, _inside_tie, depth_tie
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -120,6 +121,16 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name, body) -> None:
     assert not inside(solid, p + off * np.array(way), body, pose)
 
 
+@pytest.mark.parametrize(
+    "name", [name for name in TIES if not isinstance(TIES[name][0], Ellipsoid)]
+)
+def test_what_is_as_deep_to_the_last_digits_is_refused(name) -> None:
+    solid, p, _ = TIES[name]
+    for body in (POINT, Sphere(0.01)):
+        with pytest.raises(ContactError, match=r"p: the bodies are as deep in each other along \["):
+            inside(solid, p, body, STILL)
+
+
 @pytest.mark.parametrize("name", NO_TIES)
 def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name) -> None:
     solid, p = NO_TIES[name]
@@ -152,6 +163,13 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
         for off in (AWAY, -AWAY, between, -between):
             moved = TURNED @ (np.array(t) + off * way) + AT
             assert not tied(a, b, (TURNED, AT), (TURNED, moved))
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_solids_as_deep_to_the_last_digits_are_refused(name) -> None:
+    a, b, t = PAIRS[name]
+    with pytest.raises(ContactError, match="as deep in each other along"):
+        tied(a, b, STILL, (np.eye(3), np.array(t)))
 
 
 def test_capsules_are_tied_where_their_axes_cross() -> None:
