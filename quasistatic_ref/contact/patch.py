@@ -17,7 +17,7 @@ from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.hull import dot
+from quasistatic_ref.shapes.hull import CHUNK, dot
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import (
@@ -110,22 +110,32 @@ def corner_surface(solid: Placed, x: Array, n: Array, within: float) -> Surface:
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
     near = OVER_FACE * shape.extent + within
     open_ = np.flatnonzero((phi <= near) | (normal @ n < TURNED))
-    phi, normal, at, before = phi.copy(), normal.copy(), x[open_], normal[open_]
-    heights, normals = shape.faces(at)
-    over = np.zeros(len(open_), dtype=bool)
-    if heights.size:
-        heights = np.where(normals @ n >= TURNED, heights, -np.inf)
-        face, rivals = faces_apart(heights, normals, within)
-        chosen = np.arange(len(at)), face
-        height, own = heights[chosen], normals[chosen]
-        over[:] = _over(shape, at, height, own, near) & ~rivals.any(axis=1)
-        phi[open_[over]], normal[open_[over]] = height[over], own[over]
-    gap = at @ n - shape.support_value(n[None])
-    edge = ~over & _over(shape, at, gap, np.broadcast_to(n, at.shape), near)
-    phi[open_[edge]], normal[open_[edge]] = gap[edge], n
-    changed = np.sum(before * normal[open_], axis=1) < 1 - SAME_NORMAL
-    tie[open_[changed]] = OF_PAIR
+    phi, own, normal = phi.copy(), normal, normal.copy()
+    block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
+    for start in range(0, len(open_), block):
+        some = open_[start : start + block]
+        over, phi[some], normal[some] = _facing(shape, x[some], n, phi[some], normal[some], within)
+        edge = some[~over]
+        gap = x[edge] @ n - shape.support_value(n[None])
+        on_edge = _over(shape, x[edge], gap, np.broadcast_to(n, (len(edge), 3)), near)
+        phi[edge[on_edge]], normal[edge[on_edge]] = gap[on_edge], n
+    tie[np.sum(own * normal, axis=1) < 1 - SAME_NORMAL] = OF_PAIR
     return Surface(phi, normal, tie)
+
+
+def _facing(
+    shape: Shape, x: Array, n: Array, phi: Array, normal: Array, within: float
+) -> tuple[Mask, Array, Array]:
+    """Which points are over a face that faces n, and what they have then; others as they were."""
+    heights, normals = shape.faces(x)
+    if not heights.size:
+        return np.zeros(len(x), dtype=bool), phi, normal
+    heights = np.where(normals @ n >= TURNED, heights, -np.inf)
+    face, rivals = faces_apart(heights, normals, within)
+    chosen = np.arange(len(x)), face
+    height, own = heights[chosen], normals[chosen]
+    over = _over(shape, x, height, own, OVER_FACE * shape.extent + within) & ~rivals.any(axis=1)
+    return over, np.where(over, height, phi), np.where(over[:, None], own, normal)
 
 
 def _over(shape: Shape, x: Array, height: Array, normal: Array, near: float) -> Mask:
