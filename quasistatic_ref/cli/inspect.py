@@ -14,7 +14,7 @@ from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.patch import OWN, SAYS
+from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System

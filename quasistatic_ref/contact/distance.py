@@ -16,18 +16,10 @@ import numpy as np
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import (
-    BISECTOR,
-    OWN,
-    TURNED,
-    Surface,
-    cloud_surface,
-    corner_surface,
-    pair_normal,
-    rounding,
-)
+from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
+from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -50,7 +42,7 @@ class ClosestPoints(NamedTuple):
         Index of the cloud's point; for two solids the number of the candidate, or 0 if only
         one is kept; contacts that fill the number follow the closest pair's.
     tie : ndarray of int, shape (n_c,)
-        How the normal was chosen, as :mod:`~quasistatic_ref.contact.patch` counts it.
+        How the normal was chosen, as :mod:`~quasistatic_ref.contact.separations` counts it.
     """
 
     phi: Array

@@ -12,31 +12,22 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import rotated
-from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.hull import CHUNK, dot
-from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Shape, Sphere
-from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import (
-    FACING,
-    OVER_FACE,
-    SAME_NORMAL,
-    TIED_FACES,
-    TOUCHING_FACES,
+from quasistatic_ref.contact.separations import (
+    BISECTOR,
+    OF_CLOUD,
+    OF_PAIR,
+    OWN,
+    distinct,
+    mean_direction,
+    refuse_unless_touching,
+    rounding,
 )
-
-OWN, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
-"""How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""
-
-SAYS = {
-    OF_PAIR: "another face is as near: the pair's normal",
-    BISECTOR: "touches with two faces or edges at once: the normal between theirs",
-    OF_CLOUD: "two faces are as near: the one along which the whole cloud is farthest out",
-}
-"""Each tie in words."""
+from quasistatic_ref.shapes.hull import CHUNK, dot
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
+from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
 
 TURNED = float(np.cos(FACING))
 
@@ -57,13 +48,6 @@ class Surface(NamedTuple):
     phi: Array
     normal: Array
     tie: Indices
-
-
-def rounding(solid: Placed, other: Placed) -> float:
-    """Difference of two heights over a solid that is rounding [m]: of sizes and of places."""
-    places = float(max(np.abs(solid.t).max(), np.abs(other.t).max()))
-    extents = [s.shape.extent for s in (solid, other) if not isinstance(s.shape, PointCloud)]
-    return TIED_FACES * max([places, *(x for x in extents if np.isfinite(x))])
 
 
 def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices, Mask]:
@@ -202,106 +186,3 @@ def _of_cloud(
         return ways[level][0], OF_CLOUD
     refuse_unless_touching(name, out.max(), ways[level] @ solid.R.T, within)
     return mean_direction(ways[level]), BISECTOR
-
-
-def pair_normal(name: str, a: Placed, b: Placed) -> tuple[Witness, int]:
-    """Closest points of two solids with the normal that the rule gives, and how it was chosen.
-
-    Parameters
-    ----------
-    name : str
-        Of the pair, for messages.
-    a, b : Placed
-
-    Raises
-    ------
-    ContactError
-        If the solids are as deep in each other along two normals, or have no trustworthy one.
-    """
-    (found, every), within = pair_and_gaps(name, a, b), rounding(a, b)
-    ways = tied_normals(a, b, found, within, every)
-    if len(ways) == 1:
-        return found, OWN
-    refuse_unless_touching(name, found.phi, ways, within)
-    n = mean_direction(ways)
-    phi = float(gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), n[None])[0])
-    return Witness(phi, found.alpha, found.alpha + phi * n, n), BISECTOR
-
-
-def tied_normals(
-    a: Placed,
-    b: Placed,
-    found: Witness,
-    within: float,
-    every: tuple[Array, Array] | None = None,
-) -> Array:
-    """All normals of two solids along which their gap is the signed distance, shape (T, 3).
-
-    Parameters
-    ----------
-    a, b : Placed
-    found : Witness
-        Their closest points, whose normal comes first.
-    within : float
-        Largest difference of gaps that are equal [m].
-    every : (ndarray, ndarray), optional
-        Of two polytopes, all gaps and normals.
-    """
-    shapes, own = (a.shape, b.shape), found.n[None]
-    if found.phi > within or any(isinstance(shape, HalfSpace) for shape in shapes):
-        return own
-    if any(isinstance(shape, Sphere) for shape in shapes):
-        out, ways = _of_centre(a, b, found)
-    elif all(isinstance(shape, Capsule) for shape in shapes):
-        radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        out, ways = np.array([-found.phi - 2 * radii]), -own
-    else:
-        out, ways = _of_solids(a, b, found) if every is None else every
-    tied = distinct([*ways[out >= found.phi - within]])
-    if len(tied) > 1:
-        return tied
-    return distinct([found.n, *tied])
-
-
-def _of_centre(a: Placed, b: Placed, found: Witness) -> tuple[Array, Array]:
-    """Of a sphere and a solid: heights of its centre over the faces, less the radius."""
-    solid, ball, sign = (a, b, 1.0) if isinstance(b.shape, Sphere) else (b, a, -1.0)
-    assert isinstance(ball.shape, Sphere)
-    heights, normals = solid.shape.faces(((ball.t - solid.t) @ solid.R)[None])
-    return heights[0] - ball.shape.radius, sign * normals[0] @ solid.R.T
-
-
-def _of_solids(a: Placed, b: Placed, found: Witness) -> tuple[Array, Array]:
-    """Along the normals of the faces at the closest points, and along the axes."""
-    ways = [sharp_directions(a), -sharp_directions(b)]
-    for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):
-        _, normals = solid.shape.faces(((end - solid.t) @ solid.R)[None])
-        ways.append(sign * normals[0] @ solid.R.T)
-    every = np.concatenate(ways)
-    return gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), every), every
-
-
-def distinct(ways: list[Array]) -> Array:
-    """Unit vectors without those that are an earlier one again, shape (T, 3)."""
-    found: list[Array] = []
-    for way in ways:
-        if all(np.abs(way - other).max() > SAME_NORMAL for other in found):
-            found.append(way)
-    return np.array(found)
-
-
-def mean_direction(ways: Array) -> Array:
-    """The unit vector of the mean of some, (T, 3): of two, their bisector."""
-    mean = ways.sum(axis=0)
-    return np.asarray(mean / np.sqrt(mean @ mean))
-
-
-def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) -> None:
-    """Raise ContactError where bodies are in each other, as deep along the one way as the other."""
-    if phi < -TOUCHING_FACES / TIED_FACES * within:
-        one, other = (np.array2string(way + 0.0, precision=4, separator=", ") for way in ways[:2])
-        raise ContactError(
-            f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "
-            "no normal is right; start them less deep along one of the two",
-            field=name,
-        )

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.patch import OWN, SAYS
+from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.data import Array, StepData

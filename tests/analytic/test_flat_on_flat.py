@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import BISECTOR, OF_CLOUD, SAYS
+from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -191,7 +191,7 @@ def test_a_brick_bond_and_a_flush_wall_stand() -> None:
     at_rest([(x * SIDE, 0.0, z[row]) for row in range(2) for x in range(2)], 4)
 
 
-def test_where_gaps_of_zero_tie_the_normal_is_between_and_deeper_none_is_right() -> None:
+def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none() -> None:
     across = one_on_another(cube(), np.eye(3), cube(), 0.0, 4, (SIDE, 0.0))
     np.testing.assert_allclose(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 4, atol=1e-15)
     assert across.tied == dict.fromkeys(across.step.contacts.name, SAYS[BISECTOR])
@@ -201,7 +201,7 @@ def test_where_gaps_of_zero_tie_the_normal_is_between_and_deeper_none_is_right()
         one_on_another(cube(), np.eye(3), cube(), 1e-3, 4, (SIDE - 1e-3, 0.0))
 
 
-def test_a_cloud_over_a_corner_takes_the_face_along_which_it_is_farthest_out() -> None:
+def test_a_cloud_takes_the_face_along_which_it_is_farthest_out() -> None:
     # Side by side the cloud's face x = 0.05 is flush with the box's, and so are y and z.
     for way in np.eye(3):
         system = System([body("top", SIDE * way)])

@@ -28,7 +28,7 @@ def polytope_pair(
     R, t : ndarray, shapes (3, 3) and (3,)
         Pose of b's frame in a's.
     gaps : (ndarray, ndarray)
-        Of :func:`gaps_between` them.
+        Of :func:`gaps_between` them [m], [-].
     """
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _capsule_pair(a, b.moved(R, t))

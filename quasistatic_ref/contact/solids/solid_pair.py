@@ -21,7 +21,7 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     """Closest points of two solids in the world frame.
 
     Where the normal is not unique, it is any one; a contact's is chosen by
-    :func:`~quasistatic_ref.contact.patch.pair_normal`.
+    :func:`~quasistatic_ref.contact.separations.pair_normal`.
 
     Parameters
     ----------

@@ -13,9 +13,10 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import OWN, cloud_surface
+from quasistatic_ref.contact.patch import cloud_surface
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
+from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
 from quasistatic_ref.optional.fast.tracker.batch import Batch, Nearest
