@@ -245,7 +245,7 @@ def test_a_trajectory_shows_its_last_step():
 
 
 STRANGE = {
-    "a header of words": ({"quasi_dynamic_number": "fast", "backend": HOSTILE}, {}),
+    "a backend that is markup": ({"backend": HOSTILE}, {}),
     "names that are numbers": ({"contacts": [list(range(8))] * 3}, {}),
     "too few names": ({"contacts": [["one"]] * 3}, {}),
     "scalar gaps": ({}, {"phi": np.zeros(3), "wrench": np.zeros(3)}),
