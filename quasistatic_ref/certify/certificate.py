@@ -60,7 +60,7 @@ def in_words(certificate: Certificate) -> str:
     """What a certificate claims of its step, in a sentence or two."""
     if certificate.kind == "residual":
         known = certificate.error_bound is not None
-        bound = _error_in_words(certificate) if known else "no error bound"
+        bound = _error_in_words(certificate) if known else "no useful bound of its error"
         if not certificate.residuals:
             return f"not exact: {bound}"
         worst = max(certificate.residuals.values())

@@ -34,8 +34,11 @@ class NaturalStep(Protocol):
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
 
-    def bound(self, delta_q: Array, lam: Array) -> float | None:
-        """A rigorous bound of the relative error of delta_q [-], where one is known."""
+    def bound(self, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
+
+        Infinite where none is known.
+        """
 
 
 class DenseStep:
@@ -114,10 +117,9 @@ class DenseStep:
         slack = form.A.dot(delta_q) - form.b
         return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
 
-    def bound(self, delta_q: Array, lam: Array) -> float | None:
-        """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""
-        error = error_bound(self.natural, delta_q, lam).error
-        return error if math.isfinite(error) else None
+    def bound(self, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        return error_bound(self.step, delta_q, lam).error
 
 
 def check_units(units: Units, step: StepData, usable: bool = True) -> None:

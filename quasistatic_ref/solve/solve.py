@@ -24,7 +24,7 @@ from quasistatic_ref.solve.backends import DEFAULT, NONE
 from quasistatic_ref.solve.engines import check_certify, solver_for
 from quasistatic_ref.solve.scaled import DenseStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import Units, from_natural
+from quasistatic_ref.solve.units import Units, from_natural, in_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -263,8 +263,7 @@ def _certified(
         said, _ = from_natural(answer.delta_q, answer.lam, units)
         digits = relative_digits(norm.displacement(said - delta_q), free)
         statistics = statistics._replace(digits=digits)
-    x = delta_q / (units.size * units.coordinate)
-    residuals = vars(scaled.residuals(x, lam * (units.length / units.size)))
+    residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
     return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
 
 

@@ -224,6 +224,12 @@ def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array
     return delta_q * (rho * S), lam * (rho / ell)
 
 
+def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
+    """delta_q (n_v,) and lam (m,) in natural units [-] from their values in SI units."""
+    S, ell, rho = units.coordinate, units.length, units.size
+    return delta_q / (rho * S), lam / (rho / ell)
+
+
 def _typical(squares: Array) -> float:
     """Return the median of lengths that are not zero, from their squares in ascending order."""
     n = len(squares)

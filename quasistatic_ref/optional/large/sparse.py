@@ -20,7 +20,7 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
-from quasistatic_ref.solve.units import Units, coordinate_units, from_natural, units_from
+from quasistatic_ref.solve.units import Units, coordinate_units, in_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
@@ -153,14 +153,9 @@ class SparseStep:
         slack = self.A @ delta_q - self.b
         return residuals_of(balance, -slack, -lam, slack * lam)
 
-    def bound(self, delta_q: Array, lam: Array) -> float | None:
-        """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""
+    def bound(self, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
         units = self.units
-        said = from_natural(delta_q, lam, units)
-        back = said[0] / (units.size * units.coordinate), said[1] * (units.length / units.size)
-        if not (np.array_equal(back[0], delta_q) and np.array_equal(back[1], lam)):
-            return None  # they lose digits below the range of float64
         sizes = sizes_of(self.step, units.coordinate, units.length, units.size)
         form = LargeForm(self.metric, self.g, self.A, self.b, sizes)
-        error = sparse_error_bound(form, delta_q, lam)
-        return error if math.isfinite(error) else None
+        return sparse_error_bound(form, *in_natural(delta_q, lam, units))

@@ -4,11 +4,13 @@ import math
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.large.judged import WORTHLESS
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.solve.units import from_natural, in_natural
 from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import Certificate, StepSolution, step_solution
 from quasistatic_ref.tolerances import BOUNDED, RESIDUAL_LIMIT
 
@@ -36,33 +38,43 @@ def uncertified_solution(
     StepNotSolved
         If a residual is above ``RESIDUAL_LIMIT`` or not a number.
     """
-    certificate = NOTHING_CLAIMED if certify == "off" else _judged(scaled, solver, answer)
     delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
+    certificate = NOTHING_CLAIMED
+    if certify != "off":
+        certificate = _judged(scaled, solver, answer, delta_q, lam)
     return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
 
 
-def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
-    """The residuals of a solver's answer, which have to be small, and a bound of its error."""
+def _judged(
+    scaled: NaturalStep, solver: Solver, answer: Answer, delta_q: Array, lam: Array
+) -> Certificate:
+    """The residuals of an answer as it is given, in SI units, and a bound of its error."""
     check_arithmetic()
-    residuals = scaled.residuals(answer.delta_q, answer.lam)
+    x, y = in_natural(delta_q, lam, scaled.units)  # SI units may have rounded them: subnormals
+    residuals = scaled.residuals(x, y)
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
-    bound = _bound(scaled, solver, answer)
-    return Certificate("residual", dict(vars(residuals)), error_bound=bound, step=scaled.step)
+    error = _float_bound(scaled, solver, x, y)
+    if not error <= BOUNDED:
+        error = scaled.bound(delta_q, lam)
+    useful = error if error <= WORTHLESS else None
+    return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=scaled.step)
 
 
-def _bound(scaled: NaturalStep, solver: Solver, answer: Answer) -> float | None:
-    """A rigorous bound of an answer's error [-]: in float64, and in balls where that is open."""
-    x, lam, step = answer.delta_q, answer.lam, scaled.step
-    if isinstance(scaled, DenseStep) and step.cone != ELLIPSOID:
-        form, (S, ell, rho) = scaled.natural_form, scaled.units
-        hessian = solver.kept_hessian(step)
-        if solver.bound is None or not solver.bound.fits(hessian, S):
-            solver.bound = FloatBound(hessian, form.H, S)
-        error = solver.bound.error(step, form, (ell, rho), x, lam)
-        if error is not None and error <= BOUNDED:
-            return error
-    return scaled.bound(x, lam)
+def _float_bound(scaled: NaturalStep, solver: Solver, x: Array, y: Array) -> float:
+    """A rigorous bound [-] of the error of x (n_v,), y (m,) in natural units, in float64 alone.
+
+    Infinite where float64 does not decide.
+    """
+    step = scaled.step
+    if not isinstance(scaled, DenseStep) or step.cone == ELLIPSOID:
+        return math.inf
+    form, (S, ell, rho) = scaled.natural_form, scaled.units
+    hessian = solver.kept_hessian(step)
+    if solver.bound is None or not solver.bound.fits(hessian, S):
+        solver.bound = FloatBound(hessian, form.H, S)
+    error = solver.bound.error(step, form, (ell, rho), x, y)
+    return math.inf if error is None else error

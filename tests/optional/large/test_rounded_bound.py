@@ -17,7 +17,7 @@ from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import Units, from_natural, to_natural
+from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
 from quasistatic_ref.step.friction import cone_matrix
 from tests.helpers import point_on_floor
 from tests.tolerances import ROUNDING
@@ -96,9 +96,9 @@ def some_answer(rng, step):
         answer = solve_step(step, "none")
     except StepNotSolved:
         return x, lam
-    S, ell, rho = scaled.units
+    right = in_natural(answer.delta_q, answer.lam, scaled.units)
     size = rng.choice([0.0, 1e-14, 1e-9, 1e-3])
-    return answer.delta_q / (rho * S) + size * x, answer.lam * (ell / rho) + size * lam
+    return right[0] + size * x, right[1] + size * lam
 
 
 def test_slacks_balance_and_energy_are_as_near_as_is_claimed():
@@ -195,10 +195,10 @@ def test_sums_lose_less_than_is_given_back(monkeypatch):
     step = free_step(np.eye(1), np.array([-1.0]), floors, 1.0)
     lam = np.full(8000, 0.4 * 2.0**-73)
     lam[0] = 2.0**-20
-    S, ell, rho = DenseStep(step).units
+    given = in_natural(np.array([-1.0]), lam, DenseStep(step).units)
     for factor, holds in ((rounded_bound.MORE, True), (1.0, False)):
         monkeypatch.setattr(rounded_bound, "MORE", factor)
-        judged = Judged(step, np.array([-1.0]) / (rho * S), lam * (ell / rho))
+        judged = Judged(step, *given)
         delta_q, exact_lam = from_natural(judged.x, judged.y, judged.units)
         assert bool(bound_verdict(step, delta_q, exact_lam, judged.error)) == holds
 
@@ -260,11 +260,5 @@ def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
     quick = solve_step(step, "daqp", certify="residual")
     monkeypatch.setattr("quasistatic_ref.optional.large.uncertified.BOUNDED", 0.0)
     slow = solve_step(step, "daqp", certify="residual")
-    balls = error_bound(DenseStep(step).natural, *natural(slow)).error
+    balls = error_bound(step, slow.delta_q, slow.lam).error
     assert slow.certificate.error_bound == balls < quick.certificate.error_bound < 1e-6
-
-
-def natural(solution):
-    """delta_q and lam of a solution in the natural units of its step."""
-    S, ell, rho = DenseStep(solution.step).units
-    return solution.delta_q / (rho * S), solution.lam * (ell / rho)
