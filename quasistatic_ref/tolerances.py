@@ -14,7 +14,8 @@ Rounding in a mass matrix leaves 1e-16; anything above 1e-12 is another matrix. 
 is removed: the lower triangle counts."""
 
 DEFINITE: Final = 1e-14
-"""Smallest pivot of a stiffness or mass matrix relative to its diagonal entry.
+"""Smallest pivot of a stiffness or mass matrix relative to its diagonal entry, which has the same
+unit; decided without rounding (step/pivots.py).
 
 Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
 a condition number above 1e14, and its inverse no correct digit."""

@@ -71,21 +71,15 @@ def ball_form(form: ExactForm) -> BallForm:
     StepDataError
         If H is not positive definite.
     """
+    if not positive_definite(form.H):
+        raise StepDataError("must be positive definite without rounding", field="H")
     H_inv = inverse(form.H)
     with ctx.workprec(PRECISION):
         return BallForm(H_inv, H_inv * arb_mat(form.g), arb_mat(form.A), arb_mat(form.b))
 
 
 def inverse(H: fmpz_mat) -> arb_mat:
-    """H^-1 in balls, H proved to be positive definite.
-
-    Raises
-    ------
-    StepDataError
-        If it is not.
-    """
-    if not positive_definite(H):
-        raise StepDataError("must be positive definite without rounding", field="H")
+    """H^-1 in balls, of an H that is positive definite."""
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
         with ctx.workprec(precision):

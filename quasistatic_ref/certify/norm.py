@@ -5,7 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.pivots import exact_factor
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +41,24 @@ class EnergyNorm:
 
 
 def energy_norm(H: Array) -> EnergyNorm:
-    """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2]."""
+    """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2].
+
+    Raises
+    ------
+    StepDataError
+        If H, whose entries are rounded, is not positive definite, as that of a step may be if
+        K_q or M_u is nearly singular.
+    """
     unit = 1 / np.sqrt(np.diag(H))
-    L = np.linalg.cholesky(H * np.outer(unit, unit))
-    return EnergyNorm(unit, L.astype(np.float64), np.linalg.inv(L).astype(np.float64))
+    try:
+        L = np.linalg.cholesky(H * np.outer(unit, unit)).astype(np.float64)
+    except np.linalg.LinAlgError:
+        exact = exact_factor(H, 0.0)
+        if exact is None:
+            problem = "is so nearly singular that its entries in float64 are not positive definite"
+            raise StepDataError(problem, field="H", value=H.tolist()) from None
+        L = exact * unit[:, None]
+    return EnergyNorm(unit, L, np.linalg.inv(L).astype(np.float64))
 
 
 def _norms(columns: Array) -> Array:

@@ -24,6 +24,7 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.arrays import positive_definite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.friction import cone_function, row_gaps
@@ -116,7 +117,14 @@ def exact_form(step: StepData, rows: Sequence[int] | None = None) -> ExactForm:
 
 
 def h_times_hessian(step: StepData) -> Dyadic:
-    """The matrix h H of Eq. :eq:`eq-13` without rounding, shape (n_v, n_v)."""
+    """The matrix h H of Eq. :eq:`eq-13` without rounding, shape (n_v, n_v); positive definite.
+
+    Raises
+    ------
+    StepDataError
+        If M_u, which a simulator poses unchecked, is not positive definite.
+    """
+    positive_definite("M_u", step.kept_M_u)
     h = dyadic(step.h)
     return _block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
+from quasistatic_ref.step.pivots import positive_pivots
+from quasistatic_ref.tolerances import SYMMETRIC
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -144,12 +145,7 @@ def positive_definite(key: str, S: Array) -> Array:
     if np.abs(S - S.mT).max(initial=0.0) > SYMMETRIC * scale:
         raise StepDataError("must be symmetric", field=key, value=S.tolist())
     S = np.tril(S) + np.tril(S, -1).mT
-    try:
-        pivots = np.linalg.diagonal(np.linalg.cholesky(S)) ** 2
-    except np.linalg.LinAlgError:
-        pivots = np.full(S.shape[:-1], -np.inf)
-    # A pivot and its diagonal entry have the same unit, so units do not change this comparison.
-    if (pivots <= DEFINITE * np.linalg.diagonal(S)).any():
+    if not positive_pivots(S):
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())
     return read_only(S)

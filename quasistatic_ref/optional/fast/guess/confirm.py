@@ -33,7 +33,7 @@ from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
 
 
 class BallHessian:
-    """The inverse of h H in balls, and a proof that H is positive definite; kept while H stays.
+    """The inverse of h H in balls, of an H that is positive definite; kept while H stays.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class BallHessian:
     Raises
     ------
     StepDataError
-        If H, formed without rounding, is not positive definite.
+        If M_u is not positive definite.
     """
 
     def __init__(self, step: StepData) -> None:

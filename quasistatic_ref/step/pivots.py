@@ -1,0 +1,123 @@
+r"""Which stiffness and mass matrices count as positive definite.
+
+The rule: each pivot of S, the square of an entry on the diagonal of its Cholesky factor, is above
+DEFINITE times its entry of S. It is decided without rounding, because it also decides which files
+are steps, and other programs have to decide alike.
+
+Float64 suffices for nearly all matrices. Let L be the Cholesky factor of S - c D as computed, D the
+diagonal of S. Whatever the order of the sums, the error is at most
+
+.. math:: |S - c D - L L^T|_{ij} \le 2 (n + 3)\,u\,(S_{ii} S_{jj})^{1/2}, \qquad u = 2^{-53}
+
+(Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.3, with room for a division that
+is a product with a reciprocal, and for the entries of S - c D). With c = 2 n (n + 3) u the matrix
+S - L L' is then diagonally dominant in units in which D is one, hence not negative; so the pivots
+of S are at least those of L L', which are the squares of L's diagonal.
+"""
+
+import math
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.tolerances import DEFINITE
+
+Array = NDArray[np.float64]
+
+U = 2.0**-53
+"""Largest relative error of one operation."""
+RANGE = 2.0**-500, 2.0**500
+"""Diagonal entries whose products and roots are far from the ends of float64's range."""
+
+
+def positive_pivots(S: Array) -> bool:
+    """Whether each matrix of a stack obeys the rule.
+
+    Parameters
+    ----------
+    S : ndarray, shape (..., n, n)
+        Symmetric and finite [any unit].
+    """
+    if _surely_positive(S):
+        return True
+    if S.ndim > 2:
+        return all(map(positive_pivots, S))
+    blocks = _diagonal_blocks(S)
+    if len(blocks) > 1:
+        return all(map(positive_pivots, blocks))
+    return exact_factor(S, DEFINITE) is not None
+
+
+def _surely_positive(S: Array) -> bool:
+    """Whether float64 shows it of all matrices of a stack (..., n, n) [any unit]."""
+    n, least, most = S.shape[-1], *RANGE
+    try:
+        L = np.linalg.cholesky(S * _less(n))
+    except np.linalg.LinAlgError:
+        return False
+    pairs = zip(_diagonal(L), _diagonal(S), strict=True)
+    # Twice the share, because these products are rounded.
+    return all(v * v > 2 * DEFINITE * s and least < s < most for v, s in pairs)
+
+
+@lru_cache(maxsize=8)
+def _less(n: int) -> Array:
+    """What takes c D off a matrix (n, n), entry by entry [-]."""
+    return 1 - 2 * n * (n + 3) * U * np.eye(n)
+
+
+def _diagonal(S: NDArray[Any]) -> list[float]:
+    """The entries on the diagonals of a stack (..., n, n) [any unit], one after the other."""
+    return np.linalg.diagonal(S).ravel().tolist()
+
+
+def _diagonal_blocks(S: Array) -> list[Array]:
+    """The smallest blocks (k, k) on the diagonal of S, (n, n), outside of which it is zero."""
+    last = [max(np.flatnonzero(row).tolist(), default=i) for i, row in enumerate(S)]
+    reached = np.maximum.accumulate(last)
+    ends = [i + 1 for i in range(len(S)) if reached[i] == i]
+    return [S[a:b, a:b] for a, b in zip([0, *ends], ends, strict=False)]
+
+
+def exact_factor(S: Array, share: float) -> Array | None:
+    """The lower Cholesky factor of S, whose entries alone are rounded, by whole numbers.
+
+    Parameters
+    ----------
+    S : ndarray, shape (n, n)
+        Symmetric and finite [any unit].
+    share : float
+        Above which part of its diagonal entry a pivot must be [-].
+
+    Returns
+    -------
+    ndarray, shape (n, n), or None
+        None if a pivot is not above it, and not above zero.
+    """
+    fractions = [[v.as_integer_ratio() for v in row] for row in S.tolist()]
+    common = max((q for row in fractions for _, q in row), default=1)  # a power of two
+    rest = [[p * (common // q) for p, q in row[i:]] for i, row in enumerate(fractions)]
+    diagonal, (part, whole) = [row[0] for row in rest], share.as_integer_ratio()
+    L, last = np.zeros(S.shape), 1
+    for k, entry in enumerate(diagonal):  # Bareiss: all entries are minors, all divisions exact
+        row, *below = rest
+        minor = row[0]  # the pivot is minor / last
+        if minor <= 0 or whole * minor <= part * entry * last:
+            return None
+        square = minor * last * common
+        L[k:, k] = [_root(v * v, square) * (1 if v > 0 else -1) for v in row]
+        rest = [
+            [(minor * v - row[i] * w) // last for v, w in zip(r, row[i:], strict=True)]
+            for i, r in enumerate(below, start=1)  # r begins at its entry on the diagonal
+        ]
+        last = minor
+    return L
+
+
+def _root(p: int, q: int) -> float:
+    """The square root of p / q [-], which itself may be out of the range of float64."""
+    twos = (p.bit_length() - q.bit_length()) // 2
+    near_one = (p << max(-2 * twos, 0)) / (q << max(2 * twos, 0))
+    return math.ldexp(math.sqrt(near_one), twos)
