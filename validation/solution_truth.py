@@ -1,28 +1,29 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
-H, g, A and b are formed by plain loops, linear systems are solved by elimination. The optimum
-itself is taken from the package: exact, or in the ellipsoid enclosed to 40 digits.
+H, g, A and b are formed by plain loops, linear systems are solved by elimination. The optimum of a
+polyhedral cone is proved here from the working set that a file or the package names: all
+multipliers and slacks are at least zero. In the ellipsoid the package encloses it to 40 digits.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from flint import arb
 
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.data import StepData
 
 Json = Any
 Vector = list[Fraction]
 Matrix = list[Vector]
+Program = tuple[Matrix, Vector, Matrix, Vector]
 
 MAY_CHANGE = {
     "exact": (),
@@ -37,17 +38,26 @@ ROUNDING = 1 + Fraction(1, 10**30)
 
 
 def solved(M: Matrix, right: Vector) -> Vector:
-    """The solution of M x = right, by elimination with exchange of rows."""
-    rows = [[*row, value] for row, value in zip(M, right, strict=True)]
-    n = len(rows)
+    """The solution of M x = right, by elimination in whole numbers with exchange of rows."""
+    rows = [whole([*row, value]) for row, value in zip(M, right, strict=True)]
+    n, last = len(rows), 1
     for k in range(n):
         pivot = next(i for i in range(k, n) if rows[i][k])
         rows[k], rows[pivot] = rows[pivot], rows[k]
+        at = rows[k][k]
         for i in range(n):
-            if i != k and rows[i][k]:
-                factor = rows[i][k] / rows[k][k]
-                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
-    return [row[n] / row[i] for i, row in enumerate(rows)]
+            if i != k:
+                factor = rows[i][k]
+                rows[i] = [(at * a - factor * b) // last
+                           for a, b in zip(rows[i], rows[k], strict=True)]  # fmt: skip
+        last = at
+    return [Fraction(row[n], last) for row in rows]
+
+
+def whole(row: Vector) -> list[int]:
+    """A row times the least number that makes it whole."""
+    common = math.lcm(*(v.denominator for v in row))
+    return [v.numerator * (common // v.denominator) for v in row]
 
 
 def dot(u: Vector, v: Vector) -> Fraction:
@@ -75,6 +85,8 @@ def combinations(step: StepData) -> list[Matrix]:
             rows = [[one, s * mu * (k == 0), s * mu * (k == 1), none]
                     for s in (1, -1) for k in (0, 1)]  # fmt: skip
             rows += [[one, none, none, s * omega] for s in (1, -1)] if six else []
+        elif step.cone == "frictionless":
+            rows = [[one, none, none, none]]
         elif step.cone == "product":
             slides = [(s * mu * (k == 0), s * mu * (k == 1)) for s in (1, -1) for k in (0, 1)]
             rows = [[one, a, b, t * omega] for t in (1, -1)[: 1 + six] for a, b in slides]
@@ -84,7 +96,7 @@ def combinations(step: StepData) -> list[Matrix]:
     return found
 
 
-def program(step: StepData) -> tuple[Matrix, Vector, Matrix, Vector]:
+def program(step: StepData) -> Program:
     """H, g, A and b, without rounding."""
     h, n_a, n = Fraction(step.h), step.n_a, step.n_v
     K, M = exact(step.K_q), exact(step.M_u)
@@ -109,13 +121,43 @@ def program(step: StepData) -> tuple[Matrix, Vector, Matrix, Vector]:
     return H, g, A + exact(step.extra.A), b + exact(step.extra.b)
 
 
+def on_rows(of: Program, working: Sequence[int]) -> tuple[Vector, Vector]:
+    """The minimiser on A_i x = b_i of a working set, and its multipliers."""
+    H, g, A, b = of
+    n, k = len(g), len(working)
+    K = [[*H[v], *(-A[i][v] for i in working)] for v in range(n)]
+    K += [[*A[i], *[Fraction(0)] * k] for i in working]
+    both = solved(K, [*g, *(b[i] for i in working)])
+    return both[:n], both[n:]
+
+
+def proved(of: Program, working: Sequence[int]) -> tuple[Vector, Vector, Vector]:
+    """The optimum, its multipliers on a working set, and all slacks.
+
+    Raises
+    ------
+    ArithmeticError
+        If the optimum is not that of the working set.
+    """
+    x, lam = on_rows(of, working)
+    slack = [dot(row, x) - b for row, b in zip(of[2], of[3], strict=True)]
+    if min([*lam, *slack], default=0) < 0:
+        raise ArithmeticError("a multiplier or a slack is negative")
+    return x, lam, slack
+
+
 def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
     """(f_d1, f_d2, f_n, tau_n) of each contact from its multipliers, rounded once."""
     found = []
     for rows, impulses in zip(combinations(step), lam, strict=True):
         parts = [dot([row[k] for row in rows], exact(impulses)) for k in (1, 2, 0, 3)]
-        found.append([float(part / Fraction(step.h)) + 0.0 for part in parts])
+        found.append([rounded(part / Fraction(step.h)) for part in parts])
     return found
+
+
+def rounded(x: Fraction) -> float:
+    """The nearest float64, never -0.0."""
+    return float(x) + 0.0
 
 
 def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
@@ -136,7 +178,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
 
     def _holds(forged: Json) -> bool:
         if kind == "infeasible":
-            return _proof(step, [Fraction(text) for text in forged["farkas"]])
+            return proof(step, [Fraction(text) for text in forged["farkas"]])
         if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
             return judged is None
         claims = forged["certificate"]
@@ -186,12 +228,12 @@ class Judge:
             assert found is not None
             scaled = [v * unit for v in point(found)]
             return [Fraction(int(v.p), int(v.q)) for v in scaled]
-        exact_one = claims["kind"] == "exact"
-        working = flat_rows(step, claims["active"]) if exact_one else exact_step(step).working_set
-        n, k = len(self.g), len(working)
-        K = [[*self.H[v], *(-self.A[i][v] for i in working)] for v in range(n)]
-        K += [[*self.A[i], *[Fraction(0)] * k] for i in working]
-        return solved(K, [*self.g, *(self.b[i] for i in working)])[:n]
+        if claims["kind"] == "exact":  # where every loaded contact sticks
+            working = [4 * j + i for j, i in claims["active"]]
+            return on_rows((self.H, self.g, self.A, self.b), working)[0]
+        return proved(
+            (self.H, self.g, self.A, self.b), exact_optimum(exact_form(step)).working_set
+        )[0]
 
     def lam(self, record: Json) -> Vector:
         """All multipliers of a record, the user's own rows last."""
@@ -211,7 +253,7 @@ class Judge:
         return dot(left, solved(self.H, left)) / 2 + dot(lam, slack)
 
 
-def _proof(step: StepData, y: Vector) -> bool:
+def proof(step: StepData, y: Vector) -> bool:
     """Whether y proves that a step has no solution."""
     _, g, A, b = program(step)
     balanced = not any(dot(y, [row[v] for row in A]) for v in range(len(g)))

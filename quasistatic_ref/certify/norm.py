@@ -55,10 +55,29 @@ def energy_norm(H: Array) -> EnergyNorm:
     except np.linalg.LinAlgError:
         exact = exact_factor(H, 0.0)
         if exact is None:
-            problem = "is so nearly singular that its entries in float64 are not positive definite"
+            problem = (
+                "must be positive definite in float64, too; look for a link of almost no mass or a "
+                "spring of almost no stiffness"
+            )
             raise StepDataError(problem, field="H", value=H.tolist()) from None
         L = exact * unit[:, None]
     return EnergyNorm(unit, L, np.linalg.inv(L).astype(np.float64))
+
+
+def rough_inverse(H: Array) -> Array:
+    """H^-1 in float64, shape (n_v, n_v) [m^2/(N m s)], roughly where H is nearly singular.
+
+    Raises
+    ------
+    StepDataError
+        As :func:`energy_norm`.
+    """
+    try:
+        return np.linalg.inv(H).astype(np.float64)
+    except np.linalg.LinAlgError:
+        norm = energy_norm(H)
+        root = norm.inverse * norm.unit
+        return root.T @ root
 
 
 def _norms(columns: Array) -> Array:

@@ -5,8 +5,6 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
-import numpy as np
-
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.bound import error_bound
@@ -77,12 +75,9 @@ class DenseStep:
         units: Units | None = None,
     ) -> None:
         self.step, self.form = step, standard_form(step) if form is None else form
-        try:
-            kept = like if like is not None and like.H is self.form.H else None
-            self.metric = metric(self.form.H) if kept is None else kept
-            self.units = units_of(self.form, self.metric) if units is None else units
-        except np.linalg.LinAlgError:
-            raise out_of_range(step) from None
+        kept = like if like is not None and like.H is self.form.H else None
+        self.metric = metric(self.form.H) if kept is None else kept
+        self.units = units_of(self.form, self.metric) if units is None else units
         check_units(self.units, step, self.metric.usable)
 
     @cached_property

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.norm import rough_inverse
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.step.arrays import finite, read_only
 from quasistatic_ref.step.data import Array, Extra, Mask, StepData, hessian
@@ -77,9 +78,8 @@ def metric(H: Array) -> Metric:
     """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
-    inverse: Array = np.linalg.inv(H).astype(np.float64)
     natural = H * np.outer(coordinate, coordinate)
-    return Metric(H, coordinate, inverse, coordinate * coordinate, natural, usable)
+    return Metric(H, coordinate, rough_inverse(H), coordinate * coordinate, natural, usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:

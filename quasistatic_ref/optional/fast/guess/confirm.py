@@ -22,7 +22,7 @@ from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.balls import PRECISION, inverse
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import energy_norm, rough_inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.certify.rows import places
@@ -61,7 +61,7 @@ class BallHessian:
             self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
             self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
         self.norm = energy_norm(step.H)
-        self.rough: Array = np.linalg.inv(step.H).astype(np.float64)
+        self.rough: Array = rough_inverse(step.H)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has the same h, and the same arrays K_q and M_u."""

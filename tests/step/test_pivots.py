@@ -1,0 +1,100 @@
+"""The rule for positive definite matrices, against exact pivots in fractions."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step import pivots
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.pivots import exact_factor, positive_pivots
+from quasistatic_ref.tolerances import DEFINITE
+from tests.tolerances import ROUNDING
+from validation.make.attacks import positive_definite, singular
+
+LOWER = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1000.0, 1.0]])
+PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
+NEAR = LOWER @ np.diag(PIVOTS) @ LOWER.T
+"""No product or sum of these is rounded. The last pivot is 2.9e-14 of its diagonal entry; LAPACK's
+Cholesky finds it negative."""
+
+
+def refused(*_):
+    raise AssertionError("what float64 decides was decided in whole numbers")
+
+
+def with_stiffness(K_q, h=1.0):
+    """A step without contacts in which springs are pulled by 1 N each."""
+    n = len(K_q)
+    return StepData(h, K_q, np.zeros((0, 0)), np.ones(n), [], np.zeros(n), no_contacts(n))
+
+
+def test_the_rule_is_that_of_exact_pivots():
+    said = []
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        S = singular(rng, int(rng.integers(1, 6)))
+        said.append(positive_pivots(S))
+        assert said[-1] == positive_definite(S), S
+    assert {True, False} == set(said)
+
+
+@pytest.mark.parametrize("factor", [0.25, 1.0, 4.0])
+def test_a_pivot_counts_from_its_share_on(factor):
+    """[[1, 1], [1, 1 + p]] has the pivots 1 and p: 2^-46 = 1.42e-14 is above 1e-14 (1 + p)."""
+    p = factor * 2.0**-46
+    assert positive_pivots(np.array([[1.0, 1.0], [1.0, 1.0 + p]])) == (p > DEFINITE * (1 + p))
+
+
+def test_float64_decides_what_is_not_nearly_singular(monkeypatch):
+    monkeypatch.setattr(pivots, "exact_factor", refused)
+    rng = np.random.default_rng(0)
+    for n in (0, 1, 6, 60):
+        half = rng.standard_normal((n, n))
+        assert positive_pivots(half @ half.T + 1e-9 * np.eye(n))
+    with pytest.raises(AssertionError, match="whole numbers"):
+        positive_pivots(NEAR)
+
+
+def test_a_stack_and_a_large_matrix_are_decided_block_by_block(monkeypatch):
+    sizes = []
+    monkeypatch.setattr(pivots, "exact_factor", lambda S, _: sizes.append(len(S)) or S)
+    blocks = np.array([NEAR, np.eye(3)] * 50)
+    assert positive_pivots(blocks)
+    large = np.zeros((300, 300))
+    for k, block in enumerate(blocks):
+        large[3 * k : 3 * k + 3, 3 * k : 3 * k + 3] = block
+    assert positive_pivots(large)
+    assert sizes == [3] * 100
+    monkeypatch.undo()
+    assert not positive_pivots(np.array([np.eye(2), -np.eye(2)]))
+
+
+def test_a_factor_in_whole_numbers_is_that_of_its_pivots():
+    """S = L D L': the Cholesky factor is L D^(1/2)."""
+    assert exact_factor(NEAR, DEFINITE) == pytest.approx(LOWER * np.sqrt(PIVOTS), rel=ROUNDING)
+    assert exact_factor(np.ones((2, 2)), 0.0) is None
+    tiny = np.diag([5e-324, 1e-320])
+    assert exact_factor(tiny, 0.0) == pytest.approx(np.sqrt(tiny), rel=ROUNDING)
+
+
+def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
+    """L (1, 0, 0) = (1, 1, 1): x = (1/3, 0, 0) for g = (1, 1, 1), and ||H^-1 g|| = 3^-0.5."""
+    for lost in (np.linalg.cholesky, np.linalg.inv):
+        with pytest.raises(np.linalg.LinAlgError):
+            lost(NEAR)
+    norm = energy_norm(NEAR)
+    assert norm.impulse(np.ones(3)) == pytest.approx(3**-0.5, rel=ROUNDING)
+    assert norm.displacement(np.eye(3)[2]) == pytest.approx(NEAR[2, 2] ** 0.5, rel=ROUNDING)
+    solution = solve_step(with_stiffness(NEAR), "none")
+    assert solution.delta_q.tolist() == [1 / 3, 0.0, 0.0]
+
+
+def test_a_hessian_that_rounding_makes_indefinite_is_refused_in_a_sentence():
+    """K_q is, 0.07 K_q in float64 is not: the rounding of its products is larger than a pivot."""
+    step = with_stiffness(NEAR, h=0.07)
+    assert not positive_definite(step.H)
+    with pytest.raises(StepDataError, match="look for a link of almost no mass"):
+        solve_step(step, "none")

@@ -1,0 +1,329 @@
+"""Answers attacked where they are made and written: ``python -m validation.make.attacks``.
+
+- *Exact answers*: of ordinary steps, and of steps at all scales. The optimum on the working set of
+  a file is proved and rounded by fractions, a proof of infeasibility checked by fractions;
+  ``verify.js`` has to verify every field.
+- *Bounds* of backends' own answers to ordinary steps, to steps of subnormal, tiny and huge numbers
+  and to steps of nearly singular matrices: what a file claims is compared with the optimum by
+  fractions, and `verify` of the package has to verify it.
+- *Nearly singular matrices*: exact pivots say which are positive definite; reading a step and
+  ``verify.js`` have to say the same. What is accepted has to end in an answer or in a sentence.
+
+Nothing that is expected comes from the package: see :mod:`validation.solution_truth`. Its exact
+method only names working sets, whose optimality is proved here. Writes a table, and exits with
+status 1 if anything is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import random
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from fractions import Fraction
+from itertools import count, cycle, islice, pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_read, step_text
+from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
+from validation.check_verifier import verdicts
+from validation.hostile_steps import hostile_step
+from validation.random_steps import any_step, mixed_step
+from validation.solution_truth import (
+    Judge,
+    combinations,
+    exact,
+    program,
+    proof,
+    proved,
+    rounded,
+    wrenches,
+)
+from validation.verifier_files import Case
+
+Json = Any
+CONES = "pyramid", "product", "frictionless"
+BACKENDS = "daqp", "clarabel", "osqp", "piqp", "quadprog"
+FAMILIES = "ordinary", "all scales", "subnormal loads", "tiny or huge weights", "nearly singular"
+SHARE = Fraction(1e-14)
+"""Of its diagonal entry, what a pivot has to be above."""
+SOLUTION = json.dumps({
+    "format": "quasistatic-ref/solution", "version": 2, "status": "infeasible", "cone": "pyramid",
+    "step_sha256": "", "farkas": [],
+})  # fmt: skip
+"""Of no step: its reader looks at the step first."""
+
+
+class Attack:
+    """What came of the cases of one family, and those that went wrong.
+
+    Parameters
+    ----------
+    name : str
+        Of the family.
+    folder : Path
+        For files.
+    """
+
+    def __init__(self, name: str, folder: str) -> None:
+        self.name, self.paths = name, [Path(folder) / part for part in ("step", "solution")]
+        self.counts = Counter[str]()
+        self.wrong: list[str] = []
+        self.cases: list[Case] = []
+
+    def add(self, outcome: str, holds: bool = True, note: str = "") -> None:
+        """Count a case, and keep what is wrong with it."""
+        self.counts[outcome] += 1
+        if not holds:
+            self.counts["wrong"] += 1
+            self.wrong.append(f"{self.name}: {outcome}: {note}"[:500])
+
+    def file(self, step: StepData, backend: str, certify: str) -> str | None:
+        """The solution file of a step; None, and counted, where there is an error in its place."""
+        try:
+            solver = solver_for(step, backend, CVXPY if backend == NONE else NATIVE)
+            return solution_text(step, solve_step(step, solver, certify=certify))
+        except StepInfeasible as said:
+            return infeasible_text(step, said.farkas.exact)
+        except QuasistaticError as said:
+            self.add(f"{certify}: {type(said).__name__}")
+        except Exception as error:  # whatever it is: a traceback
+            self.add("a traceback", False, f"{error!r} {step_text(step)}")
+        return None
+
+    def refused(self, step: str, solution: str) -> str | None:
+        """Why `verify` of the package refuses two texts; None if it verifies them."""
+        for path, text in zip(self.paths, (step, solution), strict=True):
+            path.write_text(text)
+        try:
+            posed = step_read(self.paths[0])
+            return refutation(posed, solution_read(self.paths[1], posed))
+        except InputError as error:
+            return str(error)
+
+    def ask(self, step: str, solution: str, begins: str = "every field is proved") -> None:
+        """Keep two texts for ``verify.js``, whose reason has to begin so."""
+        self.cases.append(Case(self.name, step, solution, None, reason=begins))
+
+    def asked(self) -> None:
+        """Ask ``verify.js`` about all texts that were kept."""
+        for case, said in zip(self.cases, verdicts(self.cases), strict=True):
+            agrees = said["reason"].startswith(case.reason)
+            self.add("as verify.js says", agrees, f"{said} {case.step}")
+
+
+def subnormal(rng: np.random.Generator, step: StepData) -> StepData:
+    """The same step with loads, targets and gaps smaller by one large power of two."""
+    small = 2.0 ** -int(rng.integers(900, 1075))
+    far = replace(step.contacts, phi=step.contacts.phi * small)
+    loads = {name: getattr(step, name) * small for name in ("tau_a", "tau_u", "delta_q_bar_a")}
+    return step.replace(contacts=far, **loads)
+
+
+def light_or_heavy(rng: np.random.Generator, step: StepData) -> StepData:
+    """The same step with stiffness, masses and all forces larger or smaller by one power of two."""
+    weight = 2.0 ** int(rng.integers(-1000, 1000))
+    names = "K_q", "M_u", "tau_a", "tau_u"
+    return step.replace(**{name: getattr(step, name) * weight for name in names})
+
+
+def steps(family: str) -> Iterator[StepData]:
+    """Steps of a family, without end."""
+    for seed in count():
+        rng = np.random.default_rng(seed)
+        try:
+            step = hostile_step(random.Random(seed)) if "scales" in family else mixed_step(seed)
+            if family == "subnormal loads":
+                step = subnormal(rng, step)
+            elif family == "tiny or huge weights":
+                step = light_or_heavy(rng, step)
+            elif family == "nearly singular":
+                K_q, M_u = (singular(rng, n, 2e-14) for n in (step.n_a, step.n_u))
+                step = step.replace(K_q=K_q, M_u=M_u)
+            yield step.replace(cone=CONES[seed % 3])
+        except InputError:
+            continue
+
+
+def singular(rng: np.random.Generator, n: int, share: float | None = None) -> np.ndarray:
+    """A symmetric matrix (n, n) whose last pivot has about this share of its diagonal entry."""
+    if share is None:
+        share = float(rng.choice([0.0, -1e-14, 1e-15, 1e-14, 1e-14 * (1 + 1e-9), 1e-13, 1e-12]))
+        share *= float(rng.choice([1.0, rng.uniform(0.5, 2.0)]))
+    L = np.tril(rng.standard_normal((n, n)), -1) + np.diag(rng.uniform(0.5, 2.0, n))
+    if rng.random() < 0.5:  # whole numbers: their products are exact
+        L = np.round(4 * L) + 4 * np.eye(n)
+    at = int(rng.integers(n)) if n else 0
+    pivots = np.ones(n)
+    pivots[at : at + 1] = share * float(L[at, :at] @ L[at, :at]) if at else max(share, 0.0)
+    S = (L / np.diag(L)) @ np.diag(pivots) @ (L / np.diag(L)).T
+    if rng.random() < 0.3:
+        unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else 2.0**-520
+        S = S * unit * np.reshape(unit, (-1, 1)) if np.ndim(unit) else S * unit * unit
+    return np.tril(S) + np.tril(S, -1).T
+
+
+def positive_definite(S: np.ndarray) -> bool:
+    """Whether all pivots are above their share of the diagonal, in fractions."""
+    rest = exact(S)
+    diagonal = [row[i] for i, row in enumerate(rest)]
+    for k, entry in enumerate(diagonal):
+        pivot = rest[k]
+        if pivot[k] <= 0 or pivot[k] <= SHARE * entry:
+            return False
+        for i in range(k + 1, len(rest)):
+            part = rest[i][k] / pivot[k]
+            rest[i] = [v - part * w for v, w in zip(rest[i], pivot, strict=True)]
+    return True
+
+
+def right_file(step: StepData, record: Json) -> Json:
+    """What of an exact solution file fractions decide, from the working set that it names."""
+    of, sizes = program(step), [len(rows) for rows in combinations(step)]
+    starts = np.cumsum([0, *sizes]).tolist()
+    working = [starts[j] + i for j, i in record["certificate"]["active"]]
+    x, lam_w, slack = proved(of, working)
+    lam = [0.0] * len(of[3])
+    for i, value in zip(working, lam_w, strict=True):
+        lam[i] = rounded(value)
+    by_contact = [lam[a:b] for a, b in pairwise(starts)]
+    known = {"smallest_active_multiplier": min(map(rounded, lam_w), default=None)}
+    if record["certificate"]["differentiable"]:
+        open_ = [rounded(s) for s in slack if s]
+        known["smallest_inactive_slack"] = min(open_, default=None)
+    return record | {
+        "delta_q": [*map(rounded, x)],
+        "lam": by_contact,
+        "lam_extra": lam[starts[-1] :],
+        "wrench": wrenches(step, by_contact),
+        "certificate": record["certificate"] | known | {"error_bound": 0.0},
+    }
+
+
+def exact_answers(attack: Attack, family: str, number: int) -> None:
+    """Exact answers, and proofs that there is none."""
+    for step in islice(steps(family), number):
+        text, file = step_text(step), attack.file(step, NONE, "full")
+        if file is None:
+            continue
+        record = json.loads(file)
+        if record["status"] == "infeasible":
+            holds = proof(step, [Fraction(y) for y in record["farkas"]])
+        else:
+            try:
+                holds = json.dumps(right_file(step, record)) == json.dumps(record)
+            except ArithmeticError:
+                holds = False
+        attack.add(record["status"], holds and attack.refused(text, file) is None, text)
+        attack.ask(text, file)
+
+
+def bounds(attack: Attack, family: str, number: int) -> None:
+    """Bounds of backends' own answers, until there are so many."""
+    for backend, step in zip(cycle(BACKENDS), steps(family), strict=False):
+        if attack.counts["bounded"] == number:
+            break
+        text, file = step_text(step), attack.file(step, backend, "residual")
+        if file is None:
+            continue
+        record = json.loads(file)
+        bound = record["certificate"]["error_bound"]
+        if bound is None:
+            attack.add("no useful bound")
+            continue
+        judged = Judge(step, record)
+        square = judged.off(record) + 2 * judged.gap(record) / judged.free
+        holds = 0 <= bound <= 1 and square <= Fraction(bound) ** 2
+        holds = holds and record["wrench"] == wrenches(step, record["lam"])
+        attack.add("bounded", holds and attack.refused(text, file) is None, text)
+
+
+def matrices(attack: Attack, key: str, number: int) -> None:
+    """Nearly singular matrices, through both checkers and all that is made of a step."""
+    for seed in range(number):
+        rng = np.random.default_rng(seed)
+        n, n_c = int(rng.integers(1, 8)), int(rng.integers(0, 4))
+        sizes = (n, 0) if key == "K_q" else (0, n)
+        S, step = singular(rng, n), any_step(rng, *sizes, n_c)
+        text = json.dumps(json.loads(step_text(step)) | {key: S.tolist()})
+        attack.paths[0].write_text(text)
+        try:
+            read = step_read(attack.paths[0])
+        except InputError as error:
+            holds = not positive_definite(S) and "must be positive definite" in str(error)
+            attack.add("refused", holds, f"{error} {text}")
+            attack.ask(text, SOLUTION, f"{key} is not positive definite")
+            continue
+        attack.add("accepted", positive_definite(S), text)
+        for certify in ("full", "residual", "off"):
+            backend = NONE if seed % 2 and certify == "full" else BACKENDS[seed % 5]
+            file = attack.file(read, backend, certify)
+            if file is None:
+                continue
+            claims = certify == "full" or (certify == "residual" and ": null" not in file)
+            said = attack.refused(text, file) if claims else None
+            outcome = "verified" if claims else "nothing claimed"
+            attack.add(f"{certify}: {outcome}", said is None, f"{said} {text}")
+            if certify == "full":
+                attack.ask(step_text(read), file)
+
+
+ATTACKS = {"exact answers": exact_answers, "bounds": bounds, "nearly singular": matrices}
+
+
+def attacked(kind: str, family: str, number: int) -> Attack:
+    """What came of one family of an attack."""
+    with TemporaryDirectory() as folder:
+        attack = Attack(f"{kind}, {family}", folder)
+        ATTACKS[kind](attack, family, number)
+        attack.asked()
+    return attack
+
+
+def main() -> int:
+    """Print the table; exit status 1 if anything is wrong."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=500, help="of each of the families")
+    parser.add_argument("--out", type=Path, help="write the table here too")
+    options = parser.parse_args()
+    once, of_two = options.count, options.count * len(FAMILIES) // 2
+    jobs = [("bounds", family, 2 * once) for family in FAMILIES]
+    jobs += [("exact answers", family, once) for family in FAMILIES]
+    jobs += [("nearly singular", key, of_two) for key in ("K_q", "M_u")]
+    lines, wrong = ["| what | what came of it | cases |", "|-|-|-:|"], list[str]()
+    with ProcessPoolExecutor(2) as pool:
+        for attack in tqdm(pool.map(attacked, *zip(*jobs, strict=True)), total=len(jobs)):
+            rows = sorted(attack.counts.items())
+            lines += [f"| {attack.name} | {outcome} | {n:,} |" for outcome, n in rows]
+            wrong += attack.wrong
+    lines.append(f"\n{len(wrong)} are wrong.")
+    print(*lines, *wrong[:20], sep="\n")
+    if options.out:
+        text_written(options.out, HEAD + "\n".join(lines) + "\n")
+    return int(bool(wrong))
+
+
+HEAD = """# Answers, bounds and matrices, attacked
+
+Made by `python -m validation.make.attacks`, whose first lines say what is asked.
+
+"""
+
+if __name__ == "__main__":
+    sys.exit(main())
