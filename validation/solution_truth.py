@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
@@ -231,9 +232,10 @@ class Judge:
         if claims["kind"] == "exact":  # where every loaded contact sticks
             working = [4 * j + i for j, i in claims["active"]]
             return on_rows((self.H, self.g, self.A, self.b), working)[0]
-        return proved(
-            (self.H, self.g, self.A, self.b), exact_optimum(exact_form(step)).working_set
-        )[0]
+        optimum = exact_optimum(exact_form(step))
+        if isinstance(optimum, Farkas):
+            raise ArithmeticError("the step has no optimum")
+        return proved((self.H, self.g, self.A, self.b), optimum.working_set)[0]
 
     def lam(self, record: Json) -> Vector:
         """All multipliers of a record, the user's own rows last."""

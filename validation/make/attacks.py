@@ -247,9 +247,12 @@ def bounds(attack: Attack, family: str, number: int) -> None:
         if bound is None:
             attack.add("no useful bound")
             continue
-        judged = Judge(step, record)
-        square = judged.off(record) + 2 * judged.gap(record) / judged.free
-        holds = 0 <= bound <= 1 and square <= Fraction(bound) ** 2
+        try:
+            judged = Judge(step, record)
+            square = judged.off(record) + 2 * judged.gap(record) / judged.free
+            holds = 0 <= bound <= 1 and square <= Fraction(bound) ** 2
+        except ArithmeticError:  # without an optimum, or without a load
+            holds = False
         holds = holds and record["wrench"] == wrenches(step, record["lam"])
         attack.add("bounded", holds and attack.refused(text, file) is None, text)
 

@@ -1,0 +1,98 @@
+"""A sample of validation/make/attacks.py, and planted faults that it finds."""
+
+import json
+from fractions import Fraction
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import in_words
+from quasistatic_ref.errors import QuasistaticError, StepInfeasible
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.large import uncertified
+from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.files import step_text
+from quasistatic_ref.step.solution_files import infeasible_text, solution_text
+from validation.make.attacks import Attack, bounds, exact_answers, matrices, steps
+
+PROVES_NOTHING = "proves nothing"
+
+
+@pytest.fixture
+def attack(tmp_path):
+    return Attack("sample", tmp_path)
+
+
+@pytest.mark.parametrize("family", ["all scales", "subnormal loads", "nearly singular"])
+def test_nothing_is_wrong_in_a_sample(attack, family):
+    exact_answers(attack, family, 2)
+    bounds(attack, family, 2)
+    assert attack.wrong == []
+    assert attack.counts["bounded"] == 2
+
+
+def test_no_nearly_singular_matrix_is_judged_wrongly(attack):
+    matrices(attack, "M_u", 6)
+    assert attack.wrong == []
+    assert min(attack.counts["accepted"], attack.counts["refused"]) > 0
+
+
+def test_bounds_that_are_too_small_are_found(attack, monkeypatch):
+    monkeypatch.setattr(DenseStep, "bound", lambda *_: 0.0)
+    monkeypatch.setattr(uncertified, "BOUNDED", -1.0)
+    bounds(attack, "all scales", 2)
+    assert len(attack.wrong) == 2
+
+
+@pytest.mark.parametrize(
+    ("family", "cone"),
+    [
+        ("ordinary", "ellipsoid"),
+        ("ordinary", "pyramid"),
+        ("all scales", "facets-6"),
+        ("all scales", "product"),
+    ],
+)
+def test_what_is_written_is_verified_in_every_mode(attack, family, cone):
+    """Or it claims nothing: certify = "off", no useful bound, no bound in the ellipsoid."""
+    for step in islice(steps(family), 1, 4):
+        posed = step.replace(cone=cone)
+        for certify in ("full", "residual", "off"):
+            try:
+                solver = solver_for(posed, "clarabel", "native")
+                solution = solve_step(posed, solver, certify=certify)
+                text, claims = solution_text(posed, solution), solution.certificate
+                kind = json.loads(text)["certificate"]["kind"]
+                claimed = kind == "residual" and claims.error_bound is not None
+                claimed = claimed or kind in ("exact", "enclosure")
+            except StepInfeasible as said:
+                text, claimed = infeasible_text(posed, said.farkas.exact), True
+            except QuasistaticError:
+                continue
+            refusal = attack.refused(step_text(posed), text)
+            assert refusal is None if claimed else PROVES_NOTHING in refusal
+
+
+@pytest.mark.parametrize("tau", [1e-323, 1e-320, 1e-312])
+def test_the_bound_of_a_subnormal_answer_is_that_of_the_answer_as_it_is_given(attack, tau):
+    """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has few digits."""
+    step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
+    solution = solve_step(step, solver_for(step, "daqp", "native"), certify="residual")
+    error = abs(Fraction(solution.delta_q[0]) / (Fraction(tau) / 3) - 1)
+    assert Fraction(solution.certificate.error_bound) >= error
+    assert attack.refused(step_text(step), solution_text(step, solution)) is None
+
+
+def test_a_bound_above_one_is_no_useful_bound(monkeypatch):
+    step = free_step(np.eye(1), np.ones(1), no_contacts(1), 1.0)
+    monkeypatch.setattr(uncertified, "BOUNDED", -1.0)
+    for bound, said in ((1.0, 1.0), (np.nextafter(1.0, 2.0), None), (3e276, None), (np.inf, None)):
+        monkeypatch.setattr(DenseStep, "bound", lambda *_, bound=bound: bound)
+        solver = solver_for(step, "daqp", "native")
+        certificate = solve_step(step, solver, certify="residual").certificate
+        assert certificate.error_bound == said
+        assert ("no useful bound" in in_words(step, certificate)) == (said is None)
