@@ -82,6 +82,7 @@ RESULTS = (
     printed("make.random_mechanisms", "validation/results/random_mechanisms.md"),
     written("exact_everywhere", "validation/results/exact_everywhere.txt"),
     written("forgeries", "validation/forgeries.md"),
+    written("make.attacks", "validation/results/attacks.md"),
     Result(
         "verifier",
         ("validation.check_verifier", "--all", "--out", "validation/results/verifier.md"),

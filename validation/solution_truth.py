@@ -232,10 +232,9 @@ class Judge:
         if claims["kind"] == "exact":  # where every loaded contact sticks
             working = [4 * j + i for j, i in claims["active"]]
             return on_rows((self.H, self.g, self.A, self.b), working)[0]
-        optimum = exact_optimum(exact_form(step))
-        if isinstance(optimum, Farkas):
-            raise ArithmeticError("the step has no optimum")
-        return proved((self.H, self.g, self.A, self.b), optimum.working_set)[0]
+        end = exact_optimum(exact_form(step))
+        working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
+        return proved((self.H, self.g, self.A, self.b), working)[0]
 
     def lam(self, record: Json) -> Vector:
         """All multipliers of a record, the user's own rows last."""
