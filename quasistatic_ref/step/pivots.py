@@ -52,7 +52,8 @@ def positive_pivots(S: Array) -> bool:
 
 def _surely_positive(S: Array) -> bool:
     """Whether float64 shows it of all matrices of a stack (..., n, n) [any unit]."""
-    n, least, most = S.shape[-1], *RANGE
+    n = S.shape[-1]
+    least, most = RANGE
     try:
         L = np.linalg.cholesky(S * _less(n))
     except np.linalg.LinAlgError:
@@ -89,12 +90,12 @@ def exact_factor(S: Array, share: float) -> Array | None:
     S : ndarray, shape (n, n)
         Symmetric and finite [any unit].
     share : float
-        Above which part of its diagonal entry a pivot must be [-].
+        Above which part of its diagonal entry a pivot must be, from 0 to below 1 [-].
 
     Returns
     -------
     ndarray, shape (n, n), or None
-        None if a pivot is not above it, and not above zero.
+        None if a pivot is not above it.
     """
     fractions = [[v.as_integer_ratio() for v in row] for row in S.tolist()]
     common = max((q for row in fractions for _, q in row), default=1)  # a power of two
@@ -104,10 +105,11 @@ def exact_factor(S: Array, share: float) -> Array | None:
     for k, entry in enumerate(diagonal):  # Bareiss: all entries are minors, all divisions exact
         row, *below = rest
         minor = row[0]  # the pivot is minor / last
-        if minor <= 0 or whole * minor <= part * entry * last:
+        if whole * minor <= part * entry * last:  # so is a pivot that is not above zero
             return None
         square = minor * last * common
-        L[k:, k] = [_root(v * v, square) * (1 if v > 0 else -1) for v in row]
+        roots = [_root(v * v, square) for v in row]
+        L[k:, k] = [-root if v < 0 else root for v, root in zip(row, roots, strict=True)]
         rest = [
             [(minor * v - row[i] * w) // last for v, w in zip(r, row[i:], strict=True)]
             for i, r in enumerate(below, start=1)  # r begins at its entry on the diagonal

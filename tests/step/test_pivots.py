@@ -14,7 +14,7 @@ from quasistatic_ref.tolerances import DEFINITE
 from tests.tolerances import ROUNDING
 from validation.make.attacks import positive_definite, singular
 
-LOWER = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1000.0, 1.0]])
+LOWER = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1000.0, 1.0]])
 PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
 NEAR = LOWER @ np.diag(PIVOTS) @ LOWER.T
 """No product or sum of these is rounded. The last pivot is 2.9e-14 of its diagonal entry; LAPACK's
@@ -25,10 +25,10 @@ def refused(*_):
     raise AssertionError("what float64 decides was decided in whole numbers")
 
 
-def with_stiffness(K_q, h=1.0):
-    """A step without contacts in which springs are pulled by 1 N each."""
+def with_stiffness(K_q, tau_a, h=1.0):
+    """A step without contacts in which springs are pulled."""
     n = len(K_q)
-    return StepData(h, K_q, np.zeros((0, 0)), np.ones(n), [], np.zeros(n), no_contacts(n))
+    return StepData(h, K_q, np.zeros((0, 0)), tau_a, [], np.zeros(n), no_contacts(n))
 
 
 def test_the_rule_is_that_of_exact_pivots():
@@ -41,11 +41,22 @@ def test_the_rule_is_that_of_exact_pivots():
     assert {True, False} == set(said)
 
 
-@pytest.mark.parametrize("factor", [0.25, 1.0, 4.0])
-def test_a_pivot_counts_from_its_share_on(factor):
+@pytest.mark.parametrize("scale", [2.0**-1060, 2.0**-40, 1.0, 2.0**40, 2.0**900])
+@pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 4.0])
+def test_a_pivot_counts_from_its_share_on(factor, scale):
     """[[1, 1], [1, 1 + p]] has the pivots 1 and p: 2^-46 = 1.42e-14 is above 1e-14 (1 + p)."""
-    p = factor * 2.0**-46
-    assert positive_pivots(np.array([[1.0, 1.0], [1.0, 1.0 + p]])) == (p > DEFINITE * (1 + p))
+    p = factor * 2.0**-46 if scale > 2.0**-1000 else 2.0**-12
+    S = scale * np.array([[1.0, 1.0], [1.0, 1.0 + p]])
+    assert positive_pivots(S) == (p > DEFINITE * (1 + p))
+
+
+@pytest.mark.parametrize("e", [46, 48, 50])
+def test_a_pivot_of_rounding_alone_does_not_count(e):
+    """LAPACK finds 1.3e-10 of the diagonal entry for a last pivot that is 7e-15 of it, or less."""
+    S = LOWER @ np.diag(7 * np.array([1.0, 2.0**-20, 2.0**-e])) @ LOWER.T
+    found = np.diag(np.linalg.cholesky(S)) ** 2
+    assert found[2] > 1e-10 * S[2, 2]
+    assert not positive_pivots(S)
 
 
 def test_float64_decides_what_is_not_nearly_singular(monkeypatch):
@@ -53,7 +64,7 @@ def test_float64_decides_what_is_not_nearly_singular(monkeypatch):
     rng = np.random.default_rng(0)
     for n in (0, 1, 6, 60):
         half = rng.standard_normal((n, n))
-        assert positive_pivots(half @ half.T + 1e-9 * np.eye(n))
+        assert positive_pivots(2.0**40 * (half @ half.T + 1e-9 * np.eye(n)))
     with pytest.raises(AssertionError, match="whole numbers"):
         positive_pivots(NEAR)
 
@@ -74,27 +85,29 @@ def test_a_stack_and_a_large_matrix_are_decided_block_by_block(monkeypatch):
 
 def test_a_factor_in_whole_numbers_is_that_of_its_pivots():
     """S = L D L': the Cholesky factor is L D^(1/2)."""
-    assert exact_factor(NEAR, DEFINITE) == pytest.approx(LOWER * np.sqrt(PIVOTS), rel=ROUNDING)
+    assert exact_factor(NEAR, DEFINITE) == pytest.approx(
+        LOWER * np.sqrt(PIVOTS), rel=ROUNDING, abs=0
+    )
     assert exact_factor(np.ones((2, 2)), 0.0) is None
     tiny = np.diag([5e-324, 1e-320])
-    assert exact_factor(tiny, 0.0) == pytest.approx(np.sqrt(tiny), rel=ROUNDING)
+    assert exact_factor(tiny, 0.0) == pytest.approx(np.sqrt(tiny), rel=ROUNDING, abs=0)
 
 
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
-    """L (1, 0, 0) = (1, 1, 1): x = (1/3, 0, 0) for g = (1, 1, 1), and ||H^-1 g|| = 3^-0.5."""
+    """L (1, 0, 0) = (1, -1, 1) = g: x = (1/3, 0, 0), and ||H^-1 g|| = 3^-0.5."""
     for lost in (np.linalg.cholesky, np.linalg.inv):
         with pytest.raises(np.linalg.LinAlgError):
             lost(NEAR)
     norm = energy_norm(NEAR)
-    assert norm.impulse(np.ones(3)) == pytest.approx(3**-0.5, rel=ROUNDING)
+    assert norm.impulse(LOWER[:, 0]) == pytest.approx(3**-0.5, rel=ROUNDING)
     assert norm.displacement(np.eye(3)[2]) == pytest.approx(NEAR[2, 2] ** 0.5, rel=ROUNDING)
-    solution = solve_step(with_stiffness(NEAR), "none")
+    solution = solve_step(with_stiffness(NEAR, LOWER[:, 0]), "none")
     assert solution.delta_q.tolist() == [1 / 3, 0.0, 0.0]
 
 
 def test_a_hessian_that_rounding_makes_indefinite_is_refused_in_a_sentence():
     """K_q is, 0.07 K_q in float64 is not: the rounding of its products is larger than a pivot."""
-    step = with_stiffness(NEAR, h=0.07)
+    step = with_stiffness(NEAR, np.ones(3), h=0.07)
     assert not positive_definite(step.H)
     with pytest.raises(StepDataError, match="look for a link of almost no mass"):
         solve_step(step, "none")
