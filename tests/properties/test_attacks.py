@@ -17,7 +17,8 @@ from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
-from validation.make.attacks import Attack, bounds, exact_answers, matrices, steps
+from validation.attacked_steps import steps
+from validation.make.attacks import Attack, bounds, exact_answers, matrices
 
 PROVES_NOTHING = "proves nothing"
 
@@ -78,7 +79,7 @@ def test_what_is_written_is_verified_in_every_mode(attack, family, cone):
 
 
 @pytest.mark.parametrize("tau", [1e-323, 1e-320, 1e-312])
-def test_the_bound_of_a_subnormal_answer_is_that_of_the_answer_as_it_is_given(attack, tau):
+def test_the_bound_of_a_subnormal_answer_is_of_the_answer_as_given(attack, tau):
     """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has few digits."""
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
     solution = solve_step(step, solver_for(step, "daqp", "native"), certify="residual")

@@ -189,7 +189,7 @@ def test_another_bit_is_noticed_by_the_script(monkeypatch, field):
     assert all(fault.startswith(f"{kind}, step 0") and field in fault for fault in faults)
 
 
-def test_a_mass_matrix_that_was_not_checked_and_is_not_positive_definite_is_refused():
+def test_a_mass_matrix_that_a_simulator_poses_is_checked():
     """1 and 1, and between them the float64 next to 1: the determinant is less than 0."""
     step = StepData(1.0, np.eye(0), np.eye(2), [], [0.0, 0.0], [], no_contacts(2))
     M_u = np.array([[1.0, np.nextafter(1.0, 2.0)], [np.nextafter(1.0, 2.0), 1.0]])
