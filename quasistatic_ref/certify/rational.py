@@ -124,7 +124,7 @@ def h_times_hessian(step: StepData) -> Dyadic:
     StepDataError
         If M_u, which a simulator poses unchecked, is not positive definite.
     """
-    positive_definite("M_u", step.kept_M_u)
+    positive_definite("M_u", step.M_u)
     h = dyadic(step.h)
     return _block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
