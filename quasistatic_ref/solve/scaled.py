@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.adapters.program import Program
@@ -109,10 +109,7 @@ class DenseStep:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         if self.step.cone == ELLIPSOID:
             return ellipsoid_residuals(self.natural, delta_q, lam)
-        form = self.natural_form
-        balance = form.H.dot(delta_q) - form.g - form.A.T.dot(lam)  # Eq. (9), as (13) has it
-        slack = form.A.dot(delta_q) - form.b
-        return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
+        return optimality_residuals(self.natural_form, delta_q, lam)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:
         """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""

@@ -6,11 +6,12 @@ that are not zero. Nothing here is certified exactly: residuals, and a bound of 
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.optimality import Residuals, residuals_of
+from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.large.sizes import sizes_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
@@ -149,9 +150,8 @@ class SparseStep:
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        balance = self.H @ delta_q - self.g - self.A.T @ lam
-        slack = self.A @ delta_q - self.b
-        return residuals_of(balance, -slack, -lam, slack * lam)
+        form: Any = (self.H, self.g, self.A, self.b)
+        return optimality_residuals(form, delta_q, lam)
 
     def bound(self, delta_q: Array, lam: Array) -> float | None:
         """A rigorous bound of the error of delta_q [-], relative to the unconstrained step."""
