@@ -1,6 +1,5 @@
 """What one step of a simulator came to."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -35,7 +34,3 @@ class StepResult(Plain):
     seconds: dict[str, float] = field(compare=False)
 
     __repr__, _repr_html_ = shown(result_page, *NOT_IN_TEXT)
-
-
-CompiledStep = Callable[..., StepResult | None]
-"""A step of (simulator, q, q_bar_a, force) in compiled code; None where a bit would differ."""

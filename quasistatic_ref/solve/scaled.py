@@ -10,9 +10,7 @@ import numpy as np
 from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.bound import error_bound
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import (
-    Metric,
     Units,
     metric,
     natural_form,
@@ -45,18 +43,6 @@ class DenseStep:
     ----------
     step : StepData
         SI units.
-    like : Metric, optional
-        Of an earlier step: taken over if H is the same array.
-    form : StandardForm, optional
-        That of the step, where it is known.
-    units : Units, optional
-        Its natural units, where they are known.
-
-    Attributes
-    ----------
-    written : Program or None
-        The solver's program in natural units, stored row by row; valid until the solver writes the
-        next step.
 
     Raises
     ------
@@ -64,20 +50,12 @@ class DenseStep:
         If products of its numbers leave the range of float64.
     """
 
-    written: Program | None = None
-
-    def __init__(
-        self,
-        step: StepData,
-        like: Metric | None = None,
-        form: StandardForm | None = None,
-        units: Units | None = None,
-    ) -> None:
-        self.step, self.form = step, standard_form(step) if form is None else form
+    def __init__(self, step: StepData) -> None:
+        self.step = step
+        self.form = standard_form(step)
         try:
-            kept = like if like is not None and like.H is self.form.H else None
-            self.metric = metric(self.form.H) if kept is None else kept
-            self.units = units_of(self.form, self.metric) if units is None else units
+            self.metric = metric(self.form.H)
+            self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
         check_units(self.units, step, self.metric.usable)
@@ -93,9 +71,6 @@ class DenseStep:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
-        p = self.written
-        if p is not None:
-            return StandardForm(p.H, -p.f, p.A, p.b)
         return natural_form(self.form, self.units, self.metric.natural)
 
     @property

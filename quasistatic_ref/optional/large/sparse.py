@@ -21,9 +21,8 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
-from quasistatic_ref.solve.units import Units, coordinate_units, from_natural, units_from
+from quasistatic_ref.solve.units import coordinate_units, from_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -103,9 +102,7 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(
-        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
-    ) -> "SparseStep":
+    def scaled(self, step: StepData) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 

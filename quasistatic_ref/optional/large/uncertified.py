@@ -3,13 +3,11 @@
 import math
 
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.optional.large.rounded_bound import FloatBound
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.scaled import NaturalStep
 from quasistatic_ref.solve.solver import Answer, Solver
 from quasistatic_ref.solve.units import from_natural
-from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.solution import Certificate, StepSolution, step_solution
-from quasistatic_ref.tolerances import BOUNDED, RESIDUAL_LIMIT
+from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 NOTHING_CLAIMED = Certificate("none")
 
@@ -49,19 +47,5 @@ def _judged(scaled: NaturalStep, solver: Solver, answer: Answer) -> Certificate:
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
     return Certificate(
-        "residual", dict(vars(residuals)), error_bound=_bound(scaled, solver, answer)
+        "residual", dict(vars(residuals)), error_bound=solver.error_bound(scaled, answer)
     )
-
-
-def _bound(scaled: NaturalStep, solver: Solver, answer: Answer) -> float | None:
-    """A rigorous bound of an answer's error [-]: in float64, and in balls where that is open."""
-    x, lam, step = answer.delta_q, answer.lam, scaled.step
-    if isinstance(scaled, DenseStep) and step.cone != ELLIPSOID:
-        form, (S, ell, rho) = scaled.natural_form, scaled.units
-        hessian = solver.kept_hessian(step)
-        if solver.bound is None or not solver.bound.fits(hessian, S):
-            solver.bound = FloatBound(hessian, form.H, S)
-        error = solver.bound.error(step, form, (ell, rho), x, lam)
-        if error is not None and error <= BOUNDED:
-            return error
-    return scaled.bound(x, lam)
