@@ -3,12 +3,12 @@
 import copy
 
 import numpy as np
+from quasistatic_ref.solve.engines import sparse_from
 
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.solve.engines import sparse_from
 from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")

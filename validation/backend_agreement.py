@@ -18,8 +18,8 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS, installed_backends
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 

@@ -27,7 +27,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY

@@ -12,11 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS, installed, installed_backends
-from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.files import step_read, step_text

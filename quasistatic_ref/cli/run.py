@@ -12,6 +12,7 @@ from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.optional.runs.saved import saved_steps
+from quasistatic_ref.optional.show.simulate_words import path_words
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
@@ -85,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
-        "engine": scenario.engine,
+        "fast": scenario.fast,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -112,8 +113,7 @@ def run(options: argparse.Namespace) -> int:
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     x = summary["worst_residual"]
     worst = "not computed" if x is None else f"{x:.1e} (natural units)"
-    backend = f"{summary['backend']} ({summary['engine']})"
-    print(f"{summary['certified']}; backend {backend}, worst residual {worst}")
+    print(f"{summary['certified']}; {path_words(scenario)}, worst residual {worst}")
     print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)

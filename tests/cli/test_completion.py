@@ -4,6 +4,7 @@ import shlex
 import subprocess
 
 import pytest
+from quasistatic_ref.solve.engines import ENGINES
 
 from quasistatic_ref.cli import options
 from quasistatic_ref.cli.main import COMMANDS, command_parser, main
@@ -11,7 +12,6 @@ from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.study.spec import study_names
 from quasistatic_ref.solve.backends import installed_backends
-from quasistatic_ref.solve.engines import ENGINES
 from quasistatic_ref.solve.solve import CERTIFY
 from quasistatic_ref.step.cones import CONES, cone
 

@@ -1,10 +1,10 @@
 """No backend holds up a step at strange scales: a sample of validation/hostile_steps.py."""
 
 import numpy as np
+from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.solve.backends import NONE, UNSAFE
-from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import ALIKE

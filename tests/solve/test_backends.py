@@ -17,7 +17,7 @@ from quasistatic_ref.solve.backends import (
     backend,
     installed_backends,
 )
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (

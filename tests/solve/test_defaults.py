@@ -6,6 +6,7 @@ import sys
 import cvxpy as cp
 import numpy as np
 import pytest
+from quasistatic_ref.solve.engines import default_backend, default_engine, sparse_from
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
@@ -15,7 +16,6 @@ from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.adapters.daqp import Daqp
 from quasistatic_ref.solve.adapters.piqp import Piqp
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.engines import default_backend, default_engine, sparse_from
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP

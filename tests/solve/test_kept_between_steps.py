@@ -8,10 +8,9 @@ import pytest
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
-from quasistatic_ref.solve.solver import KIND
+from quasistatic_ref.solve.solver import KIND, solver_for
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import step_solution
 from tests.helpers import pinch, point_on_floor, random_step

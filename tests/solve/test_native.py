@@ -14,10 +14,10 @@ from quasistatic_ref.optional.extensions.extended import extension_rows, with_ro
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.problem import StepProblem

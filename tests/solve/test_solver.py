@@ -17,10 +17,9 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
-from quasistatic_ref.solve.solver import NoSolver
+from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra

@@ -17,8 +17,8 @@ from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import solution_text

@@ -210,9 +210,9 @@ class CompiledStep:
         """The solution of the step whose matrices are there; StepNotSolved if there is none."""
         solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
         if solver is None or solver is not simulator.solver:  # what fits one fits all of them
-            solver = simulator.fitting(step)
-            assert isinstance(solver, FastSolver)
-            self.solver = solver
+            found = simulator.fitting(step)
+            assert isinstance(found, FastSolver)
+            self.solver = solver = found
         units = self.units(solver, step)
         said = as_said(step, solver, units, accuracy) if certify == "off" else None
         if said is not None:

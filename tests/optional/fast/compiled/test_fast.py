@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.optional.fast.compiled import compiled, why_not
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
@@ -194,7 +194,7 @@ NO_COMPILERS = {
 }
 NOT_COMPILED = f"""
 import os
-from quasistatic_ref.compiled import compiled, why_not
+from quasistatic_ref.optional.fast.compiled import compiled, why_not
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
 scenario = load_scenario("sphere_spin", ["record=light"])

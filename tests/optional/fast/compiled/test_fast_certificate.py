@@ -12,9 +12,9 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.compiled import compiled
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step

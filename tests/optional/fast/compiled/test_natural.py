@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import STANDSTILL, metric, units_of

@@ -16,8 +16,8 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Violated
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.zeros import _Claim, _implied, _numbers, zeros_hold
 from quasistatic_ref.scenario.scenario import load_scenario
