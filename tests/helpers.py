@@ -3,11 +3,11 @@
 import copy
 
 import numpy as np
-from quasistatic_ref.solve.engines import sparse_from
 
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
+from quasistatic_ref.optional.fast.backends import sparse_from
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.step.data import Contacts, SparseContacts, StepData
 
@@ -31,7 +31,7 @@ def changed(contacts, **changes):
 
 def always_in_blocks(patch):
     """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
-    where = "quasistatic_ref.simulate.simulator.sparse_from"  # which needs more than steps do
+    where = "quasistatic_ref.optional.fast.simulator.sparse_from"  # which needs more than steps do
     patch.setattr(where, lambda *arguments: min(sparse_from(*arguments), 1))
 
 

@@ -73,7 +73,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         *shell_lines(WALK),
         *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
         "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
-        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --engine cvxpy --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --json",
         "quasistatic-ref run sphere_spin --set steps=5 --cone ellipsoid",
         "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
         "quasistatic-ref solve step.json -o solution.json",

@@ -140,7 +140,7 @@ def test_the_momentum_of_blocks_is_that_of_all_of_M_u():
 
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     step = step_of("pile")[1]
-    solver, checked = solver_for(step, "piqp", "native"), step.replace()
+    solver, checked = solver_for(step, "piqp", fast=True), step.replace()
     assert type(checked) is StepData
     assert checked == step
     assert solver.fits(checked)

@@ -101,19 +101,19 @@ def compared(system, pairs, cone, rng):
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
     made = {"h": 0.01, "K_q": K_q, "certify": "off", "cone": cone}
     one, other = (Simulator(system, pairs, **made) for _ in range(2))
-    assert one.fast is not None
+    assert one.compiled is not None
     wrong = set()
     for q, move in places(system, rng):
         force = rng.normal(size=system.n_v)
         goal = system.integrate(q, move)[: system.n_q_a]
         expected = arrays(*of_numpy(other, q, goal, force))
-        one.fast.poses.move(q)
-        one.fast.find_points(one, q)
-        *data, gap = one.fast.step_data(one, q, goal, force)
+        one.compiled.poses.move(q)
+        one.compiled.find_points(one, q)
+        *data, gap = one.compiled.step_data(one, q, goal, force)
         found = arrays(*data)
         assert gap == expected["phi"].min()
         wrong.update(differing(found, expected))
-        after = one.fast.screws.integrate(move)
+        after = one.compiled.screws.integrate(move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)
 
@@ -137,15 +137,15 @@ def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path)
 
 def run_of(name, fast):
     """The results of a few steps of a scenario, with and without compiled code."""
-    scenario = load_scenario(name, ["record=light"])
+    scenario = load_scenario(name, ["record=light"], fast=True)
     simulator, q = scenario.simulator(), scenario.system.q_start
     if not fast:
-        simulator.fast = None
+        simulator.compiled = None
     for k in range(min(scenario.steps, 25)):
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         q = result.q
         yield result
-    assert (simulator.fast is not None) == fast
+    assert (simulator.compiled is not None) == fast
 
 
 @needs_compiler
@@ -197,13 +197,13 @@ import os
 from quasistatic_ref.optional.fast.compiled import compiled, why_not
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
-scenario = load_scenario("sphere_spin", ["record=light"])
+scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
 for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
     for cached in (compiled, why_not, library._found):
         cached.cache_clear()
     simulator = scenario.simulator()
     simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
-    print(simulator.fast, compiled("step"), why_not())
+    print(simulator.compiled, compiled("step"), why_not())
 """
 
 
@@ -215,28 +215,28 @@ def test_without_a_compiler_numpy_takes_the_steps():
 
 @needs_compiler
 def test_a_step_that_numpy_forms_otherwise_is_left_to_numpy():
-    scenario = load_scenario("sphere_spin", ["record=light"])
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one, other = scenario.simulator(), scenario.simulator()
-    one.fast.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
-    other.fast = None
+    one.compiled.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
+    other.compiled = None
     q, goal = scenario.system.q_start, scenario.targets(scenario.h)
     assert one.step(q, goal) == other.step(q, goal)
-    assert one.fast is None
+    assert one.compiled is None
 
 
 @needs_compiler
 def test_simulators_that_compiled_code_does_not_take_say_why():
     step = compiled("step")
-    scenario = load_scenario("sphere_spin", ["record=light"])
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     simulator = scenario.simulator()
     assert step.unknown(simulator) is None
     assert step.taken_by(simulator).startswith("compiled code")
     for settings, reason in (
-        (["solver.engine=cvxpy"], "the engine is 'cvxpy'"),
+        (["solver.backend=scs"], "'scs' has no interface of its own here"),
         (["cone=ellipsoid"], "the ellipsoid has no rows"),
     ):
-        other = load_scenario("sphere_spin", ["record=light", *settings]).simulator()
-        assert other.fast is None
+        other = load_scenario("sphere_spin", ["record=light", *settings], fast=True).simulator()
+        assert other.compiled is None
         assert step.taken_by(other) == f"NumPy: {reason}"
     simulator.extension = lambda q: None
     assert step.taken_by(simulator) == "NumPy: the scene has an extension"
@@ -246,6 +246,6 @@ def test_simulators_that_compiled_code_does_not_take_say_why():
 def test_an_order_of_products_that_is_not_known_is_left_to_numpy(monkeypatch):
     step = compiled("step")
     monkeypatch.setattr(step, "products", lambda: None)
-    simulator = load_scenario("sphere_spin", ["record=light"]).simulator()
-    assert simulator.fast is None
+    simulator = load_scenario("sphere_spin", ["record=light"], fast=True).simulator()
+    assert simulator.compiled is None
     assert "order that is not known" in step.taken_by(simulator)
