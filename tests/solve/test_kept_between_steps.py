@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.optional.fast import solver as fast_solver
+from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
