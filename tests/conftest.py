@@ -83,6 +83,6 @@ def load(tmp_path: Path) -> Callable[..., Scenario]:
         for old, new in changes:
             assert text.count(old) == 1, old
             text = text.replace(old, new)
-        return load_scenario(written_scenario(tmp_path, text), settings)
+        return load_scenario(written_scenario(tmp_path, text), settings, fast=True)
 
     return loaded

@@ -35,8 +35,8 @@ class Pace:
         if self.fast or entries < SPARSE_FROM_PIQP:
             return None
         return (
-            f"J has {entries:,} entries in each step, dense on the plain path; --fast (fast=True in "
-            "Python) takes large steps in blocks, unless they are certified exactly"
+            f"J has {entries:,} entries in each step, dense on the plain path; --fast (fast=True "
+            "in Python) takes large steps in blocks, unless they are certified exactly"
         )
 
     def advice(self, seconds: Mapping[str, float]) -> str | None:

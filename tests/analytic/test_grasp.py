@@ -33,7 +33,7 @@ written to nanometres."""
 
 @pytest.fixture(scope="module")
 def scenario():
-    return load_scenario("bunny_grasp")
+    return load_scenario("bunny_grasp", fast=True)
 
 
 @pytest.fixture(scope="module")

@@ -94,7 +94,7 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
 
 def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, monkeypatch):
     """So that the test above would fail if a resumed run did not ask the solver again."""
-    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS})
+    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS}, fast=True)
     ran(scenario, tmp_path / "whole.npz")
     monkeypatch.setattr(module, "STRETCH", 1)  # cold at each step
     ran(scenario, tmp_path / "cold.npz")
@@ -170,36 +170,36 @@ OTHERS = {
 def test_another_run_is_not_resumed_and_what_differs_is_named(tmp_path, scene, record, other):
     changes, says = OTHERS[other]
     path, settings = tmp_path / "run.npz", {"steps": STEPS, "record": record}
-    ran(load_scenario(scene, settings), path, killed_at=STRETCH + 1)
+    ran(load_scenario(scene, settings, fast=True), path, killed_at=STRETCH + 1)
     before = sorted(saved_folder(path).iterdir())
     with pytest.raises(InputError) as caught:
-        ran(load_scenario(scene, settings | changes), path, resume=True)
+        ran(load_scenario(scene, settings | changes, fast=True), path, resume=True)
     assert says in str(caught.value)
     assert sorted(saved_folder(path).iterdir()) == before
 
 
 def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, scene, monkeypatch):
     path = tmp_path / "run.npz"
-    ran(load_scenario(scene), path, killed_at=2)
+    ran(load_scenario(scene, fast=True), path, killed_at=2)
     urdf = tmp_path / "ball.urdf"
     text = urdf.read_text()
     urdf.write_text(text.replace('"0.3"', '"0.4"'))
     with pytest.raises(InputError, match=r"differs in bodies\.ball; run what it is of"):
-        ran(load_scenario(scene), path, resume=True)
+        ran(load_scenario(scene, fast=True), path, resume=True)
     urdf.write_text(text)
     with pytest.raises(InputError, match="differs in record: full then, light now"):
-        ran(load_scenario(scene, {"record": "light"}), path, resume=True)
+        ran(load_scenario(scene, {"record": "light"}, fast=True), path, resume=True)
     monkeypatch.setattr(saved, "__version__", "9.9")
     says = r"differs in version of quasistatic_ref: 0\.1\.0 then, 9\.9 now; run what it is of"
     with pytest.raises(InputError, match=says):
-        ran(load_scenario(scene), path, resume=True)
+        ran(load_scenario(scene, fast=True), path, resume=True)
 
 
 @pytest.mark.parametrize("steps", [2, 4, STEPS])
 def test_a_resumed_run_may_be_shorter_or_longer(tmp_path, scene, steps):
     path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
-    ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
-    other = load_scenario(scene, {"steps": steps})
+    ran(load_scenario(scene, {"steps": 6}, fast=True), path, killed_at=4)
+    other = load_scenario(scene, {"steps": steps}, fast=True)
     ran(other, path, resume=True)
     ran(other, plain)
     assert path.read_bytes() == plain.read_bytes()
@@ -207,17 +207,17 @@ def test_a_resumed_run_may_be_shorter_or_longer(tmp_path, scene, steps):
 
 def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, scene):
     path = tmp_path / "out" / "run.npz"
-    ran(load_scenario(scene), path)
+    ran(load_scenario(scene, fast=True), path)
     assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
     sunk = scene_written(tmp_path, changed(SCENE, ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])))
     with pytest.raises(RunFailed):
-        ran(load_scenario(sunk), path)
+        ran(load_scenario(sunk, fast=True), path)
     assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
 
 
 @pytest.mark.parametrize(("every", "kept"), [(0.0, True), (3600.0, False)])
 def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept, capsys):
-    scenario, path = load_scenario(scene), tmp_path / "run.npz"
+    scenario, path = load_scenario(scene, fast=True), tmp_path / "run.npz"
 
     def target(t):
         if t > 0.025:
@@ -238,7 +238,7 @@ def test_a_full_disk_ends_no_run(tmp_path, scene, monkeypatch, capsys):
         raise InputError("cannot be written: No space left on device", file=path)
 
     monkeypatch.setattr(saved, "written_whole", full)
-    run = ran(load_scenario(scene), tmp_path / "run.npz")
+    run = ran(load_scenario(scene, fast=True), tmp_path / "run.npz")
     said = capsys.readouterr().err.splitlines()
     assert len(said) == 1
     assert said[0].endswith("No space left on device; the run goes on")
@@ -256,7 +256,7 @@ def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, 
 
     monkeypatch.setattr(saved, "written_whole", now_and_then)
     path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
-    scenario = load_scenario(scene, {"steps": STEPS})
+    scenario = load_scenario(scene, {"steps": STEPS}, fast=True)
     ran(scenario, path, killed_at=6)
     assert calls == ["000000000.npz", *["000000001.npz"] * 3, "000000004.npz", "000000005.npz"]
     ran(scenario, path, resume=True)
@@ -277,7 +277,7 @@ SPOILT = {
 @pytest.mark.parametrize("spoil", SPOILT)
 def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil):
     path = tmp_path / "scene.npz"
-    ran(load_scenario(scene), path, killed_at=2)
+    ran(load_scenario(scene, fast=True), path, killed_at=2)
     SPOILT[spoil](saved_folder(path) / "000000001.npz")
     assert main(["run", str(scene), "--out", str(tmp_path), "--resume", "--quiet"]) == 2
     said = capsys.readouterr().err.splitlines()
@@ -288,4 +288,4 @@ def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil
 @pytest.mark.parametrize("every", [-1.0, float("nan")])
 def test_a_time_that_is_none_is_refused(tmp_path, scene, every):
     with pytest.raises(InputError, match="save_every: must be at least 0"):
-        ran(load_scenario(scene), tmp_path / "run.npz", every=every)
+        ran(load_scenario(scene, fast=True), tmp_path / "run.npz", every=every)

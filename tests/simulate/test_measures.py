@@ -38,7 +38,7 @@ def test_a_body_that_falls_has_not_risen(tmp_path, capsys):
 
 
 def test_driven_bodies_are_not_among_the_free_ones():
-    scenario = load_scenario("bunny_grasp", ["steps=1"])
+    scenario = load_scenario("bunny_grasp", ["steps=1"], fast=True)
     assert list(free_body_motions(scenario.system, scenario.run(progress=False))) == ["bunny"]
 
 

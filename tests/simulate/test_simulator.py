@@ -24,7 +24,7 @@ GRAVITY = 9.81
 
 @pytest.fixture
 def scenario(tmp_path):
-    return load_scenario(written_scenario(tmp_path))
+    return load_scenario(written_scenario(tmp_path), fast=True)
 
 
 @pytest.fixture

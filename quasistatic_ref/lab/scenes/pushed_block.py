@@ -88,7 +88,7 @@ class PushedBlock:
 
 def pushed_block(
     certify: str = CERTIFY[0],
-    fast: bool = False,
+    fast: bool = True,
     backend: str | None = None,
     *,
     h: float = H,

@@ -18,7 +18,14 @@ class PosedGeometry(ContactGeometry):
     ----------
     layout : ContactLayout
     motion : Motion
+
+    Attributes
+    ----------
+    in_blocks : bool
+        Whether J is in blocks.
     """
+
+    in_blocks = False
 
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         super().__init__(layout, motion)

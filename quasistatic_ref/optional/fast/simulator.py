@@ -59,8 +59,7 @@ class FastSimulator(Simulator):
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.backend, self.certify, self.cone) if entries else 0
         self.geometry = posed_geometry(self.layout, system.motion, least)
-        in_blocks = isinstance(self.geometry, BlockGeometry)
-        M_u = system.mass_blocks if in_blocks else system.M_u(system.q_start)
+        M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
         rows = self.layout.rows
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, rows, self.cone)
         in_c = compiled("step")

@@ -20,6 +20,8 @@ class BlockGeometry:
     motion : Motion
     """
 
+    in_blocks = True
+
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
         self.layout = layout
         # Joints' columns in the order of their coordinates; a mimic's is that of another.

@@ -227,7 +227,7 @@ def test_an_extension_stands_beside_the_ellipsoid():
 
 
 def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
-    scenario = load_scenario("bunny_grasp", ["steps=8"])
+    scenario = load_scenario("bunny_grasp", ["steps=8"], fast=True)
     h, n_a = scenario.h, scenario.system.n_a
     simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
     trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)

@@ -31,7 +31,7 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     # Each trajectory is that of the scenario alone with the same values, bit for bit.
     for line, (mu, h) in zip(lines, found, strict=True):
         settings = {"contacts.rough.mu_v": mu, "h": h, "steps": 2}
-        alone = load_scenario("block_incline", settings).run(progress=False)
+        alone = load_scenario("block_incline", settings, fast=True).run(progress=False)
         np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
     # What ends the program leaves the rows so far, a torn one too: only those are run again.
     rows = (tmp_path / ROWS).read_text().splitlines(keepends=True)

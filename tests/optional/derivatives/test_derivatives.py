@@ -48,7 +48,7 @@ def other(simulator, name, j, change):
         fields[name] += change
         pair = pairs[j]
         pairs[j] = type(pair)(pair.name, *fields.values(), pair.rows, pair.k)
-    return Simulator(system, pairs, **parts)
+    return Simulator(system, pairs, **parts, fast=True)
 
 
 def heavier(system, link, change):
@@ -91,7 +91,7 @@ def test_derivatives_by_parameters_agree_with_differences(name):
     ("scenario", "k"), [("bunny_grasp", 60), ("allegro_turn", 40), ("two_finger_pinch", 38)]
 )
 def test_derivatives_agree_with_differences_in_a_scenario(scenario, k):
-    scene = load_scenario(scenario, steps=k)
+    scene = load_scenario(scenario, steps=k, fast=True)
     rng = np.random.default_rng(k)
     simulator, system = scene.simulator(), scene.system
     q = scene.run(progress=False).q[k]

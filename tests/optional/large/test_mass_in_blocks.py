@@ -40,7 +40,7 @@ def scene(name):
     if name == "pile":
         some = pile(BOXES, backend="piqp", certify="residual")
         return some.simulator, np.zeros(0), some.force
-    scenario = load_scenario("bunny_grasp", GRASP)
+    scenario = load_scenario("bunny_grasp", GRASP, fast=True)
     return scenario.simulator(), scenario.targets(0.01), 0.0
 
 

@@ -54,7 +54,7 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
         made = pile(BOXES).simulator
         system, pairs, layout = made.system, made.pairs, made.layout
     else:  # a gripper with a base and a finger that mimics the other
-        loaded = load_scenario("bunny_grasp")
+        loaded = load_scenario("bunny_grasp", fast=True)
         system, pairs, layout = loaded.system, loaded.pairs, loaded.simulator().layout
     q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
     kinematics = system.kinematics(q)
@@ -213,7 +213,7 @@ def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
 def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
     def found(part):
         monkeypatch.setattr(world, "PART", part)
-        system = load_scenario("bunny_grasp").system
+        system = load_scenario("bunny_grasp", fast=True).system
         q = system.integrate(system.q_start, 0.1 * np.cos(np.arange(system.n_v)))
         kinematics = system.kinematics(q)
         M_u, force = system.M_u(q), system.gravity_force(q, (1.0, 2.0, -9.81))

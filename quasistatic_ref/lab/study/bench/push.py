@@ -26,7 +26,7 @@ def pushes(steps: int, repeat: int) -> list[dict[str, float | str]]:
         for interface, fast in INTERFACES.items()
         for kind in CERTIFY
     }
-    path = [result.q for result in pushed_block("off", fast=True).run(steps)]
+    path = [result.q for result in pushed_block("off").run(steps)]
     rounds = [
         {name: partial(scene.simulator.step, q, scene.goal(k)) for name, scene in scenes.items()}
         for k, q in enumerate(path, start=1)

@@ -100,7 +100,7 @@ def compared(system, pairs, cone, rng):
     """Names of the arrays in which compiled steps differ from NumPy's."""
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
     made = {"h": 0.01, "K_q": K_q, "certify": "off", "cone": cone}
-    one, other = (Simulator(system, pairs, **made) for _ in range(2))
+    one, other = (Simulator(system, pairs, **made, fast=True) for _ in range(2))
     assert one.compiled is not None
     wrong = set()
     for q, move in places(system, rng):
@@ -130,7 +130,7 @@ def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path)
     rng, system = np.random.default_rng(11), bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
     assert compared(system, pairs, "pyramid", rng) == []
-    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a))
+    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
     said = compiled("step").taken_by(simulator)
     assert said == "compiled code; closest points by NumPy, which p6, p7, p8 need"
 

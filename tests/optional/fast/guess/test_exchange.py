@@ -54,7 +54,7 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     if by == "balls":
         monkeypatch.setattr("quasistatic_ref.solve.solve.compiled", lambda name: None)
     monkeypatch.setattr("quasistatic_ref.solve.solve.warm_rows", refused)
-    scenario = load_scenario("allegro_turn")
+    scenario = load_scenario("allegro_turn", fast=True)
     simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
     for k in range(12):
         found = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
