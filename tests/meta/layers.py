@@ -6,7 +6,7 @@ from pathlib import Path
 # The core, in this order: a folder imports only from folders before it, and from itself.
 CORE = (
     ("formats", "errors", "tolerances"),
-    ("compiled",),
+    ("fast",),
     ("step",),
     ("certify",),
     ("solve",),
@@ -51,46 +51,33 @@ LAB = (
 # list only shrinks.
 REMAINING = {
     "certify/certificate.py": {"optional/ellipsoid", "optional/large"},
-    "contact/jacobian.py": {"optional/fast"},
     "model/system.py": {"optional/large", "optional/show"},
     "scenario/scenario.py": {"optional/show"},
     "simulate/recorder.py": {"optional/doctor"},
     "simulate/result.py": {"optional/show"},
     "simulate/rollout.py": {"optional/runs"},
-    "simulate/simulator.py": {
-        "optional/extensions",
-        "optional/fast",
-        "optional/large",
-        "optional/show",
-    },
+    "simulate/simulator.py": {"optional/extensions", "optional/show"},
     "simulate/trajectory.py": {"optional/show"},
-    "solve/engines.py": {"optional/ellipsoid", "optional/large"},
+    "solve/cvxpy_problem.py": {"optional/ellipsoid"},
     "solve/scaled.py": {"optional/large"},
-    "solve/solve.py": {
-        "optional/ellipsoid",
-        "optional/extensions",
-        "optional/fast",
-        "optional/large",
-    },
-    "solve/solver.py": {"optional/fast", "optional/large"},
-    "solve/through_cvxpy.py": {"optional/ellipsoid"},
-    "solve/units.py": {"optional/fast"},
+    "solve/solve.py": {"optional/ellipsoid", "optional/extensions", "optional/large"},
     "step/contacts.py": {"optional/large", "optional/show"},
     "step/data.py": {"optional/show"},
     "step/solution.py": {"optional/show"},
     "optional/derivatives/contact/couples.py": {"optional/fast"},
     "optional/derivatives/contact/point_ties.py": {"optional/fast"},
-    "optional/extensions/extended.py": {"optional/ellipsoid"},
     "optional/fast/compiled/answer.py": {"optional/large"},
+    "optional/fast/geometry.py": {"optional/large"},
     "optional/fast/posed.py": {"optional/large"},
+    "optional/fast/solver.py": {"optional/ellipsoid", "optional/large"},
     "optional/large/rounded_bound.py": {"optional/fast"},
 }
 
 # The only file of core and command line that may name the lab, as a string.
 LAB_DOOR = "cli/main.py"
 
-# The only file of the core that may name the compiled code, as a string.
-COMPILED, COMPILED_DOOR = "optional.fast.compiled", "compiled.py"
+# The only file of the core that may name what exists only to be quick, as a string.
+FAST, FAST_DOOR = "optional.fast", "fast.py"
 
 # The only file that may import nothing of the package: the names of the front door are lazy.
 FACE = "__init__.py"
@@ -228,8 +215,8 @@ def violations(root: Path, remaining=REMAINING):
         tree = ast.parse(path.read_text())
         if parts[0] != "lab" and name != LAB_DOOR:
             found += [f"{name}:{line}: names the lab" for line in names_of("lab", tree)]
-        if parts[0] not in {"lab", "optional"} and name != COMPILED_DOOR:
-            found += [f"{name}:{line}: names {COMPILED}" for line in names_of(COMPILED, tree)]
+        if parts[0] not in {"lab", "optional"} and name != FAST_DOOR:
+            found += [f"{name}:{line}: names {FAST}" for line in names_of(FAST, tree)]
         for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):
             top, *rest = imported.split(".")
             if top == package:

@@ -50,10 +50,10 @@ PLANTED = {
         "from quasistatic_ref.lab.figures import cones",
         "later folder",
     ),
-    "compiled code as a string": (
+    "the quick path as a string": (
         "cli/run.py",
-        "x = 'quasistatic_ref.optional.fast.compiled'",
-        "names optional.fast.compiled",
+        "x = 'quasistatic_ref.optional.fast'",
+        "names optional.fast",
     ),
     "a later folder of the lab": (
         "lab/vectors/a.py",

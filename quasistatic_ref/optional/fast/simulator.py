@@ -7,11 +7,10 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.backends import default_backend, fast_backend, sparse_from
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.geometry import PosedGeometry, posed_geometry
+from quasistatic_ref.optional.fast.geometry import posed_geometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
-from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT
@@ -39,7 +38,7 @@ class FastSimulator(Simulator):
         :meth:`step` in compiled code, with the same bits; None if there is none for this simulator.
     """
 
-    geometry: PosedGeometry | BlockGeometry  # type: ignore[assignment]
+    geometry: Any  # PosedGeometry, or BlockGeometry of a large scene
 
     def usable_backend(self) -> str:
         """The backend that was named, or the default of this scene; BackendError as in the base."""
