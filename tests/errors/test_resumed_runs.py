@@ -277,7 +277,7 @@ SPOILT = {
 @pytest.mark.parametrize("spoil", SPOILT)
 def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil):
     path = tmp_path / "scene.npz"
-    ran(load_scenario(scene, fast=True), path, killed_at=2)
+    ran(load_scenario(scene), path, killed_at=2)
     SPOILT[spoil](saved_folder(path) / "000000001.npz")
     assert main(["run", str(scene), "--out", str(tmp_path), "--resume", "--quiet"]) == 2
     said = capsys.readouterr().err.splitlines()

@@ -162,7 +162,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED.values(), ids=REFUSED)
-def test_a_backend_without_an_interface_of_its_own_is_refused_naming_those_with_one(name, rng):
+def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
     with pytest.raises(BackendError, match=r"has no interface of its own .* clarabel, .* have"):
         NativeSolver(random_step(rng), name)
 
