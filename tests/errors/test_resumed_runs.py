@@ -103,7 +103,7 @@ def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, mo
 
 def test_a_killed_process_is_resumed_from_the_command_line(tmp_path, scene, capsys, monkeypatch):
     monkeypatch.setattr(module, "STRETCH", 1000)  # as in the other process
-    arguments = ["run", str(scene), "--set", "steps=200"]
+    arguments = ["run", str(scene), "--fast", "--set", "steps=200"]
     once, again = tmp_path / "once", tmp_path / "again"
     command = [sys.executable, "-m", "quasistatic_ref.cli.main", *arguments, "--save-every", "0"]
     process = subprocess.Popen([*command, "--out", str(again)], stderr=subprocess.DEVNULL)

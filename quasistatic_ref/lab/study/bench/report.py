@@ -42,10 +42,10 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
     """How far the step is from the paper's time, and what is compared on which machine."""
     step, m = tables["interfaces"]["microseconds"]["step, native"], tables["machine"]
     return (
-        f"the 13 x 80 step (DAQP, warm-started, distances by the tracker, nothing certified) takes "
-        f"{step:.0f} us here (Python on {m['processor']}, {m['cores']} cores), "
+        f"the 13 x 80 step with fast (DAQP, warm-started, distances by the tracker, nothing "
+        f"certified) takes {step:.0f} us here (Python on {m['processor']}, {m['cores']} cores), "
         f"{tables['times_paper']:.2g} times the paper's {PAPER:g} us (its own interior-point "
-        f"method, all distances, Julia 1.9.2 on a Mac M1 Pro); with a certificate, by default, "
+        f"method, all distances, Julia 1.9.2 on a Mac M1 Pro); with a certificate "
         f"it takes {tables['certification'][CERTIFY[0]]:.0f} us{plain_words(tables)}"
     )
 
