@@ -141,7 +141,7 @@ class Simulator:
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
         settings["backend"] = self.named_backend
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
-        return partial(Simulator, self.system, self.pairs, **settings), ()
+        return partial(type(self), self.system, self.pairs, **settings), ()
 
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.

@@ -16,20 +16,21 @@ from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import pinch
 from tests.tolerances import EXACT
 
-STEPS = 6
+STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
 
 
 @pytest.mark.parametrize("name", scenario_names())
 def test_certified_runs_have_the_same_bits_at_both_speeds(name):
+    steps = STEPS.get(name, 6)
     plain, fast = (
-        load_scenario(name, steps=STEPS, fast=speed).run(progress=False) for speed in (False, True)
+        load_scenario(name, steps=steps, fast=speed).run(progress=False) for speed in (False, True)
     )
     assert (plain.header["backend"], fast.header["backend"]) == ("clarabel", "daqp")
     assert {*plain["certificate"], *fast["certificate"]} == {"exact"}
     for key in SAME:
         assert plain[key].tobytes() == fast[key].tobytes(), key
-    for k in range(STEPS):  # lam may differ where it is not unique, A'lam only by its rounding
+    for k in range(steps):  # lam may differ where it is not unique, A'lam only by its rounding
         A = standard_form(plain.step_data(k)).A
         one, other = A.T @ plain["lam"][k], A.T @ fast["lam"][k]
         np.testing.assert_allclose(one, other, rtol=0.0, atol=EXACT + 1e-12 * np.abs(one).max())

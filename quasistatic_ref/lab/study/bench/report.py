@@ -11,7 +11,7 @@ from quasistatic_ref.solve.backends import CERTIFY
 Rows = list[tuple[str, ...]]
 
 BY_PART = {
-    "interface": "{engine}",
+    "engine": "{engine}",
     "backend": "{backend}",
     **{name: f"{{{name}:.1f}}" for name in (*PARTS, "step")},
     "unsolved": "{unsolved}",
