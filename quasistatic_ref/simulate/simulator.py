@@ -22,7 +22,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData, seconds
+from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -133,7 +133,8 @@ class Simulator:
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
         system = self.system
-        definite("M_u", system.M_u(system.q_start), system.n_u)
+        M_u = definite("M_u", system.M_u(system.q_start), system.n_u)
+        hessian(self.h, self.K_q, M_u)  # of Eq. (13): refused where it leaves float64's range
         self.geometry = ContactGeometry(self.layout, system.motion)
 
     def __reduce__(self) -> tuple[Any, ...]:

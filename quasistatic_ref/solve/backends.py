@@ -309,7 +309,15 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
 
 
 def check_certify(name: str | None, certify: str) -> None:
-    """Refuse a way to certify that does not exist, or not without a backend; errors as above."""
+    """Refuse a way to certify.
+
+    Raises
+    ------
+    InputError
+        If it does not exist.
+    BackendError
+        If it does not without a backend.
+    """
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if name == NONE and certify != CERTIFY[0]:

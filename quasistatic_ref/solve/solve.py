@@ -128,6 +128,11 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
     scaled : NaturalStep
     solver, accuracy, certify
         As of :func:`solve_step`, and its errors.
+
+    Raises
+    ------
+    BackendError
+        If the solver does not support `certify`.
     """
     if certify == "full" and not solver.certifies:
         problem = "is sparse and certifies no exact optimum; use certify = 'residual'"

@@ -137,7 +137,7 @@ class StepProblem:
                 raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
-        """Refuse steps that are not the paper's."""
+        """Refuse steps that are not the paper's, with StepDataError."""
         cone, names = self.like.cone, list(self.like.extra.names)
         elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
         if cone != PYRAMID:

@@ -134,7 +134,8 @@ def test_a_position_that_is_no_number_is_out_of_the_scene():
 def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
     path, out = scene_written(tmp_path, changed(SCENE, ("steps", 1_000_000))), tmp_path / "out"
     run = subprocess.Popen(
-        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--out", str(out)],
+        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--fast",
+         "--out", str(out)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),

@@ -119,8 +119,7 @@ def extended_solution(
     problem = cvxpy_problem(natural, *_own_terms(extension, step, units))
     problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
-        for name in ("K_q", "tau_k"):
-            parameter = problem.parameters[name]
+        for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
     for relaxed in (k * accuracy for k in RELAXED):

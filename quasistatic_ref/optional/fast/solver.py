@@ -92,7 +92,7 @@ class FastSolver(NativeSolver):
         self.written = None
 
     def write(self, scaled: DenseStep) -> NDArray[np.bool_] | None:
-        """Write the program; as it stands it is the step's standard form in natural units."""
+        """Write the program, mostly the natural standard form; rows out of reach, shape (m,)."""
         idle = super().write(scaled)
         p: Any = self.program
         if idle is None and self.adapter.ORDER == "C":
