@@ -28,7 +28,7 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({**defaults, "installed": known, "native": native})
         return 0
     rows: list[tuple[str, ...]] = [
-        ("backend", "through cvxpy", "through qpsolvers", "native", "method")
+        ("backend", "through cvxpy", "through qpsolvers", "with --fast", "method")
     ]
     for entry in (entry for entry in BACKENDS.values() if entry.steps):
         name = entry.name
