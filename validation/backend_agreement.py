@@ -39,7 +39,7 @@ def main() -> int:
     """Print the table."""
     steps: list[StepData] = []
     for own in CASES.values():
-        run = load_scenario("bunny_grasp", [*own, f"solver.backend='{TRUTH}'"]).run()
+        run = load_scenario("bunny_grasp", [*own, f"solver.backend='{TRUTH}'"], fast=True).run()
         steps += [run.step_data(k) for k in range(run.steps)]
     truth = [solve_step(step, TRUTH).delta_q for step in steps]
     print(f"{len(steps)} steps; error against {TRUTH} at 1e-12")
